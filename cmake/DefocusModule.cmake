@@ -1,0 +1,30 @@
+# defocus_module(NAME LINK ...): the folder src/NAME as one static library defocus_NAME, exported as defocus::NAME.
+# A module links only the modules above it in the layout, so that an include against the order fails to build.
+
+include(CheckIPOSupported)
+
+add_library(defocus_options INTERFACE)
+target_compile_features(defocus_options INTERFACE cxx_std_20)
+target_compile_options(defocus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+if(DEFOCUS_WARNINGS_AS_ERRORS)
+    target_compile_options(defocus_options INTERFACE -Werror)
+endif()
+if(DEFOCUS_SANITIZE)
+    target_compile_options(defocus_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                                                     -fno-omit-frame-pointer)
+    target_link_options(defocus_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+function(defocus_module NAME)
+    cmake_parse_arguments(ARG "" "" "LINK;PRIVATE_LINK" ${ARGN})
+    file(GLOB SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp")
+    add_library(defocus_${NAME} STATIC ${SOURCES})
+    add_library(defocus::${NAME} ALIAS defocus_${NAME})
+    set_target_properties(defocus_${NAME} PROPERTIES EXPORT_NAME ${NAME} POSITION_INDEPENDENT_CODE ON)
+    target_include_directories(defocus_${NAME} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>"
+                                                      "$<INSTALL_INTERFACE:include/defocus>")
+    target_link_libraries(defocus_${NAME} PUBLIC ${ARG_LINK} PRIVATE "$<BUILD_INTERFACE:defocus_options>"
+                                          ${ARG_PRIVATE_LINK})
+    target_compile_features(defocus_${NAME} PUBLIC cxx_std_20)
+    set_property(GLOBAL APPEND PROPERTY DEFOCUS_MODULES ${NAME})
+endfunction()

@@ -1,0 +1,16 @@
+# defocus_embed_shaders(TARGET DIR): every file under DIR becomes a string of TARGET, so that nothing is searched for at run time.
+
+function(defocus_embed_shaders TARGET DIR)
+    file(GLOB_RECURSE SHADERS CONFIGURE_DEPENDS RELATIVE "${DIR}" "${DIR}/*.glsl" "${DIR}/*.vert" "${DIR}/*.frag"
+                                                                  "${DIR}/*.geom" "${DIR}/*.comp")
+    set(OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp")
+    list(TRANSFORM SHADERS PREPEND "${DIR}/" OUTPUT_VARIABLE SHADER_PATHS)
+    add_custom_command(
+        OUTPUT "${OUTPUT}"
+        COMMAND "${CMAKE_COMMAND}" "-DDIR=${DIR}" "-DOUTPUT=${OUTPUT}" "-DSHADERS=${SHADERS}"
+                -P "${PROJECT_SOURCE_DIR}/cmake/EmbedShaders.cmake"
+        DEPENDS ${SHADER_PATHS} "${PROJECT_SOURCE_DIR}/cmake/EmbedShaders.cmake"
+        COMMENT "Embedding shaders"
+        VERBATIM)
+    target_sources(${TARGET} PRIVATE "${OUTPUT}")
+endfunction()

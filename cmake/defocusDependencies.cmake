@@ -1,0 +1,27 @@
+# What the libraries link; read by the build and by an installed find_package(defocus) alike.
+
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+find_package(OpenImageIO QUIET REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(draco REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(OpenMesh REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+if(NOT TARGET PkgConfig::epoxy)
+    pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+endif()
+if(NOT TARGET PkgConfig::egl)
+    pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
+endif()
+
+# Debian's OpenImageIO names include folders of packages that it doesn't need (OpenCV); CMake refuses those that don't exist.
+get_target_property(DEFOCUS_OIIO_INCLUDES OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+foreach(FOLDER IN LISTS DEFOCUS_OIIO_INCLUDES)
+    if(NOT EXISTS "${FOLDER}")
+        list(REMOVE_ITEM DEFOCUS_OIIO_INCLUDES "${FOLDER}")
+    endif()
+endforeach()
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${DEFOCUS_OIIO_INCLUDES}")

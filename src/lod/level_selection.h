@@ -1,0 +1,50 @@
+#pragma once
+// How coarse may an object be? A real-valued level λ, continuous in the camera, from its blur and its projected size
+// (Jeong, Kim and Lee 2011), and the split of N lens samples between the two levels around it.
+
+#include <cstdint>
+
+#include "lod/pyramid.h"
+
+namespace defocus {
+
+enum class LodMode {
+    fractional,  // samples split between ⌊λ⌋ and ⌊λ⌋ + 1
+    nearest,     // every sample draws round(λ)
+    off,         // full detail
+};
+
+enum class LodMetric {
+    size,   // target edge length in px
+    error,  // target deviation in px
+};
+
+struct LodThresholds {
+    double blur = 0;  // kBlur: target px per px of CoC
+    double size = 0;  // kSize: least target in px
+};
+
+// Defaults that follow the number of samples N, so that the error of the levels stays below the sampling error and both vanish
+// as N grows.
+LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
+
+struct LevelQuery {
+    double pixelsPerUnit = 0;  // projected px per object unit at the nearest depth: largestScale · W / (2 tan(θx/2) · z)
+    double coc = 0;            // CoC diameter the object may rely on, px, ≥ 0
+};
+
+// λ in [0, levels − 1]; τ = max(blur·c, size).
+//   size:  λ is where the stored mean edges, interpolated in their logarithm, project to τ.
+//   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]) between the stored errors projected to px.
+double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric, const LodThresholds& thresholds);
+
+// Samples [0, coarseCount) draw level `level` + 1, samples [coarseCount, N) level `level`. coarseCount = round(f·N),
+// f = λ − ⌊λ⌋.
+struct SampleSplit {
+    std::uint32_t level = 0;
+    std::uint32_t coarseCount = 0;
+};
+
+SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode);
+
+}  // namespace defocus

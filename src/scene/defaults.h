@@ -1,0 +1,25 @@
+#pragma once
+// What a file leaves out: a camera that frames the scene, a soft three-light set-up and a sky.
+
+#include <glm/mat4x4.hpp>
+
+#include "scene/pose.h"
+
+namespace defocus {
+
+struct PlacedCamera {
+    Camera camera;
+    glm::dmat4 worldFromCamera{1.0};  // no scale
+};
+
+// The camera called `name` (camera's or its node's name; empty: the file's first), or one that frames `pose.bounds` from a
+// three-quarter view at the given image aspect (width / height). Throws Error for an unknown name (listing those that exist)
+// and for orthographic cameras.
+PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::string& name, double aspect);
+
+// The scene's own lights, or key, fill and rim lights around `pose.bounds` when neither lights nor emissive or unlit materials
+// light it; and its environment, or a soft sky.
+std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera);
+Environment environmentOrDefault(const Scene& scene);
+
+}  // namespace defocus

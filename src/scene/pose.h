@@ -1,0 +1,44 @@
+#pragma once
+// The node hierarchy at one moment, and what a renderer needs of it: objects (mesh instances), lights and cameras in world
+// space.
+
+#include <glm/mat4x4.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace defocus {
+
+struct Object {                  // a mesh instance with all its primitives
+    int mesh = -1;
+    int node = -1;
+    std::string name;            // the node's, else the mesh's name; instances carry "#i"
+    glm::dmat4 worldFromObject{1.0};
+};
+
+struct PlacedLight {
+    Light light;
+    glm::dvec3 position{0.0};
+    glm::dvec3 direction{0.0, 0.0, -1.0};  // unit, the way the light shines
+};
+
+struct Pose {
+    std::vector<glm::dmat4> worldFromNode;  // as many as Scene::nodes
+    std::vector<Object> objects;
+    std::vector<PlacedLight> lights;
+    Bounds bounds;                           // of all objects, world space
+};
+
+// The scene at `time` seconds into its clip `clip` (-1: no animation). Times outside the clip hold its ends.
+Pose poseAt(const Scene& scene, double time, int clip = 0);
+
+// The node of that name; throws Error listing the names that exist.
+int nodeNamed(const Scene& scene, std::string_view name);
+
+// World position of a node: the centre of its mesh's bounds where it has one, else its origin.
+glm::dvec3 nodeCentre(const Scene& scene, const Pose& pose, int node);
+
+}  // namespace defocus
