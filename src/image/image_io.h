@@ -1,8 +1,10 @@
 #pragma once
-// Image files through OpenImageIO: linear float EXR with metadata, tone-mapped PNG and JPEG, textures and HDR environments.
+// Image files through OpenImageIO: linear float EXR with metadata, tone-mapped PNG and JPEG, textures and HDR
+// environments.
 
 #include <cstddef>
 #include <filesystem>
+#include <glm/mat4x4.hpp>
 #include <map>
 #include <span>
 #include <string>
@@ -14,11 +16,17 @@
 namespace defocus {
 
 // Metadata by EXR attribute name. Standard names are used where EXR has them (OpenEXR "Standard Attributes"): isoSpeed,
-// aperture (f-number), focus (m), nominalFocalLength (mm), expTime … ; others carry the prefix "defocus:".
-using Metadata = std::map<std::string, std::variant<int, double, std::string>>;
+// aperture (f-number), focus (m), nominalFocalLength (mm), expTime, comments, worldToCamera …; others carry the prefix
+// "defocus:". A double is stored as EXR's float under a standard name (which EXR asks for), as a double under a
+// prefixed one. EXR's matrices multiply row vectors and lie row by row, which is glm's memory layout, so a glm matrix M
+// for columns (M·v) is stored as it is; mind that EXR's camera space looks along +z and is left-handed.
+using MetadataValue = std::variant<int, double, std::string, glm::mat4>;
+using Metadata = std::map<std::string, MetadataValue>;
 
-// Reads any file OpenImageIO knows as linear float with 1, 3 or 4 channels (8-bit formats are decoded from sRGB).
-// `metadata`, where given, receives the file's attributes. Throws Error naming the file and the fault.
+// Reads PNG, JPEG, OpenEXR, Radiance HDR or TIFF, told apart by content, as linear float with 1, 3 or 4 channels
+// (integer formats are decoded from sRGB, straight alpha is premultiplied, grey with alpha becomes RGBA). Of an EXR
+// with more channels R, G, B and A are taken. `metadata`, where given, receives the file's attributes under EXR's names
+// (a PNG holds numbers as text). Throws Error naming the file and the fault.
 Image readImage(const std::filesystem::path& path, Metadata* metadata = nullptr);
 
 struct WriteOptions {
@@ -26,15 +34,17 @@ struct WriteOptions {
     double exposure = 0;              // EV; PNG and JPEG only
 };
 
-// Writes by extension: .exr (32-bit float, ZIP, linear, metadata), .png and .jpg (tone-mapped, sRGB-encoded, 8 bit). The file
-// appears whole or not at all. Throws Error naming the file and the fault; unknown extensions list the known ones.
+// Writes by extension: .exr (32-bit float, ZIP, linear, metadata; capDate is added), .png (tone-mapped, sRGB-encoded, 8
+// bit, metadata as text) and .jpg or .jpeg (the same over black, without metadata). A PNG with 4 channels has straight
+// alpha: the colour is divided by its coverage before the tone map. The file appears whole or not at all. Throws Error
+// naming the file and the fault; unknown extensions list the known ones.
 void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {},
                 const WriteOptions& options = {});
 
 // Throws Error unless `path` has an extension that writeImage knows.
 void checkImageExtension(const std::filesystem::path& path);
 
-// Decodes an encoded image in memory (PNG, JPEG …; 16 bits are reduced to 8). `name` is for the error message.
+// Decodes a PNG or JPEG in memory (16 bits are reduced to 8). `name` is for the error message.
 TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name);
 
 }  // namespace defocus

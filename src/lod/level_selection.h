@@ -24,19 +24,24 @@ struct LodThresholds {
     double size = 0;  // kSize: least target in px
 };
 
-// Defaults that follow the number of samples N, so that the error of the levels stays below the sampling error and both vanish
-// as N grows.
+// Defaults that follow the number of samples N, so that the error of the levels stays below the sampling error and both
+// vanish as N grows: (64/N)^(2/3) times the thresholds at N = 64, at most twice those (N ≤ 22). The exponent: the
+// levels' error grows about as threshold^1.2, and Halton points err about as N^(−3/4).
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 struct LevelQuery {
-    double pixelsPerUnit = 0;  // projected px per object unit at the nearest depth: largestScale · W / (2 tan(θx/2) · z)
-    double coc = 0;            // CoC diameter the object may rely on, px, ≥ 0
+    double pixelsPerUnit =
+        0;           // projected px per object unit at the nearest depth: largestScale · W / (2 tan(θx/2) · z)
+    double coc = 0;  // CoC diameter the object may rely on, px, ≥ 0
 };
 
-// λ in [0, levels − 1]; τ = max(blur·c, size).
+// λ in [0, levels − 1], continuous in the query; τ = max(blur·c, size).
 //   size:  λ is where the stored mean edges, interpolated in their logarithm, project to τ.
 //   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]) between the stored errors projected to px.
-double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric, const LodThresholds& thresholds);
+// A size of the projection that is no number, negative or infinite gives λ = 0; 0 px (a point) gives the coarsest
+// level.
+double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
+                     const LodThresholds& thresholds);
 
 // Samples [0, coarseCount) draw level `level` + 1, samples [coarseCount, N) level `level`. coarseCount = round(f·N),
 // f = λ − ⌊λ⌋.

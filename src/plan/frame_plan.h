@@ -60,10 +60,12 @@ struct FramePlan {
     std::uint64_t trianglesAtFullDetail = 0;  // what --lod off would draw
 };
 
-FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings);
+// Samples that remain when nothing is blurred: they only smooth edges.
+inline constexpr std::uint32_t antialiasingSamples = 16;
+// Blur below this diameter is left out (with keepAll it is not).
+inline constexpr double leastBlur = 0.5;  // px
 
-// A table for people, and JSON for programs.
-std::string planTable(const FramePlan& plan);
-std::string planJson(const FramePlan& plan);
+// Throws Error for an impossible lens, size or sample count.
+FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings);
 
 }  // namespace defocus

@@ -1,6 +1,6 @@
 #pragma once
-// The built-in scene: a school of fish after the one in Jeong, Kim and Lee 2011. Every fish is a different mesh (shape, fins,
-// scales in relief, pattern), made deterministically by this generator; no file is needed.
+// The built-in scene: a school of fish after the one in Jeong, Kim and Lee 2011. Every fish is a different mesh (shape,
+// fins, scales in relief, pattern), made deterministically by this generator; no file is needed.
 
 #include <cstdint>
 
@@ -10,12 +10,13 @@
 namespace defocus {
 
 struct FishSchoolOptions {
-    int fishCount = 20;               // 1 … 10,000
-    int trianglesPerFish = 90'000;    // about; 200 … 10,000,000
+    int fishCount = 20;             // 1 … 10,000
+    int trianglesPerFish = 90'000;  // about; 200 … 10,000,000
     std::uint32_t seed = 1;
 };
 
-// The school with its camera (fStop and focusDistance set), lights and environment. Throws Error for options out of range.
+// The school with its camera (fStop and focusDistance set), lights and environment. Throws Error for options out of
+// range.
 Scene fishSchool(const FishSchoolOptions& options = {}, const Progress& progress = {});
 
 }  // namespace defocus

@@ -1,0 +1,183 @@
+#include "embree/embree_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+#include <thread>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "embree/lens_rays.h"
+#include "embree/traced_scene.h"
+#include "embree/traced_shading.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr int tileSize = 16;  // px; a tile's rays go to Embree as one stream
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+class EmbreeRenderer final : public Renderer {
+public:
+    EmbreeRenderer(const World& world, LensSharing sharing) : world_(world), sharing_(sharing) {}
+
+    void start(const FramePlan& plan) override;
+    bool advance() override;
+    [[nodiscard]] std::uint32_t samples() const override { return samples_; }
+    [[nodiscard]] Image image() override;
+    [[nodiscard]] RenderStats stats() const override;
+
+private:
+    [[nodiscard]] RTCRayHit cameraRay(int x, int y, std::uint32_t index) const;
+    [[nodiscard]] glm::vec4 radiance(const RTCRayHit& ray) const;
+    void traceTile(int tile, std::uint32_t index);
+
+    const World& world_;
+    LensSharing sharing_;
+    View view_;
+    RenderSettings settings_;
+    LensCamera camera_;
+    glm::dmat3 worldFromCamera_{1.0};
+    std::unique_ptr<TracedScene> scene_;
+    glm::dmat4 tracedFrom_{0.0};  // the camera that scene_ was built for
+    std::vector<glm::dvec4> sum_;
+    std::uint32_t samples_ = 0;
+    double setupMilliseconds_ = 0;
+    double renderMilliseconds_ = 0;
+};
+
+void EmbreeRenderer::start(const FramePlan& plan) {
+    if (world_.environment.type == EnvironmentType::map) fail("method embree: environment maps are not traced");
+    view_ = plan.view;
+    settings_ = plan.settings;
+    camera_ = lensCamera(view_);
+    worldFromCamera_ = glm::dmat3(view_.worldFromCamera);
+    if (!scene_ || tracedFrom_ != view_.worldFromCamera) {
+        const Clock::time_point begin = Clock::now();
+        scene_.reset();
+        scene_ = std::make_unique<TracedScene>(world_, view_.worldFromCamera);
+        tracedFrom_ = view_.worldFromCamera;
+        setupMilliseconds_ += millisecondsSince(begin);
+    }
+    sum_.assign(static_cast<std::size_t>(view_.width) * static_cast<std::size_t>(view_.height), glm::dvec4(0));
+    samples_ = 0;
+    renderMilliseconds_ = 0;
+}
+
+RTCRayHit EmbreeRenderer::cameraRay(int x, int y, std::uint32_t index) const {
+    const std::uint32_t stream =
+        sharing_ == LensSharing::shared
+            ? 0
+            : static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view_.width) + static_cast<std::uint32_t>(x);
+    const glm::dvec2 inPixel = scrambledPoint(index, stream, SamplePair::pixel, settings_.seed);
+    const glm::dvec2 lens = aperturePoint(view_.lens, scrambledPoint(index, stream, SamplePair::lens, settings_.seed));
+    const glm::dvec2 image(2 * (x + inPixel.x) / view_.width - 1, 1 - 2 * (y + inPixel.y) / view_.height);
+    const LensRay ray = lensRay(camera_, image, lens);
+
+    RTCRayHit traced{};
+    traced.ray.org_x = ray.origin.x;
+    traced.ray.org_y = ray.origin.y;
+    traced.ray.org_z = ray.origin.z;
+    traced.ray.dir_x = ray.direction.x;
+    traced.ray.dir_y = ray.direction.y;
+    traced.ray.dir_z = ray.direction.z;
+    traced.ray.tnear = static_cast<float>(view_.nearPlane);
+    traced.ray.tfar = std::numeric_limits<float>::infinity();
+    traced.ray.mask = ~0u;
+    traced.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    return traced;
+}
+
+glm::vec4 EmbreeRenderer::radiance(const RTCRayHit& ray) const {
+    if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) return {surfaceRadiance(world_, *scene_, ray), 1};
+    if (world_.environment.type == EnvironmentType::none) return glm::vec4(0);
+    const glm::dvec3 direction(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z);
+    return {backgroundRadiance(world_.environment, worldFromCamera_ * direction), 1};
+}
+
+void EmbreeRenderer::traceTile(int tile, std::uint32_t index) {
+    const int columns = (view_.width + tileSize - 1) / tileSize;
+    const int left = tile % columns * tileSize;
+    const int top = tile / columns * tileSize;
+    const int right = std::min(left + tileSize, view_.width);
+    const int bottom = std::min(top + tileSize, view_.height);
+
+    std::array<RTCRayHit, tileSize * tileSize> rays;
+    std::size_t count = 0;
+    for (int y = top; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) rays[count++] = cameraRay(x, y, index);
+    }
+    scene_->trace(std::span(rays).first(count));
+    const RTCRayHit* ray = rays.data();
+    for (int y = top; y < bottom; ++y) {
+        glm::dvec4* row = sum_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(view_.width);
+        for (int x = left; x < right; ++x) row[x] += glm::dvec4(radiance(*ray++));
+    }
+}
+
+bool EmbreeRenderer::advance() {
+    if (samples_ >= settings_.sampleCount) return false;
+    const Clock::time_point begin = Clock::now();
+    const int columns = (view_.width + tileSize - 1) / tileSize;
+    const int rows = (view_.height + tileSize - 1) / tileSize;
+    const std::uint32_t index = settings_.firstSample + samples_;
+    parallelFor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
+                [&](std::size_t tile) { traceTile(static_cast<int>(tile), index); });
+    ++samples_;
+    renderMilliseconds_ += millisecondsSince(begin);
+    return samples_ < settings_.sampleCount;
+}
+
+Image EmbreeRenderer::image() {
+    if (samples_ == 0) fail("method embree: no sample has been traced yet");
+    Image result(view_.width, view_.height, 4);
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+        const glm::vec4 mean(sum_[i] / static_cast<double>(samples_));
+        for (glm::length_t c = 0; c < 4; ++c) result.pixels[4 * i + static_cast<std::size_t>(c)] = mean[c];
+    }
+    return result;
+}
+
+RenderStats EmbreeRenderer::stats() const {
+    RenderStats stats;
+    stats.samples = samples_;
+    stats.setupMilliseconds = setupMilliseconds_;
+    stats.renderMilliseconds = renderMilliseconds_;
+    stats.peakBytes = (scene_ ? scene_->peakBytes() : 0) + sum_.size() * sizeof(glm::dvec4);
+    stats.wave = 1;
+    stats.layerFormat = "double";
+    stats.device = fmt::format("CPU, {} threads", std::max(1u, std::thread::hardware_concurrency()));
+    stats.driver = "Embree " RTC_VERSION_STRING;
+    return stats;
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, LensSharing sharing) {
+    return std::make_unique<EmbreeRenderer>(world, sharing);
+}
+
+void registerEmbree() {
+    static const bool registered = [] {
+        const auto add = [](const char* name, const char* description, LensSharing sharing) {
+            registerMethod({name, description, false, [sharing](const World& world, const RendererOptions&) {
+                                return makeEmbreeRenderer(world, sharing);
+                            }});
+        };
+        add("embree", "Embree thin-lens ray tracer, own lens samples in every pixel", LensSharing::perPixel);
+        add("embree-shared", "Embree thin-lens ray tracer, one lens sample for all pixels at a time",
+            LensSharing::shared);
+        return true;
+    }();
+    static_cast<void>(registered);
+}
+
+}  // namespace defocus

@@ -1,0 +1,26 @@
+#pragma once
+// The independent truth: a thin-lens ray tracer on Embree 3 that shares no code with the rasteriser. It reads the view,
+// the sample count, seed and offset of a FramePlan and decides everything else itself: own lens model (lens_rays.h),
+// own sampling, the meshes as they were read, nothing left out.
+//
+// Box pixel filter of 1 px, linear RGBA premultiplied, sums in double. Opaque surfaces only; shading as in
+// traced_shading.h. Environment maps are an Error.
+
+#include <memory>
+
+#include "render/renderer.h"
+
+namespace defocus {
+
+enum class LensSharing {
+    perPixel,  // every pixel has its own scrambled lens and pixel samples: error is noise
+    shared,    // all pixels share each sample's lens and pixel point, as accumulation does: error is banding
+};
+
+// One sample of every pixel an advance(), on all cores.
+std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, LensSharing sharing = LensSharing::perPixel);
+
+// Adds "embree" and "embree-shared" to the table of methods, once however often it is called.
+void registerEmbree();
+
+}  // namespace defocus

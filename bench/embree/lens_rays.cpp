@@ -1,0 +1,100 @@
+#include "embree/lens_rays.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace defocus {
+
+namespace {
+
+constexpr double fullTurn = 2 * std::numbers::pi;
+
+std::uint32_t reversedBits(std::uint32_t x) {
+    x = ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
+    x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
+    x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
+    x = ((x & 0x00ff00ffu) << 8) | ((x >> 8) & 0x00ff00ffu);
+    return (x << 16) | (x >> 16);
+}
+
+// A well mixed value of (value, salt): two rounds of multiply and shift.
+std::uint32_t mixed(std::uint32_t value, std::uint32_t salt) {
+    std::uint64_t x = (static_cast<std::uint64_t>(salt) << 32 | value) + 0x9e3779b97f4a7c15ull;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+    return static_cast<std::uint32_t>((x ^ (x >> 31)) >> 16);
+}
+
+// Owen scrambling of a 32-bit fraction: each bit is flipped by a hash of the bits above it (Laine and Karras 2011,
+// whose permutation lets bits act upwards only, on the reversed bits).
+std::uint32_t owenScrambled(std::uint32_t fraction, std::uint32_t seed) {
+    std::uint32_t x = reversedBits(fraction) + seed;
+    x ^= x * 0x6c50b47cu;
+    x ^= x * 0xb82f1e52u;
+    x ^= x * 0xc7afe638u;
+    x ^= x * 0x8d22f6e6u;
+    return reversedBits(x);
+}
+
+// Second dimension of Sobol's sequence as a 32-bit fraction (Kollig and Keller 2002); the first is the reversed index.
+std::uint32_t sobolSecond(std::uint32_t index) {
+    std::uint32_t result = 0;
+    for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1) {
+        if ((index & 1u) != 0) result ^= v;
+    }
+    return result;
+}
+
+}  // namespace
+
+LensCamera lensCamera(const View& view) {
+    const Lens& lens = view.lens;
+    const double focal = lens.focalLength / 1000;
+    LensCamera camera;
+    camera.tanHalfHorizontal = lens.horizontalAperture / (2 * lens.focalLength);
+    camera.reciprocalFocus = 1 / lens.focusDistance;
+    // With breathing the sensor sits at the thin lens's image distance s·f/(s − f) instead of at f.
+    if (lens.focusBreathing) camera.tanHalfHorizontal *= 1 - focal * camera.reciprocalFocus;
+    camera.tanHalfVertical = camera.tanHalfHorizontal * view.height / view.width;
+    if (lens.dofEnabled) camera.lensRadius = 0.5 * lens.blurScale * focal / lens.fStop;
+    return camera;
+}
+
+LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens) {
+    const glm::dvec2 point = camera.lensRadius * lens;
+    const glm::dvec2 slope(image.x * camera.tanHalfHorizontal - point.x * camera.reciprocalFocus,
+                           image.y * camera.tanHalfVertical - point.y * camera.reciprocalFocus);
+    return {glm::vec3(point, 0), glm::vec3(slope, -1)};
+}
+
+glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed) {
+    // Each pair visits the points in its own order, so that lens and pixel positions are not tied to each other.
+    // Scrambled as a fraction, an index keeps to its aligned block of 2^n, so that such blocks stay nets.
+    const std::uint32_t salt = mixed(stream, mixed(seed, static_cast<std::uint32_t>(pair)));
+    const std::uint32_t shuffled = owenScrambled(index, mixed(salt, 1));
+    const std::uint32_t x = owenScrambled(reversedBits(shuffled), mixed(salt, 2));
+    const std::uint32_t y = owenScrambled(sobolSecond(shuffled), mixed(salt, 3));
+    return {x * 0x1p-32, y * 0x1p-32};
+}
+
+glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square) {
+    glm::dvec2 point(0);
+    const double radius = std::sqrt(square.x);
+    if (lens.bladeCount < 3) {
+        point = radius * glm::dvec2(std::cos(fullTurn * square.y), std::sin(fullTurn * square.y));
+    } else {
+        // A fan of equal triangles: which one, then a uniform point in it.
+        const double turn = square.y * lens.bladeCount;
+        const double blade = std::floor(turn);
+        const double first = lens.bladeRotation + fullTurn * blade / lens.bladeCount;
+        const double second = lens.bladeRotation + fullTurn * (blade + 1) / lens.bladeCount;
+        const glm::dvec2 from(std::cos(first), std::sin(first));
+        const glm::dvec2 to(std::cos(second), std::sin(second));
+        point = radius * (from + (turn - blade) * (to - from));
+    }
+    if (lens.anamorphicRatio > 1) point.x /= lens.anamorphicRatio;
+    if (lens.anamorphicRatio < 1) point.y *= lens.anamorphicRatio;
+    return point;
+}
+
+}  // namespace defocus

@@ -1,0 +1,50 @@
+#pragma once
+// Rays of a thin lens in camera space, derived from the picture of a lens and not from the rasteriser's clip-space
+// form.
+//
+// Every point of the lens sees the plane of focus (depth s) exactly as the lens centre does: the image point (X, Y) ∈
+// [-1, 1]² (right, up) belongs to P = s·(X·tan(θx/2), Y·tan(θy/2), -1). The ray from the lens point L = (A/2)·(u, v, 0)
+// through P is
+//   L + t·(X·tan(θx/2) − L.x/s, Y·tan(θy/2) − L.y/s, −1)
+// so t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
+//
+// Sampling: Owen-scrambled (0, 2)-sequences, one pair of dimensions for the lens and one for the pixel, after
+//   Sobol' 1967; Kollig and Keller 2002, Efficient Multidimensional Sampling; Laine and Karras 2011, Stratified
+//   Sampling for Stochastic Transparency; Burley 2020, Practical Hash-based Owen Scrambling.
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "plan/view.h"
+
+namespace defocus {
+
+struct LensCamera {
+    double tanHalfHorizontal = 0;
+    double tanHalfVertical = 0;
+    double lensRadius = 0;       // m; 0 is a pinhole
+    double reciprocalFocus = 0;  // 1/m; 0 is infinity
+};
+
+LensCamera lensCamera(const View& view);
+
+struct LensRay {
+    glm::vec3 origin{0.0f};     // camera space, on the lens (z = 0)
+    glm::vec3 direction{0.0f};  // z = −1: the ray parameter is the depth in m
+};
+
+// The ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
+LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
+
+// Which of the padded two-dimensional sequences.
+enum class SamplePair : std::uint32_t { lens, pixel };
+
+// Point `index` in [0, 1)² of the scrambled sequence of stream `stream` (a pixel, or one number shared by all).
+glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
+
+// (r, s) ∈ [0, 1)² → the aperture, uniformly: the unit disk, or the polygon inscribed in it whose first corner lies at
+// bladeRotation, then squeezed by the anamorphic ratio (horizontally above 1, vertically below).
+glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square);
+
+}  // namespace defocus

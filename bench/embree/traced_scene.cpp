@@ -1,0 +1,118 @@
+#include "embree/traced_scene.h"
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+// Rejects hits on the back of single-sided surfaces. Embree's geometric normal is (p1 − p0) × (p2 − p0).
+void cullBackFaces(const RTCFilterFunctionNArguments* arguments) {
+    const auto& geometry = *static_cast<const TracedGeometry*>(arguments->geometryUserPtr);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] != -1) continue;
+        const float towards =
+            RTCRayN_dir_x(arguments->ray, arguments->N, i) * RTCHitN_Ng_x(arguments->hit, arguments->N, i) +
+            RTCRayN_dir_y(arguments->ray, arguments->N, i) * RTCHitN_Ng_y(arguments->hit, arguments->N, i) +
+            RTCRayN_dir_z(arguments->ray, arguments->N, i) * RTCHitN_Ng_z(arguments->hit, arguments->N, i);
+        if (towards * geometry.facing > 0) arguments->valid[i] = 0;
+    }
+}
+
+std::vector<glm::vec4> transformedPositions(const Mesh& mesh, const glm::dmat4& cameraFromObject) {
+    std::vector<glm::vec4> positions;
+    positions.reserve(mesh.vertices.count());
+    for (const glm::vec3& position : mesh.vertices.positions) {
+        positions.emplace_back(cameraFromObject * glm::dvec4(position, 1.0));
+    }
+    return positions;
+}
+
+}  // namespace
+
+void TracedScene::checkEmbree(const char* doing) const {
+    const RTCError error = rtcGetDeviceError(device_);
+    if (error != RTC_ERROR_NONE) fail("Embree: {} failed (error {})", doing, static_cast<int>(error));
+}
+
+bool TracedScene::countMemory(void* scene, ssize_t bytes, bool) {
+    auto& self = *static_cast<TracedScene*>(scene);
+    const std::int64_t now = self.bytes_ += bytes;
+    std::int64_t peak = self.peakBytes_;
+    while (now > peak && !self.peakBytes_.compare_exchange_weak(peak, now)) {
+    }
+    return true;
+}
+
+void TracedScene::addPrimitive(const TracedGeometry& geometry, const std::vector<glm::vec4>& positions) {
+    const std::vector<std::uint32_t>& indices = geometry.primitive->indices;
+    const RTCGeometry handle = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(handle, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                               sizeof(glm::vec4), positions.size());
+    rtcSetSharedGeometryBuffer(handle, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0,
+                               3 * sizeof(std::uint32_t), indices.size() / 3);
+    geometries_.push_back(geometry);
+    rtcSetGeometryUserData(handle, &geometries_.back());
+    if (!geometry.material->doubleSided) rtcSetGeometryIntersectFilterFunction(handle, cullBackFaces);
+    rtcCommitGeometry(handle);
+    rtcAttachGeometryByID(scene_, handle, static_cast<unsigned>(geometries_.size() - 1));
+    rtcReleaseGeometry(handle);
+    checkEmbree("adding a geometry");
+    triangleCount_ += indices.size() / 3;
+}
+
+void TracedScene::addObject(const World& world, const Object& object, const glm::dmat4& cameraFromWorld) {
+    if (object.mesh < 0) return;
+    const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
+    positions_.push_back(transformedPositions(mesh, cameraFromWorld * object.worldFromObject));
+    bytes_ += static_cast<std::int64_t>(positions_.back().size() * sizeof(glm::vec4));
+
+    TracedGeometry geometry;
+    geometry.mesh = &mesh;
+    const glm::dmat3 linear(object.worldFromObject);
+    geometry.worldNormalFromObject = glm::mat3(glm::inverseTranspose(linear));
+    geometry.worldFromCamera = glm::mat3(glm::inverse(cameraFromWorld));
+    geometry.facing = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
+    for (const Primitive& primitive : mesh.primitives) {
+        if (primitive.indices.empty()) continue;
+        geometry.primitive = &primitive;
+        geometry.material = primitive.material < 0
+                                ? &defaultMaterial_
+                                : &world.scene->materials[static_cast<std::size_t>(primitive.material)];
+        addPrimitive(geometry, positions_.back());
+    }
+}
+
+TracedScene::TracedScene(const World& world, const glm::dmat4& worldFromCamera) : device_(rtcNewDevice(nullptr)) {
+    if (device_ == nullptr) fail("Embree: no device (error {})", static_cast<int>(rtcGetDeviceError(nullptr)));
+    rtcSetDeviceMemoryMonitorFunction(device_, countMemory, this);
+    scene_ = rtcNewScene(device_);
+    try {
+        // Robust: rays that run along shared edges must not slip through.
+        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
+        for (const Object& object : world.pose.objects) addObject(world, object, cameraFromWorld);
+        rtcCommitScene(scene_);
+        checkEmbree("building the hierarchy");
+    } catch (...) {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+        throw;
+    }
+}
+
+TracedScene::~TracedScene() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+}
+
+void TracedScene::trace(std::span<RTCRayHit> rays) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect1M(scene_, &context, rays.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRayHit));
+}
+
+}  // namespace defocus

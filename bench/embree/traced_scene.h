@@ -1,0 +1,61 @@
+#pragma once
+// A posed scene as one Embree bounding-volume hierarchy in camera space: level 0 of every mesh as it was read, not the
+// pyramid's copy of it. Transforms are composed in double and reach Embree relative to the camera.
+//
+// Single-sided materials are culled from behind, with the winding turned by mirroring transforms, as glTF asks. Every
+// surface is opaque: alpha masks and blending are not traced.
+
+#include <embree3/rtcore.h>
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <glm/mat3x3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "plan/view.h"
+
+namespace defocus {
+
+// A primitive of an object.
+struct TracedGeometry {
+    const Mesh* mesh = nullptr;
+    const Primitive* primitive = nullptr;
+    const Material* material = nullptr;
+    glm::mat3 worldNormalFromObject{1.0f};  // not normalised
+    glm::mat3 worldFromCamera{1.0f};        // of directions
+    float facing = 1;                       // −1 where the transform mirrors, so that front faces are clockwise
+};
+
+class TracedScene {
+public:
+    TracedScene(const World& world, const glm::dmat4& worldFromCamera);
+    ~TracedScene();
+    TracedScene(const TracedScene&) = delete;
+    TracedScene& operator=(const TracedScene&) = delete;
+
+    // Nearest hits of camera-space rays. Called from any number of threads.
+    void trace(std::span<RTCRayHit> rays) const;
+    [[nodiscard]] const TracedGeometry& geometry(std::uint32_t id) const { return geometries_[id]; }
+    [[nodiscard]] std::uint64_t triangleCount() const { return triangleCount_; }
+    [[nodiscard]] std::uint64_t peakBytes() const { return peakBytes_; }
+
+private:
+    void addObject(const World& world, const Object& object, const glm::dmat4& cameraFromWorld);
+    void addPrimitive(const TracedGeometry& geometry, const std::vector<glm::vec4>& positions);
+    void checkEmbree(const char* doing) const;
+    static bool countMemory(void* scene, ssize_t bytes, bool after);
+
+    RTCDevice device_ = nullptr;
+    RTCScene scene_ = nullptr;
+    Material defaultMaterial_;
+    std::deque<TracedGeometry> geometries_;         // by Embree geometry id; addresses stay put for the filter
+    std::deque<std::vector<glm::vec4>> positions_;  // camera space, one array an object; Embree reads them in place
+    std::uint64_t triangleCount_ = 0;
+    std::atomic<std::int64_t> bytes_ = 0;
+    std::atomic<std::int64_t> peakBytes_ = 0;
+};
+
+}  // namespace defocus

@@ -1,0 +1,135 @@
+// Lambert 1760; sRGB decoding by IEC 61966-2-1. A lux on a white Lambert surface gives 1/π cd/m² (KHR_lights_punctual).
+
+#include "embree/traced_shading.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace defocus {
+
+namespace {
+
+// The corners of the triangle that a ray hit, and the hit's weights for them.
+struct Corners {
+    std::array<std::uint32_t, 3> vertices{};
+    glm::vec3 weights{0.0f};
+
+    template <typename Value>
+    [[nodiscard]] Value mix(const std::vector<Value>& values) const {
+        return weights.x * values[vertices[0]] + weights.y * values[vertices[1]] + weights.z * values[vertices[2]];
+    }
+};
+
+Corners cornersOf(const TracedGeometry& geometry, const RTCHit& hit) {
+    const std::uint32_t* first = geometry.primitive->indices.data() + 3 * static_cast<std::size_t>(hit.primID);
+    return {{first[0], first[1], first[2]}, glm::vec3(1 - hit.u - hit.v, hit.u, hit.v)};
+}
+
+float decoded(std::uint8_t value) {
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> linear{};
+        for (std::size_t i = 0; i < linear.size(); ++i) {
+            const double encoded = static_cast<double>(i) / 255;
+            linear[i] =
+                static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+        }
+        return linear;
+    }();
+    return table[value];
+}
+
+int wrapped(int texel, int size, Wrap wrap) {
+    if (wrap == Wrap::clampToEdge) return std::clamp(texel, 0, size - 1);
+    const int period = wrap == Wrap::repeat ? size : 2 * size;
+    const int inside = ((texel % period) + period) % period;
+    return inside < size ? inside : period - 1 - inside;
+}
+
+glm::vec3 texel(const TextureImage& image, const Texture& texture, int x, int y) {
+    const auto column = static_cast<std::size_t>(wrapped(x, image.width, texture.wrapS));
+    const auto row = static_cast<std::size_t>(wrapped(y, image.height, texture.wrapT));
+    const std::uint8_t* rgba = image.rgba.data() + 4 * (row * static_cast<std::size_t>(image.width) + column);
+    return {decoded(rgba[0]), decoded(rgba[1]), decoded(rgba[2])};
+}
+
+// Level 0 of a base-colour texture; the filter works on decoded values.
+glm::vec3 textureColor(const Scene& scene, const TextureUse& use, const glm::vec2& uv) {
+    const Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
+    if (texture.image < 0) return glm::vec3(1);
+    const TextureImage& image = scene.images[static_cast<std::size_t>(texture.image)];
+    if (image.width <= 0 || image.height <= 0) return glm::vec3(1);
+    const glm::vec2 place = glm::vec2(use.uvTransform * glm::vec3(uv, 1)) * glm::vec2(image.width, image.height);
+    // Keeps the integer texel in range for absurd coordinates.
+    const glm::vec2 bounded = glm::clamp(place, glm::vec2(-1e6f), glm::vec2(1e6f));
+    if (texture.magnification == Filter::nearest) {
+        const glm::ivec2 cell(glm::floor(bounded));
+        return texel(image, texture, cell.x, cell.y);
+    }
+    const glm::vec2 corner = glm::floor(bounded - 0.5f);
+    const glm::vec2 fraction = bounded - 0.5f - corner;
+    const glm::ivec2 cell(corner);
+    const glm::vec3 top =
+        glm::mix(texel(image, texture, cell.x, cell.y), texel(image, texture, cell.x + 1, cell.y), fraction.x);
+    const glm::vec3 bottom =
+        glm::mix(texel(image, texture, cell.x, cell.y + 1), texel(image, texture, cell.x + 1, cell.y + 1), fraction.x);
+    return glm::mix(top, bottom, fraction.y);
+}
+
+glm::vec3 baseColor(const Scene& scene, const TracedGeometry& geometry, const Corners& corners) {
+    const Material& material = *geometry.material;
+    const Vertices& vertices = geometry.mesh->vertices;
+    glm::vec3 color(material.baseColorFactor);
+    if (!vertices.colors.empty()) {
+        glm::vec3 tint(0);
+        for (glm::length_t i = 0; i < 3; ++i) {
+            tint += corners.weights[i] * glm::vec3(vertices.colors[corners.vertices[static_cast<std::size_t>(i)]]);
+        }
+        color *= tint / 255.0f;
+    }
+    const std::vector<glm::vec2>& uvs = material.baseColor.uvSet == 1 ? vertices.uv1 : vertices.uv0;
+    if (material.baseColor.used() && !uvs.empty()) color *= textureColor(scene, material.baseColor, corners.mix(uvs));
+    return color;
+}
+
+// Unit, world space, on the side that the ray came from.
+glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, const RTCRayHit& ray) {
+    const glm::vec3 facet(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
+    const float behind = glm::dot(facet, glm::vec3(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z)) * geometry.facing;
+    const glm::vec3 front = geometry.mesh->vertices.normals.empty()
+                                ? geometry.facing * (geometry.worldFromCamera * facet)
+                                : geometry.worldNormalFromObject * corners.mix(geometry.mesh->vertices.normals);
+    const float length = glm::length(front);
+    return length > 0 ? front * ((behind > 0 ? -1.0f : 1.0f) / length) : glm::vec3(0);
+}
+
+}  // namespace
+
+glm::vec3 surfaceRadiance(const World& world, const TracedScene& scene, const RTCRayHit& ray) {
+    const TracedGeometry& geometry = scene.geometry(ray.hit.geomID);
+    const Corners corners = cornersOf(geometry, ray.hit);
+    const glm::vec3 base = baseColor(*world.scene, geometry, corners);
+    if (geometry.material->unlit) return base;
+
+    const glm::vec3 normal = shadingNormal(geometry, corners, ray);
+    const glm::vec3 albedo = base * (1 - geometry.material->metallicFactor) / std::numbers::pi_v<float>;
+    glm::vec3 radiance = geometry.material->emissiveFactor;
+    for (const PlacedLight& light : world.lights) {
+        if (light.light.type != LightType::directional) continue;
+        const float cosine = std::max(0.0f, -glm::dot(normal, glm::vec3(light.direction)));
+        radiance += albedo * light.light.color * light.light.intensity * cosine;
+    }
+    return radiance;
+}
+
+glm::vec3 backgroundRadiance(const Environment& environment, const glm::dvec3& direction) {
+    if (environment.type == EnvironmentType::none) return glm::vec3(0);
+    if (environment.type == EnvironmentType::uniform) return environment.zenith;
+    const auto height = static_cast<float>(direction.y / glm::length(direction));
+    return glm::mix(environment.horizon, height >= 0 ? environment.zenith : environment.nadir, std::abs(height));
+}
+
+}  // namespace defocus

@@ -1,0 +1,115 @@
+// Micro-benches of the CPU side of a frame. Held equal: one thread's work on the inputs made here (a mesh, pyramid,
+// world or image pair each, the same in every run), default lens and settings; nothing touches the GPU or the disk.
+// Every bench ends by checking its result and reports an error instead of a time where it is wrong.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "image/metrics.h"
+#include "lens/lens_samples.h"
+#include "lod/level_selection.h"
+#include "plan/frame_plan.h"
+#include "scene/fish_school.h"
+
+namespace defocus {
+namespace {
+
+Scene smallSchool(int fish) {
+    FishSchoolOptions options;
+    options.fishCount = fish;
+    options.trianglesPerFish = 5000;
+    return fishSchool(options);
+}
+
+void lensSamplePoint(benchmark::State& state) {
+    Lens lens;
+    lens.bladeCount = static_cast<int>(state.range(0));
+    std::uint64_t index = 0;
+    glm::dvec2 sum(0);
+    for (auto _ : state) sum += glm::dvec2(lensSample(lens, index++, 1).lens);
+    // The aperture is centred on the lens.
+    if (index > 1000 && glm::length(sum) / static_cast<double>(index) > 0.05) state.SkipWithError("samples off centre");
+}
+BENCHMARK(lensSamplePoint)->ArgName("blades")->Arg(0)->Arg(6);
+
+// One level of detail for an object, over blurs from 0 to 40 px.
+void levelOfDetailOfObject(benchmark::State& state) {
+    const Pyramid pyramid = buildPyramid(smallSchool(1).meshes.front());
+    const LodMetric metric = state.range(0) == 0 ? LodMetric::size : LodMetric::error;
+    const LodThresholds thresholds = defaultThresholds(metric, 64);
+    const double sharp = levelOfDetail(pyramid, {500, 0}, metric, thresholds);
+    const double blurred = levelOfDetail(pyramid, {500, 40}, metric, thresholds);
+    double coc = 0;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(levelOfDetail(pyramid, {500, coc}, metric, thresholds));
+        coc = coc < 40 ? coc + 0.1 : 0;
+    }
+    const double last = static_cast<double>(pyramid.levels.size()) - 1;
+    if (!(sharp >= 0 && blurred > sharp && blurred <= last)) state.SkipWithError("more blur gave no coarser level");
+}
+BENCHMARK(levelOfDetailOfObject)->ArgName("error")->Arg(0)->Arg(1);
+
+// The plan of a frame, 64 samples, 1024×768, levels as the pyramids have them.
+void planOfFrame(benchmark::State& state) {
+    const Scene scene = smallSchool(static_cast<int>(state.range(0)));
+    World world;
+    world.scene = &scene;
+    world.pose = poseAt(scene, 0, -1);
+    world.environment = environmentOrDefault(scene);
+    world.pyramids = buildPyramids(scene.meshes);
+    View view;
+    const PlacedCamera placed = chooseCamera(scene, world.pose, "", static_cast<double>(view.width) / view.height);
+    view.worldFromCamera = placed.worldFromCamera;
+    view.lens.focusDistance = placed.camera.focusDistance.value_or(2.5);
+    RenderSettings settings;
+    settings.thresholds = defaultThresholds(settings.metric, settings.sampleCount);
+    FramePlan plan;
+    for (auto _ : state) {
+        plan = planFrame(world, view, settings);
+        benchmark::DoNotOptimize(plan.objects.data());
+    }
+    const bool everySampleOnce = std::all_of(plan.objects.begin(), plan.objects.end(), [&](const ObjectPlan& object) {
+        return object.coarse.sampleCount + object.fine.sampleCount == plan.samples.size();
+    });
+    if (plan.objects.empty() || !everySampleOnce) state.SkipWithError("an object misses lens samples");
+}
+BENCHMARK(planOfFrame)->ArgName("fish")->Arg(20)->Arg(200)->Unit(benchmark::kMicrosecond);
+
+void pyramidOfFish(benchmark::State& state) {
+    const Mesh mesh = smallSchool(1).meshes.front();
+    Pyramid pyramid;
+    for (auto _ : state) pyramid = buildPyramid(mesh);
+    for (std::size_t level = 1; level < pyramid.levels.size(); ++level) {
+        if (pyramid.levels[level].triangleCount >= pyramid.levels[level - 1].triangleCount ||
+            pyramid.levels[level].error <= pyramid.levels[level - 1].error) {
+            state.SkipWithError("levels don't get coarser");
+        }
+    }
+    if (pyramid.levels.size() < 2) state.SkipWithError("no coarser level");
+    state.counters["triangles/s"] =
+        benchmark::Counter(static_cast<double>(mesh.triangleCount()), benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(pyramidOfFish)->Unit(benchmark::kMillisecond);
+
+// All metrics of two 256×256 images that differ by 1/10 of display-encoded grey on half of their pixels.
+void differenceOfImages(benchmark::State& state) {
+    constexpr int size = 256;
+    Image reference(size, size, 3);
+    std::fill(reference.pixels.begin(), reference.pixels.end(), 0.2140411f);  // encoded 0.5
+    Image test = reference;
+    std::fill(test.pixels.begin(), test.pixels.begin() + static_cast<std::ptrdiff_t>(test.pixels.size() / 2),
+              0.3185468f);  // encoded 0.6
+    Difference difference;
+    for (auto _ : state) difference = compareImages(reference, test);
+    if (std::abs(difference.mae - 0.05) > 1e-5 || std::abs(difference.psnr - 10 * std::log10(200.0)) > 1e-3) {
+        state.SkipWithError("wrong error of a known difference");
+    }
+}
+BENCHMARK(differenceOfImages)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace defocus
+
+BENCHMARK_MAIN();

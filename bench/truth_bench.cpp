@@ -1,0 +1,114 @@
+// The rasteriser's accumulation against the Embree ray tracer at full size. Held equal: geometry at full detail, baked
+// unlit colours, view, lens, size, samples a pixel; RGBA32F layers. Not equal, on purpose: sampling, projection and
+// visibility code. One line of JSON a scene; the exit code is 1 where PSNR is below 45 dB.
+//
+//   defocus_truth_bench [--samples 1024] [--size 1024x768] [--output FOLDER] [SCENE.glb …]      no scene: the fish
+//   school
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "embree/embree_renderer.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+#include "image/metrics.h"
+#include "render/methods.h"
+#include "truth_scene.h"
+
+namespace defocus {
+namespace {
+
+struct Options {
+    std::uint32_t samples = 1024;
+    std::string size = "1024x768";
+    std::string output;
+    std::vector<std::string> scenes;
+    int width = 0;
+    int height = 0;
+};
+
+struct Rendered {
+    Image image;
+    RenderStats stats;
+};
+
+Rendered rendered(const char* method, const TruthScene& truth, std::uint32_t samples) {
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const std::unique_ptr<Renderer> renderer = methodNamed(method).make(truth.world, options);
+    Image image = renderedImage(*renderer, planFrame(truth.world, truth.view, fullDetailSettings(samples)));
+    return {std::move(image), renderer->stats()};
+}
+
+// Prints the comparison; true where it is as good as it must be.
+bool compareScene(const std::string& name, Scene scene, const Options& options) {
+    const std::unique_ptr<TruthScene> truth = truthScene(std::move(scene), options.width, options.height);
+    const Rendered traced = rendered("embree", *truth, options.samples);
+    const Rendered raster = rendered("accumulation", *truth, options.samples);
+    const Difference difference = compareImages(traced.image, raster.image);
+    const BlockDifference blocks = blockDifference(traced.image, raster.image);
+    const Misplacement moved = misplacement(traced.image, raster.image);
+    const nlohmann::ordered_json line = {{"scene", name},
+                                         {"width", options.width},
+                                         {"height", options.height},
+                                         {"samples", options.samples},
+                                         {"psnr", difference.psnr},
+                                         {"ssim", difference.ssim},
+                                         {"flip", difference.flip},
+                                         {"maxError", difference.maxError},
+                                         {"nonFinite", difference.nonFinite},
+                                         {"blockRms", blocks.rms},
+                                         {"blockLargest", blocks.largest},
+                                         {"meanDifference", blocks.mean},
+                                         {"movedRight", moved.right},
+                                         {"movedDown", moved.down},
+                                         {"grown", moved.growth * options.width},
+                                         {"embreeMilliseconds", traced.stats.renderMilliseconds},
+                                         {"accumulationMilliseconds", raster.stats.renderMilliseconds},
+                                         {"device", raster.stats.device}};
+    std::puts(line.dump().c_str());
+    if (!options.output.empty()) {
+        const std::filesystem::path folder(options.output);
+        writeImage(folder / (name + "-embree.png"), traced.image);
+        writeImage(folder / (name + "-accumulation.png"), raster.image);
+        writeImage(folder / (name + "-difference.png"), differenceImage(traced.image, raster.image, 16));
+    }
+    return difference.psnr >= 45;
+}
+
+bool compareAll(const Options& options) {
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    registerEmbree();
+    if (options.scenes.empty()) return compareScene("fish", fishSchool(), options);
+    bool good = true;
+    for (const std::filesystem::path path : options.scenes) {
+        good = compareScene(path.stem().string(), loadGltf(path), options) && good;
+    }
+    return good;
+}
+
+}  // namespace
+}  // namespace defocus
+
+int main(int argc, char** argv) {
+    defocus::Options options;
+    CLI::App app("The accumulation method against an independent thin-lens ray tracer");
+    app.add_option("--samples", options.samples, "samples a pixel, of both")->check(CLI::Range(1, 65536));
+    app.add_option("--size", options.size, "WxH in px");
+    app.add_option("--output", options.output, "folder for images and differences")->check(CLI::ExistingDirectory);
+    app.add_option("SCENE", options.scenes, "glTF files; none: the fish school");
+    CLI11_PARSE(app, argc, argv);
+    if (std::sscanf(options.size.c_str(), "%dx%d", &options.width, &options.height) != 2 || options.width < 1 ||
+        options.height < 1 || options.width > 16384 || options.height > 16384) {
+        std::fprintf(stderr, "--size %s: expected WxH, up to 16384x16384\n", options.size.c_str());
+        return 2;
+    }
+    try {
+        return defocus::compareAll(options) ? 0 : 1;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,348 @@
+#!/usr/bin/env python3
+"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf and fish.glb. Python's standard library only.
+
+    make_meshes.py            write them beside this file
+    make_meshes.py --check    compare them with what would be written; exit code 1 when one differs
+
+Output is deterministic: coordinates are rounded to 10 micrometres before they are stored.
+"""
+
+import base64
+import json
+import math
+import pathlib
+import struct
+import sys
+
+FLOAT, UBYTE, USHORT = 5126, 5121, 5123
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+class Document:
+    """A glTF document under construction, with one binary buffer."""
+
+    def __init__(self):
+        self.json = {"asset": {"version": "2.0", "generator": "defocus make_meshes.py"}, "scene": 0,
+                     "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "materials": [], "accessors": [],
+                     "bufferViews": [], "cameras": []}
+        self.binary = bytearray()
+
+    def accessor(self, rows, component, kind, target, normalized=False, bounds=False):
+        code = {FLOAT: "f", UBYTE: "B", USHORT: "H"}[component]
+        values = [value for row in rows for value in row]
+        data = struct.pack(f"<{len(values)}{code}", *values)
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data),
+                                         "target": target})
+        self.binary += data + b"\0" * (-len(data) % 4)
+        accessor = {"bufferView": len(self.json["bufferViews"]) - 1, "componentType": component, "count": len(rows),
+                    "type": kind}
+        if normalized:
+            accessor["normalized"] = True
+        if bounds:
+            accessor["min"] = [min(column) for column in zip(*rows)]
+            accessor["max"] = [max(column) for column in zip(*rows)]
+        self.json["accessors"].append(accessor)
+        return len(self.json["accessors"]) - 1
+
+    def material(self, name, **fields):
+        self.json["materials"].append({"name": name, **fields})
+        for extension in fields.get("extensions", {}):
+            used = self.json.setdefault("extensionsUsed", [])
+            if extension not in used:
+                used.append(extension)
+        return len(self.json["materials"]) - 1
+
+    def mesh(self, name, surface, material):
+        positions = [tuple(as_float32(round(value, 5)) for value in p) for p in surface.positions]
+        attributes = {"POSITION": self.accessor(positions, FLOAT, "VEC3", 34962, bounds=True)}
+        if surface.normals:
+            attributes["NORMAL"] = self.accessor(unit_rows(surface.normals), FLOAT, "VEC3", 34962)
+        if surface.colors:
+            attributes["COLOR_0"] = self.accessor(surface.colors, UBYTE, "VEC4", 34962, normalized=True)
+        indices = self.accessor([(index,) for index in surface.indices], USHORT, "SCALAR", 34963)
+        self.json["meshes"].append({"name": name, "primitives": [{"attributes": attributes, "indices": indices,
+                                                                  "material": material}]})
+        return len(self.json["meshes"]) - 1
+
+    def node(self, name, **fields):
+        self.json["nodes"].append({"name": name, **fields})
+        self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
+
+    def camera(self, yfov, aspect, lens, **placement):
+        """`lens`: fStop, focusDistance (m) and horizontalAperture (mm) as the camera's extras."""
+        self.json["cameras"].append({"name": "Camera", "type": "perspective", "extras": lens,
+                                     "perspective": {"yfov": round(yfov, 7), "aspectRatio": aspect, "znear": 0.01}})
+        self.node("Camera", camera=len(self.json["cameras"]) - 1, **placement)
+
+    def sun(self, color, lux, rotation):
+        lights = self.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
+        lights.append({"name": "Sun", "type": "directional", "color": color, "intensity": lux})
+        self.json.setdefault("extensionsUsed", []).append("KHR_lights_punctual")
+        self.node("Sun", rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
+
+    def finished(self):
+        return {key: value for key, value in self.json.items() if value != []}
+
+    def gltf(self):
+        document = self.finished()
+        uri = "data:application/octet-stream;base64," + base64.b64encode(self.binary).decode()
+        document["buffers"] = [{"byteLength": len(self.binary), "uri": uri}]
+        return (json.dumps(document, indent=1) + "\n").encode()
+
+    def glb(self):
+        document = self.finished()
+        document["buffers"] = [{"byteLength": len(self.binary)}]
+        text = json.dumps(document, separators=(",", ":")).encode()
+        text += b" " * (-len(text) % 4)
+        total = 12 + 8 + len(text) + 8 + len(self.binary)
+        return (struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(text), b"JSON") + text +
+                struct.pack("<I4s", len(self.binary), b"BIN\0") + bytes(self.binary))
+
+
+class Surface:
+    def __init__(self):
+        self.positions, self.normals, self.colors, self.indices = [], [], [], []
+
+    def quad(self, corners, normal=None, color=None):
+        """Four corners, counter-clockwise seen from the front."""
+        first = len(self.positions)
+        self.positions += corners
+        self.normals += [normal] * 4 if normal else []
+        self.colors += [color] * 4 if color else []
+        self.indices += [first, first + 1, first + 2, first, first + 2, first + 3]
+
+
+def as_float32(value):
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+def linear(red, green, blue):
+    """sRGB bytes to linear RGBA bytes, as COLOR_0 holds them."""
+    def decoded(byte):
+        value = byte / 255
+        return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+    return tuple(round(255 * decoded(byte)) for byte in (red, green, blue)) + (255,)
+
+
+def unit_rows(rows):
+    result = []
+    for row in rows:
+        length = math.sqrt(sum(value * value for value in row)) or 1.0
+        result.append(tuple(round(value / length, 6) for value in row))
+    return result
+
+
+def quaternion(axis, degrees):
+    half = math.radians(degrees) / 2
+    return [round(value * math.sin(half), 7) for value in axis] + [round(math.cos(half), 7)]
+
+
+# ---- bokeh.gltf -----------------------------------------------------------------------------------------------------
+
+
+def bokeh():
+    """Small bright squares at seven depths in a dark room, focus on the third row."""
+    document = Document()
+    dark = document.material("Room", extensions={"KHR_materials_unlit": {}},
+                             pbrMetallicRoughness={"baseColorFactor": [0.004, 0.005, 0.008, 1]})
+    room = Surface()
+    w, h, near, far = 9.0, 6.0, 2.0, -18.0  # seen from the inside
+    room.quad([(-w, -h, far), (w, -h, far), (w, h, far), (-w, h, far)])
+    room.quad([(w, -h, near), (-w, -h, near), (-w, h, near), (w, h, near)])
+    room.quad([(-w, -h, near), (-w, -h, far), (-w, h, far), (-w, h, near)])
+    room.quad([(w, -h, far), (w, -h, near), (w, h, near), (w, h, far)])
+    room.quad([(-w, -h, near), (w, -h, near), (w, -h, far), (-w, -h, far)])
+    room.quad([(-w, h, far), (w, h, far), (w, h, near), (-w, h, near)])
+    document.node("Room", mesh=document.mesh("Room", room, dark))
+
+    colors = {"Amber": [1.0, 0.55, 0.18], "Rose": [1.0, 0.22, 0.30], "Mint": [0.25, 1.0, 0.62],
+              "Sky": [0.28, 0.58, 1.0], "White": [1.0, 0.95, 0.88]}
+    meshes = []
+    for name, color in colors.items():
+        material = document.material(name, emissiveFactor=color,
+                                     pbrMetallicRoughness={"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+                                     extensions={"KHR_materials_emissive_strength": {"emissiveStrength": 60}})
+        square = Surface()
+        square.quad([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)], normal=(0, 0, 1))
+        meshes.append(document.mesh(f"{name} square", square, material))
+
+    # Rows at these depths; sizes grow with depth so that each square is about three pixels wide at 1024 x 768.
+    for row, depth in enumerate([0.8, 1.2, 2.0, 3.5, 6.0, 10.0, 15.0]):
+        half_width, half_height = 0.36 * depth, 0.27 * depth
+        for column in range(5 + row % 2):
+            x = (2 * (column + 0.5) / (5 + row % 2) - 1) * 0.88 + 0.03 * math.sin(7.0 * row + 3.0 * column)
+            y = 0.82 - 1.64 * row / 6 + 0.05 * math.sin(2.0 * row + 5.0 * column)
+            size = 3 * 2 * half_width / 1024
+            document.node(f"Light {depth} m, {column + 1}", mesh=meshes[(row + 2 * column) % len(meshes)],
+                          translation=[round(x * half_width, 5), round(y * half_height, 5), -depth],
+                          scale=[round(size, 6)] * 3)
+    document.camera(2 * math.atan(0.27), 4 / 3, {"fStop": 1.4, "focusDistance": 2.0, "horizontalAperture": 36.0})
+    return document.gltf()
+
+
+# ---- staircase.gltf -------------------------------------------------------------------------------------------------
+
+
+def checkered(surface, origin, right, up, cells_right, cells_up, light, dark):
+    """A rectangle of checks, each with vertices of its own: `right` and `up` are whole sides."""
+    normal = (right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2],
+              right[0] * up[1] - right[1] * up[0])
+
+    def at(u, v):
+        return tuple(o + u / cells_right * r + v / cells_up * w for o, r, w in zip(origin, right, up))
+
+    for v in range(cells_up):
+        for u in range(cells_right):
+            color = light if (u + v) % 2 == 0 else dark
+            surface.quad([at(u, v), at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)], normal, color)
+
+
+def staircase():
+    """Twelve steps that lead away and upwards from 1 m to 7 m, each with a pillar at either side."""
+    document = Document()
+    material = document.material("Stone", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.7})
+    palette = [(226, 92, 46), (240, 164, 40), (216, 206, 70), (92, 190, 98), (40, 168, 176), (66, 106, 214)]
+    pale = linear(222, 214, 200)
+    steps, depth, rise, half = 12, 0.5, 0.11, 1.1
+    for step in range(steps):
+        color = linear(*palette[step % len(palette)])
+        shade = linear(*(value // 2 for value in palette[step % len(palette)]))
+        z, y = -1.0 - depth * step, -0.62 + rise * step
+        stair = Surface()
+        checkered(stair, (-half, y - rise, z), (2 * half, 0, 0), (0, rise, 0), 14, 1, pale, shade)
+        checkered(stair, (-half, y, z), (2 * half, 0, 0), (0, 0, -depth), 14, 3, pale, color)
+        document.node(f"Step {step + 1}", mesh=document.mesh(f"Step {step + 1}", stair, material))
+        pillar = Surface()
+        a, tall = 0.07, 0.55
+        for right, corner in (((1, 0, 0), (-1, 1)), ((0, 0, -1), (1, 1)), ((-1, 0, 0), (1, -1)), ((0, 0, 1), (-1, -1))):
+            origin = (corner[0] * a, 0, corner[1] * a)
+            checkered(pillar, origin, tuple(2 * a * value for value in right), (0, tall, 0), 2, 8, color, pale)
+        checkered(pillar, (-a, tall, a), (2 * a, 0, 0), (0, 0, -2 * a), 2, 2, color, pale)
+        mesh = document.mesh(f"Pillar {step + 1}", pillar, material)
+        for side in (-1, 1):
+            document.node(f"Pillar {step + 1} {'left' if side < 0 else 'right'}", mesh=mesh,
+                          translation=[round(side * (0.34 + 0.05 * step), 5), round(y, 5), round(z - depth / 2, 5)])
+    document.sun([1.0, 0.96, 0.88], 2.4, quaternion((-0.8944272, 0.4472136, 0), 40))
+    document.camera(2 * math.atan(0.27), 4 / 3, {"fStop": 1.4, "focusDistance": 2.75, "horizontalAperture": 36.0})
+    return document.gltf()
+
+
+# ---- fish.glb -------------------------------------------------------------------------------------------------------
+
+
+def smooth_normals(surface):
+    normals = [[0.0, 0.0, 0.0] for _ in surface.positions]
+    for i in range(0, len(surface.indices), 3):
+        corners = surface.indices[i:i + 3]
+        p, q, r = (surface.positions[k] for k in corners)
+        u, v = [b - a for a, b in zip(p, q)], [b - a for a, b in zip(p, r)]
+        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        for k in corners:
+            for axis in range(3):
+                normals[k][axis] += normal[axis]
+    return normals
+
+
+def add_tube(surface, rings, color):
+    """A closed surface of rings (lists of points, head to tail, from the back over the left flank) and two end points."""
+    first = len(surface.positions)
+    around = len(rings[1])
+    surface.positions.append(rings[0][0])
+    for ring in rings[1:-1]:
+        surface.positions += ring
+    surface.positions.append(rings[-1][0])
+    last = len(surface.positions) - 1
+    surface.colors += [color(p) for p in surface.positions[first:]]
+    rows = len(rings) - 2
+    for i in range(around):
+        j = (i + 1) % around
+        surface.indices += [first, first + 1 + i, first + 1 + j]
+        for row in range(rows - 1):
+            a, b = first + 1 + row * around, first + 1 + (row + 1) * around
+            surface.indices += [a + i, b + i, a + j, a + j, b + i, b + j]
+        end = first + 1 + (rows - 1) * around
+        surface.indices += [end + i, last, end + j]
+
+
+def add_fin(surface, outline, thickness, color):
+    """A flat fin in the plane z = 0 (outline counter-clockwise seen from +z), swollen in the middle, closed."""
+    first = len(surface.positions)
+    middle = [sum(p[axis] for p in outline) / len(outline) for axis in range(2)]
+    surface.positions += [(x, y, 0.0) for x, y in outline]
+    surface.positions += [(middle[0], middle[1], thickness), (middle[0], middle[1], -thickness)]
+    surface.colors += [color] * (len(outline) + 2)
+    front, back = first + len(outline), first + len(outline) + 1
+    for i in range(len(outline)):
+        j = (i + 1) % len(outline)
+        surface.indices += [front, first + i, first + j, back, first + j, first + i]
+
+
+def fish():
+    """A fish of about 800 triangles, 0.3 m long: body, fins and eyes in one mesh with vertex colours."""
+    document = Document()
+    material = document.material("Fish", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.4})
+    surface = Surface()
+
+    def skin(p):
+        if 0.035 < p[0] < 0.06 or -0.04 < p[0] < -0.015:
+            return linear(244, 238, 226)
+        return linear(240, 96, 14) if p[1] > -0.02 else linear(250, 140, 60)
+
+    profile = [(0, 0, 0), (0.03, 0.22, 0.1), (0.1, 0.42, 0.19), (0.2, 0.6, 0.26), (0.32, 0.7, 0.3), (0.45, 0.72, 0.3),
+               (0.58, 0.66, 0.26), (0.7, 0.52, 0.19), (0.81, 0.36, 0.12), (0.9, 0.26, 0.07), (0.97, 0.2, 0.03), (1, 0, 0)]
+    rings = []
+    for a, height, width in profile:
+        x, ring = 0.11 - 0.22 * a, []
+        for i in range(24 if height else 1):
+            turn = 2 * math.pi * i / 24
+            ring.append((x, 0.09 * height * math.cos(turn), 0.09 * width * math.sin(turn)))
+        rings.append(ring)
+    add_tube(surface, rings, skin)
+
+    orange = linear(255, 140, 36)
+    tail = [(-0.09, 0.014), (-0.115, 0.034), (-0.165, 0.072), (-0.152, 0.03), (-0.14, 0.0), (-0.152, -0.03),
+            (-0.165, -0.072), (-0.115, -0.034), (-0.09, -0.014)]
+    dorsal = [(0.05, 0.05), (0.035, 0.085), (0.005, 0.094), (-0.03, 0.092), (-0.066, 0.088), (-0.085, 0.07), (-0.07, 0.03),
+              (-0.02, 0.05), (0.02, 0.055)]
+    anal = [(-0.078, -0.025), (-0.09, -0.065), (-0.06, -0.082), (-0.035, -0.078), (-0.012, -0.055), (-0.045, -0.04)]
+    for outline in (tail, dorsal, anal[::-1]):
+        area = sum(p[0] * q[1] - q[0] * p[1] for p, q in zip(outline, outline[1:] + outline[:1]))
+        add_fin(surface, outline if area > 0 else outline[::-1], 0.003, orange)
+    for side in (1, -1):
+        first = len(surface.positions)
+        add_fin(surface, [(0.03, -0.006), (-0.005, 0.012), (-0.028, 0.002), (-0.034, -0.014), (-0.02, -0.03), (0.028, -0.02)],
+                0.003, orange)
+        for k in range(first, len(surface.positions)):  # spread from the flank
+            x, y, z = surface.positions[k]
+            surface.positions[k] = (x, y, z + side * (0.022 + 0.5 * (0.03 - x)))
+        center, radius = (0.075, 0.014, side * 0.0185), 0.0085
+        eye = [[(center[0], center[1] + radius, center[2])]]
+        for i in range(1, 8):
+            polar = math.pi * i / 8
+            eye.append([(center[0] + radius * math.sin(polar) * math.sin(2 * math.pi * k / 12),
+                         center[1] + radius * math.cos(polar),
+                         center[2] + radius * math.sin(polar) * math.cos(2 * math.pi * k / 12)) for k in range(12)])
+        eye.append([(center[0], center[1] - radius, center[2])])
+        add_tube(surface, eye, lambda p: linear(30, 32, 44))
+    surface.normals = smooth_normals(surface)
+    document.node("Fish", mesh=document.mesh("Fish", surface, material))
+    return document.glb()
+
+
+def main():
+    check = sys.argv[1:] == ["--check"]
+    if sys.argv[1:] and not check:
+        sys.exit(__doc__)
+    differing = []
+    for name, make in (("bokeh.gltf", bokeh), ("staircase.gltf", staircase), ("fish.glb", fish)):
+        path, data = HERE / name, make()
+        if not check:
+            path.write_bytes(data)
+        elif not path.exists() or path.read_bytes() != data:
+            differing.append(name)
+    if differing:
+        sys.exit(f"differs from what make_meshes.py writes: {', '.join(differing)}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+// One lens sample an instance: the shear moves the object, gl_Layer picks the sample's layer.
+#ifdef VERTEX_LAYER
+#extension GL_ARB_shader_viewport_layer_array : enable
+#extension GL_AMD_vertex_shader_layer : enable
+#endif
+
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+
+layout(location = 0) in vec3 positionIn;
+layout(location = 1) in vec3 normalIn;
+layout(location = 2) in vec4 colorIn;
+layout(location = 3) in vec2 uv0In;
+layout(location = 4) in vec2 uv1In;
+layout(location = 5) in vec4 tangentIn;
+layout(location = 6) in vec4 lensAndJitterIn;   // an instance
+layout(location = 7) in vec4 eyeAndDitherIn;    // an instance: lens point (m), dither offset, layer
+
+#ifdef VERTEX_LAYER
+#define STAGE_OUT surface
+#else
+#define STAGE_OUT toGeometry
+#endif
+out Surface {
+#include "include/surface_varyings.glsl"
+} STAGE_OUT;
+#ifdef VERTEX_LAYER
+flat out float ditherOffset;
+#else
+flat out vec2 ditherAndLayer;
+#endif
+
+void main() {
+    vec3 viewPosition = (object.viewFromObject * vec4(positionIn, 1.0)).xyz;
+    gl_Position = projectedThroughLens(viewPosition, lensAndJitterIn);
+
+#ifdef VERTEX_COLORS
+    STAGE_OUT.color = material.baseColor * colorIn;
+#else
+    STAGE_OUT.color = material.baseColor;
+#endif
+#ifndef UNLIT
+    STAGE_OUT.normal = mat3(object.normalMatrix) * normalIn;
+    STAGE_OUT.toEye = vec3(eyeAndDitherIn.xy, 0.0) - viewPosition;
+#endif
+#if defined(LOCAL_LIGHTS)
+    STAGE_OUT.position = viewPosition;
+#endif
+#ifdef TEXTURED
+    STAGE_OUT.uv = vec4(uv0In, uv1In);
+#endif
+#ifdef NORMAL_TEXTURE
+    STAGE_OUT.tangent = vec4(mat3(object.viewFromObject) * tangentIn.xyz, tangentIn.w);
+#endif
+
+#ifdef VERTEX_LAYER
+    ditherOffset = eyeAndDitherIn.z;
+    gl_Layer = int(eyeAndDitherIn.w);
+#else
+    ditherAndLayer = eyeAndDitherIn.zw;
+#endif
+}

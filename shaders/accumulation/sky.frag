@@ -1,0 +1,24 @@
+#include "include/frame.glsl"
+#include "include/layer_format.glsl"
+#include "include/environment.glsl"
+
+in vec3 viewDirection;
+flat in float ditherOffset;
+
+#ifdef LAYER_RGB9E5
+layout(location = 0) out uint layerOut;
+#else
+layout(location = 0) out vec4 layerOut;
+#endif
+
+void main() {
+    vec4 radiance = vec4(environmentRadiance(normalize(mat3(frame.worldFromView) * viewDirection), 0.0), 1.0);
+#ifdef LAYER_LARGEST
+    radiance = min(radiance, vec4(LAYER_LARGEST));
+#endif
+#ifdef LAYER_RGB9E5
+    layerOut = encodeLayer(radiance, ditherOffset);
+#else
+    layerOut = radiance;
+#endif
+}

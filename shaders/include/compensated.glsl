@@ -1,0 +1,20 @@
+// Neumaier's compensated sum (1974): what each addition loses is kept beside the sum. The loss is found by Knuth's branch-free
+// two-sum, which gives the same bits as Neumaier's comparison of magnitudes. `precise` forbids the compiler to simplify it away.
+
+void addCompensated(inout vec3 sum, inout vec3 compensation, vec3 value) {
+    precise vec3 total = sum + value;
+    precise vec3 taken = total - sum;
+    precise vec3 lost = (sum - (total - taken)) + (value - taken);
+    precise vec3 next = compensation + lost;
+    compensation = next;
+    sum = total;
+}
+
+void addCompensated(inout float sum, inout float compensation, float value) {
+    precise float total = sum + value;
+    precise float taken = total - sum;
+    precise float lost = (sum - (total - taken)) + (value - taken);
+    precise float next = compensation + lost;
+    compensation = next;
+    sum = total;
+}

@@ -1,0 +1,30 @@
+// The frame, the object and the material as uniform blocks; src/render/gpu_blocks.h holds the same structures for C++.
+
+struct LightData {
+    vec4 positionRange;   // view space, m; w: range, 0 is unlimited
+    vec4 directionType;   // view space, the way the light shines; w: 0 directional, 1 point, 2 spot
+    vec4 colorScale;      // colour · intensity; w: spot cone scale
+    vec4 cone;            // x: spot cone offset
+};
+
+layout(std140, binding = 0) uniform FrameBlock {
+    vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
+    vec4 coc;             // a, b of C(w) = a + b·w
+    mat4 worldFromView;   // rotation
+    vec4 environment[3];  // zenith, horizon, nadir radiance
+    vec4 irradiance[9];   // E(n)/π in the real spherical harmonics of Ramamoorthi and Hanrahan 2001, world space
+    LightData lights[MAX_LIGHTS];
+} frame;
+
+layout(std140, binding = 1) uniform ObjectBlock {
+    mat4 viewFromObject;
+    mat4 normalMatrix;    // inverse transpose, of the upper 3×3
+    vec4 values;          // x: fractional level λ
+} object;
+
+layout(std140, binding = 2) uniform MaterialBlock {
+    vec4 baseColor;
+    vec4 emissiveCutoff;  // rgb: emissive radiance; w: alpha cutoff
+    vec4 surface;         // metallic, roughness, normal scale, occlusion strength
+    vec4 uvRows[10];      // two rows of a 2×3 matrix a texture; w of the first row: the UV set
+} material;

@@ -1,0 +1,16 @@
+// What the vertex stage hands to the fragment stage; only what the material needs.
+
+    vec4 color;
+#ifndef UNLIT
+    vec3 normal;          // view space
+    vec3 toEye;           // view space, to this sample's point on the lens
+#endif
+#if defined(LOCAL_LIGHTS)
+    vec3 position;        // view space
+#endif
+#ifdef TEXTURED
+    vec4 uv;              // both UV sets
+#endif
+#ifdef NORMAL_TEXTURE
+    vec4 tangent;
+#endif

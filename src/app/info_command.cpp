@@ -1,0 +1,278 @@
+// `defocus info`: what a scene file holds, what of it is ignored, and why.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "app/command.h"
+#include "core/error.h"
+#include "scene/fish_school.h"
+#include "scene/gltf.h"
+#include "scene/pose.h"
+
+namespace defocus {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoOptions {
+    std::string scene;  // empty: the built-in fish school
+    bool json = false;
+};
+
+constexpr std::size_t meshesListed = 12;  // for people; --json lists all
+constexpr double degrees = 57.295779513082321;
+
+// "1234567" → "1,234,567".
+std::string grouped(std::uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
+        digits.insert(static_cast<std::size_t>(i), ",");
+    return digits;
+}
+
+std::string nameOr(const std::string& name, const char* kind, std::size_t index) {
+    return name.empty() ? fmt::format("({} {})", kind, index) : name;
+}
+
+std::vector<std::size_t> objectsPerMesh(const Scene& scene, const Pose& pose) {
+    std::vector<std::size_t> counts(scene.meshes.size());
+    for (const Object& object : pose.objects) ++counts[static_cast<std::size_t>(object.mesh)];
+    return counts;
+}
+
+std::vector<std::string> attributesOf(const Vertices& vertices) {
+    std::vector<std::string> names;
+    if (!vertices.normals.empty()) names.emplace_back("normals");
+    if (!vertices.tangents.empty()) names.emplace_back("tangents");
+    if (!vertices.uv0.empty()) names.emplace_back("uv0");
+    if (!vertices.uv1.empty()) names.emplace_back("uv1");
+    if (!vertices.colors.empty()) names.emplace_back("colors");
+    if (!vertices.joints.empty()) names.emplace_back("joints");
+    return names;
+}
+
+const char* typeName(LightType type) {
+    if (type == LightType::point) return "point";
+    return type == LightType::spot ? "spot" : "directional";
+}
+
+const char* alphaName(AlphaMode mode) {
+    if (mode == AlphaMode::mask) return "mask";
+    return mode == AlphaMode::blend ? "blend" : "opaque";
+}
+
+struct Totals {
+    std::uint64_t triangles = 0;         // each mesh once
+    std::uint64_t trianglesInScene = 0;  // as often as it is drawn
+    std::uint64_t vertices = 0;
+};
+
+Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {
+    Totals totals;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        totals.triangles += scene.meshes[i].triangleCount();
+        totals.trianglesInScene += objects[i] * scene.meshes[i].triangleCount();
+        totals.vertices += scene.meshes[i].vertices.count();
+    }
+    return totals;
+}
+
+// ---- for programs ------------------------------------------------------------------------------------------------------
+
+Json meshJson(const Mesh& mesh, std::size_t objects) {
+    return {{"name", mesh.name},
+            {"triangles", mesh.triangleCount()},
+            {"vertices", mesh.vertices.count()},
+            {"primitives", mesh.primitives.size()},
+            {"objects", objects},
+            {"attributes", attributesOf(mesh.vertices)},
+            {"morphTargets", mesh.morphTargets.size()}};
+}
+
+Json cameraJson(const Camera& camera) {
+    Json json = {{"name", camera.name}, {"usable", !camera.orthographic}};
+    if (camera.orthographic) {
+        json["reason"] = *camera.orthographic;
+        return json;
+    }
+    json["yfovDegrees"] = camera.yfov * degrees;
+    if (camera.aspectRatio) json["aspectRatio"] = *camera.aspectRatio;
+    if (camera.fStop) json["fStop"] = *camera.fStop;
+    if (camera.focusDistance) json["focusDistance"] = *camera.focusDistance;
+    if (camera.horizontalAperture) json["horizontalAperture"] = *camera.horizontalAperture;
+    return json;
+}
+
+Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose) {
+    const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
+    const Totals totals = totalsOf(scene, objects);
+    Json json = {{"file", options.scene},
+                 {"name", scene.name},
+                 {"triangles", totals.triangles},
+                 {"trianglesInScene", totals.trianglesInScene},
+                 {"vertices", totals.vertices},
+                 {"objects", pose.objects.size()},
+                 {"nodes", scene.nodes.size()}};
+    if (!pose.bounds.empty()) {
+        const auto vector = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
+        json["bounds"] = {{"minimum", vector(pose.bounds.minimum)}, {"maximum", vector(pose.bounds.maximum)}};
+    }
+    for (const char* list : {"meshes", "materials", "textures", "cameras", "lights", "clips", "skins", "extensions", "ignored"})
+        json[list] = Json::array();
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) json["meshes"].push_back(meshJson(scene.meshes[i], objects[i]));
+    for (const Material& material : scene.materials)
+        json["materials"].push_back({{"name", material.name},
+                                     {"alphaMode", alphaName(material.alphaMode)},
+                                     {"doubleSided", material.doubleSided},
+                                     {"unlit", material.unlit}});
+    for (const Texture& texture : scene.textures) {
+        if (texture.image < 0) continue;
+        const auto image = static_cast<std::size_t>(texture.image);
+        json["textures"].push_back({{"image", scene.imageNames[image]},
+                                    {"width", scene.images[image].width},
+                                    {"height", scene.images[image].height}});
+    }
+    for (const Camera& camera : scene.cameras) json["cameras"].push_back(cameraJson(camera));
+    for (const Light& light : scene.lights)
+        json["lights"].push_back({{"name", light.name}, {"type", typeName(light.type)}, {"intensity", light.intensity}});
+    for (const AnimationClip& clip : scene.clips)
+        json["clips"].push_back({{"name", clip.name}, {"duration", clip.duration}, {"channels", clip.channels.size()}});
+    for (const Skin& skin : scene.skins) json["skins"].push_back({{"name", skin.name}, {"joints", skin.joints.size()}});
+    json["extensions"] = scene.extensions;
+    for (const Ignored& ignored : scene.ignored)
+        json["ignored"].push_back({{"what", ignored.what}, {"reason", ignored.reason}, {"count", ignored.count}});
+    return json;
+}
+
+// ---- for people --------------------------------------------------------------------------------------------------------
+
+void line(const char* label, const std::string& text) { fmt::print("{:<12}{}\n", label, text); }
+
+// One line an entry, the label only before the first; `none` when there are none.
+void lines(const char* label, const std::vector<std::string>& entries, const char* none) {
+    if (entries.empty()) line(label, none);
+    for (std::size_t i = 0; i < entries.size(); ++i) line(i == 0 ? label : "", entries[i]);
+}
+
+void printMeshes(const Scene& scene, const std::vector<std::size_t>& objects) {
+    std::vector<std::size_t> order(scene.meshes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return scene.meshes[a].triangleCount() > scene.meshes[b].triangleCount();
+    });
+    if (order.empty()) return;
+    fmt::print("\n{:>12} {:>12} {:>8}  {}\n", "triangles", "vertices", "objects", "mesh");
+    for (std::size_t i = 0; i < std::min(order.size(), meshesListed); ++i) {
+        const Mesh& mesh = scene.meshes[order[i]];
+        fmt::print("{:>12} {:>12} {:>8}  {} [{}]\n", grouped(mesh.triangleCount()), grouped(mesh.vertices.count()),
+                   grouped(objects[order[i]]), nameOr(mesh.name, "mesh", order[i]),
+                   fmt::join(attributesOf(mesh.vertices), " "));
+    }
+    if (order.size() > meshesListed) fmt::print("{:>36}… and {} smaller (--json lists all)\n", "", order.size() - meshesListed);
+}
+
+std::string materialSummary(const Scene& scene) {
+    if (scene.materials.empty()) return "none (glTF's default: white)";
+    const auto count = [&](auto matches) { return std::count_if(scene.materials.begin(), scene.materials.end(), matches); };
+    std::string text = grouped(scene.materials.size());
+    const auto mention = [&](std::ptrdiff_t number, const char* what) {
+        if (number > 0) text += fmt::format(", {} {}", number, what);
+    };
+    mention(count([](const Material& m) { return m.alphaMode == AlphaMode::mask; }), "with alpha mask");
+    mention(count([](const Material& m) { return m.alphaMode == AlphaMode::blend; }), "blended");
+    mention(count([](const Material& m) { return m.doubleSided; }), "double-sided");
+    mention(count([](const Material& m) { return m.unlit; }), "unlit");
+    return text;
+}
+
+std::string textureSummary(const Scene& scene) {
+    if (scene.textures.empty()) return "none";
+    std::uint64_t pixels = 0;
+    int largest = 0;
+    for (const TextureImage& image : scene.images) {
+        pixels += static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+        largest = std::max({largest, image.width, image.height});
+    }
+    return fmt::format("{} of {} images, up to {} px wide, {:.1f} megapixels", scene.textures.size(), scene.images.size(),
+                       largest, static_cast<double>(pixels) * 1e-6);
+}
+
+std::vector<std::string> cameraLines(const Scene& scene) {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const Camera& camera = scene.cameras[i];
+        std::string text = nameOr(camera.name, "camera", i);
+        if (camera.orthographic) {
+            text += ": " + *camera.orthographic;
+        } else {
+            text += fmt::format(": {:.1f}° high", camera.yfov * degrees);
+            if (camera.fStop) text += fmt::format(", f/{:g}", *camera.fStop);
+            if (camera.focusDistance) text += fmt::format(", focus at {:g} m", *camera.focusDistance);
+        }
+        result.push_back(text);
+    }
+    return result;
+}
+
+void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose) {
+    const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
+    const Totals totals = totalsOf(scene, objects);
+    const glm::dvec3 size = pose.bounds.size();
+    line("scene", options.scene.empty() ? scene.name : fmt::format("{} ({})", options.scene, scene.name));
+    line("size", fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x, size.y, size.z));
+    line("triangles", fmt::format("{}, {} in the scene", grouped(totals.triangles), grouped(totals.trianglesInScene)));
+    line("vertices", grouped(totals.vertices));
+    line("meshes", fmt::format("{}, drawn as {} objects", grouped(scene.meshes.size()), grouped(pose.objects.size())));
+    line("materials", materialSummary(scene));
+    line("textures", textureSummary(scene));
+    lines("cameras", cameraLines(scene), "none (one that frames the scene is used)");
+
+    std::vector<std::string> lights, clips, skins, ignored;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        lights.push_back(fmt::format("{}: {}, {:g} {}", nameOr(scene.lights[i].name, "light", i),
+                                     typeName(scene.lights[i].type), scene.lights[i].intensity,
+                                     scene.lights[i].type == LightType::directional ? "lx" : "cd"));
+    for (std::size_t i = 0; i < scene.clips.size(); ++i)
+        clips.push_back(fmt::format("{}: {:g} s, {} channels", nameOr(scene.clips[i].name, "clip", i),
+                                    scene.clips[i].duration, scene.clips[i].channels.size()));
+    std::size_t joints = 0;
+    for (const Skin& skin : scene.skins) joints += skin.joints.size();
+    if (!scene.skins.empty()) skins.push_back(fmt::format("{}, {} joints in all", scene.skins.size(), joints));
+    for (const Ignored& entry : scene.ignored)
+        ignored.push_back(entry.count > 1 ? fmt::format("{} × {}: {}", grouped(entry.count), entry.what, entry.reason)
+                                          : fmt::format("{}: {}", entry.what, entry.reason));
+    lines("lights", lights, "none");
+    lines("clips", clips, "none");
+    lines("skins", skins, "none");
+    line("extensions", scene.extensions.empty() ? "none" : fmt::format("{}", fmt::join(scene.extensions, ", ")));
+    lines("ignored", ignored, "nothing");
+    printMeshes(scene, objects);
+}
+
+void runInfo(const InfoOptions& options, const GlobalOptions& global) {
+    const Progress progress = terminalProgress(global);
+    const Scene scene = options.scene.empty() ? fishSchool({}, progress) : loadGltf(options.scene, progress);
+    const Pose pose = poseAt(scene, 0, -1);
+    if (options.json)
+        fmt::print("{}\n", sceneJson(options, scene, pose).dump(2, ' ', false, Json::error_handler_t::replace));
+    else
+        printScene(options, scene, pose);
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& program, const GlobalOptions& global) {
+    auto options = std::make_shared<InfoOptions>();
+    CLI::App* command = program.add_subcommand("info", "Say what a scene holds, and what of it is ignored and why");
+    command->add_option("scene", options->scene, "glTF file, .gltf or .glb (none: the built-in fish school)");
+    command->add_flag("--json", options->json, "Print everything as JSON");
+    command->footer("Example: defocus info FlightHelmet.gltf --json");
+    command->callback([options, &global] { runInfo(*options, global); });
+}
+
+}  // namespace defocus

@@ -1,0 +1,109 @@
+#include "app/option_text.h"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "app/suggestion.h"
+
+namespace defocus {
+
+namespace {
+
+// The rule in words: "a number above 0 and at most 100", "a number from 0 to 100".
+std::string inWords(const Range& range) {
+    if (range.aboveLeast) return fmt::format("a number above {:g} and at most {:g}", range.least, range.most);
+    return fmt::format("a number from {:g} to {:g}", range.least, range.most);
+}
+
+template <typename Number>
+std::optional<Number> wholeText(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    Number number{};
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+bool inside(double number, const Range& range) {
+    const bool low = range.aboveLeast ? number > range.least : number >= range.least;
+    return std::isfinite(number) && low && number <= range.most;
+}
+
+std::vector<std::string> splitAt(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char letter : text) {
+        if (letter == separator)
+            parts.emplace_back();
+        else
+            parts.back() += letter;
+    }
+    return parts;
+}
+
+}  // namespace
+
+double parseNumber(const std::string& text, const Range& range) {
+    const std::optional<double> number = wholeText<double>(text);
+    if (!number || !inside(*number, range)) fail("'{}' is not {}", text, inWords(range));
+    return *number;
+}
+
+std::uint64_t parseWhole(const std::string& text, std::uint64_t least, std::uint64_t most) {
+    const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(text);
+    if (!number || *number < least || *number > most)
+        fail("'{}' is not a whole number from {} to {}", text, least, most);
+    return *number;
+}
+
+std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range) {
+    std::vector<double> numbers;
+    for (const std::string& part : splitAt(text, ',')) {
+        const std::optional<double> number = wholeText<double>(part);
+        if (!number || !inside(*number, range)) break;
+        numbers.push_back(*number);
+    }
+    if (numbers.size() != count || splitAt(text, ',').size() != count)
+        fail("'{}' is not {} numbers parted by commas, each {}", text, count, inWords(range));
+    return numbers;
+}
+
+std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices) {
+    for (std::size_t i = 0; i < choices.size(); ++i)
+        if (choices[i] == text) return i;
+    const std::string nearest = nearestWord(text, choices);
+    fail("'{}' is none of {}{}", text, fmt::join(choices, ", "),
+         nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+}
+
+CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
+                       const std::string& description, std::function<void(const std::string&)> parse) {
+    const std::string shown = names.substr(0, names.find(','));
+    return command
+        .add_option_function<std::string>(
+            names,
+            [parse = std::move(parse), shown](const std::string& text) {
+                try {
+                    parse(text);
+                } catch (const Error& error) {
+                    throw CLI::ValidationError(shown, error.what());
+                }
+            },
+            description)
+        ->type_name(type);
+}
+
+CLI::Option* addNumber(CLI::App& command, const std::string& names, std::optional<double>& target, const Range& range,
+                       const std::string& type, const std::string& description) {
+    return addParsed(command, names, type, description,
+                     [&target, range](const std::string& text) { target = parseNumber(text, range); });
+}
+
+CLI::Option* addNumber(CLI::App& command, const std::string& names, double& target, const Range& range,
+                       const std::string& type, const std::string& description) {
+    return addParsed(command, names, type, description,
+                     [&target, range](const std::string& text) { target = parseNumber(text, range); })
+        ->default_str(fmt::format("{:g}", target));
+}
+
+}  // namespace defocus

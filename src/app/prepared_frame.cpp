@@ -1,0 +1,216 @@
+#include "app/prepared_frame.h"
+
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <mutex>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "image/image_io.h"
+#include "scene/fish_school.h"
+#include "scene/gltf.h"
+#include "scene/pick.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double defaultFocusDistance = 2.5;  // m, where the scene lies beside or behind the camera
+
+class Stopwatch {
+public:
+    [[nodiscard]] double milliseconds() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Scene loadScene(const SceneOptions& options, const Progress& progress) {
+    if (!options.path.empty()) return loadGltf(options.path, progress);
+    FishSchoolOptions school;
+    school.fishCount = options.fishCount;
+    school.trianglesPerFish = options.trianglesPerFish;
+    return fishSchool(school, progress);
+}
+
+// ---- surroundings
+// ----------------------------------------------------------------------------------------------------
+
+std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path) {
+    auto map = std::make_shared<Image>(readImage(path));
+    for (const float value : map->pixels)
+        if (!std::isfinite(value)) fail("{}: holds NaN or infinity and cannot light a scene", path.string());
+    return map;
+}
+
+Environment chosenEnvironment(const SceneOptions& options, const Scene& scene) {
+    Environment environment = environmentOrDefault(scene);
+    if (!options.environment.empty()) {
+        environment = {};
+        environment.type = EnvironmentType::map;
+        environment.map = loadEnvironment(options.environment);
+    }
+    if (options.background == Background::none) environment.type = EnvironmentType::none;
+    if (options.background == Background::uniform) {
+        environment = {};
+        environment.type = EnvironmentType::uniform;
+        environment.zenith = environment.horizon = environment.nadir = options.backgroundColor;
+    }
+    return environment;
+}
+
+// ---- focus
+// -----------------------------------------------------------------------------------------------------------
+
+double depthOf(const View& view, const glm::dvec3& point) {
+    return -(glm::inverse(view.worldFromCamera) * glm::dvec4(point, 1)).z;
+}
+
+double depthOfCentre(const PreparedFrame& frame) {
+    const Bounds& bounds = frame.world.pose.bounds;
+    const double depth = bounds.empty() ? 0 : depthOf(frame.view, bounds.centre());
+    return depth > frame.view.nearPlane && std::isfinite(depth) ? depth : defaultFocusDistance;
+}
+
+double depthOfNode(const PreparedFrame& frame, const std::string& name) {
+    const glm::dvec3 centre = nodeCentre(*frame.scene, frame.world.pose, nodeNamed(*frame.scene, name));
+    const double depth = depthOf(frame.view, centre);
+    if (!(depth > 0)) fail("--focus-node: the centre of '{}' lies behind the camera", name);
+    return depth;
+}
+
+// The depth of the first surface behind the middle of a pixel, for the field of view that `lens` has.
+double depthAtPixel(const PreparedFrame& frame, const Lens& lens, const glm::ivec2& pixel) {
+    const View& view = frame.view;
+    const double tanX = tanHalfHorizontalFov(lens);
+    const double tanY = tanX * view.height / view.width;
+    const glm::dvec3 direction(((pixel.x + 0.5) / view.width * 2 - 1) * tanX,
+                               (1 - (pixel.y + 0.5) / view.height * 2) * tanY, -1);
+    const glm::dvec3 world = glm::dmat3(view.worldFromCamera) * direction;
+    const auto hit = firstHit(*frame.scene, frame.world.pose, glm::dvec3(view.worldFromCamera[3]), world);
+    if (!hit || !(hit->distance > 0))
+        fail("--focus-pixel: there is no surface at pixel {},{}; choose one that shows an object", pixel.x, pixel.y);
+    return hit->distance / glm::length(direction);
+}
+
+// With focus breathing the pixel's ray depends on the focus: a few rounds settle it.
+double settledDepthAtPixel(const PreparedFrame& frame, Lens lens, const glm::ivec2& pixel) {
+    const View& view = frame.view;
+    if (pixel.x >= view.width || pixel.y >= view.height)
+        fail("--focus-pixel: pixel {},{} lies outside the image of {}x{}", pixel.x, pixel.y, view.width, view.height);
+    lens.focusDistance = std::numeric_limits<double>::infinity();
+    const int rounds = lens.focusBreathing ? 4 : 1;
+    for (int i = 0; i < rounds; ++i) {
+        lens.focusDistance = depthAtPixel(frame, lens, pixel);
+        checkLens(lens);
+    }
+    return lens.focusDistance;
+}
+
+double chosenFocus(const SceneOptions& options, const PreparedFrame& frame, const Camera& camera) {
+    if (options.focusDistance) return *options.focusDistance;
+    if (!options.focusNode.empty()) return depthOfNode(frame, options.focusNode);
+    if (options.focusPixel) return settledDepthAtPixel(frame, frame.view.lens, *options.focusPixel);
+    return camera.focusDistance ? *camera.focusDistance : depthOfCentre(frame);
+}
+
+// ---- camera and lens
+// -------------------------------------------------------------------------------------------------
+
+// Everything but the focus distance, which needs the view.
+Lens chosenLens(const SceneOptions& options, const Camera& camera) {
+    const Lens defaults;
+    Lens lens;
+    lens.fStop = options.fStop.value_or(camera.fStop.value_or(defaults.fStop));
+    lens.horizontalAperture =
+        options.horizontalAperture.value_or(camera.horizontalAperture.value_or(defaults.horizontalAperture));
+    const double aspect = static_cast<double>(options.width) / options.height;
+    lens.focalLength =
+        options.focalLength.value_or(focalLengthFromFov(aspect * std::tan(camera.yfov / 2), lens.horizontalAperture));
+    lens.bladeCount = options.bladeCount;
+    lens.bladeRotation = glm::radians(options.bladeRotation);
+    lens.anamorphicRatio = options.anamorphicRatio;
+    lens.dofEnabled = !options.noDof;
+    lens.blurScale = options.blurScale;
+    lens.focusBreathing = options.focusBreathing;
+    return lens;
+}
+
+RenderSettings chosenSettings(const SceneOptions& options) {
+    RenderSettings settings;
+    settings.sampleCount = options.samples;
+    settings.seed = options.seed;
+    settings.lod = options.lod;
+    settings.metric = options.metric;
+    settings.lodCocAtCentre = options.lodCocAtCentre;
+    settings.thresholds = defaultThresholds(options.metric, options.samples);
+    settings.thresholds.blur = options.blurThreshold.value_or(settings.thresholds.blur);
+    settings.thresholds.size = options.sizeThreshold.value_or(settings.thresholds.size);
+    settings.keepAll = options.keepAll;
+    return settings;
+}
+
+std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const Progress& progress) {
+    std::vector<Pyramid> pyramids(meshes.size());
+    std::mutex reporting;
+    std::uint64_t done = 0;
+    parallelFor(meshes.size(), [&](std::size_t i) {
+        pyramids[i] = fullDetail(meshes[i]);
+        const std::lock_guard lock(reporting);
+        report(progress, "meshes", ++done, meshes.size());
+    });
+    return pyramids;
+}
+
+}  // namespace
+
+PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) {
+    // The scene, at its time.
+    const Stopwatch loading;
+    PreparedFrame frame;
+    frame.scene = std::make_unique<Scene>(loadScene(options, progress));
+    frame.sceneName = options.path.empty() ? "fish school" : options.path.filename().string();
+    frame.world.scene = frame.scene.get();
+    frame.world.pose = poseAt(*frame.scene, options.time);
+
+    // The camera and its lens; the focus last, as it may depend on all else.
+    const double aspect = static_cast<double>(options.width) / options.height;
+    const PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, options.camera, aspect);
+    frame.cameraName = placed.camera.name;
+    frame.view.worldFromCamera = placed.worldFromCamera;
+    frame.view.nearPlane = placed.camera.znear;
+    frame.view.width = options.width;
+    frame.view.height = options.height;
+    frame.view.lens = chosenLens(options, placed.camera);
+    frame.view.lens.focusDistance = chosenFocus(options, frame, placed.camera);
+    checkLens(frame.view.lens);
+
+    // Light, surroundings and settings.
+    frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
+    frame.world.environment = chosenEnvironment(options, *frame.scene);
+    frame.settings = chosenSettings(options);
+    frame.loadMilliseconds = loading.milliseconds();
+    return frame;
+}
+
+void addPyramids(PreparedFrame& frame, const Progress& progress) {
+    const Stopwatch building;
+    const std::vector<Mesh>& meshes = frame.scene->meshes;
+    frame.world.pyramids =
+        frame.settings.lod == LodMode::off ? fullDetailPyramids(meshes, progress) : buildPyramids(meshes, {}, progress);
+    frame.pyramidMilliseconds = building.milliseconds();
+}
+
+PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress) {
+    PreparedFrame frame = placeFrame(options, progress);
+    addPyramids(frame, progress);
+    return frame;
+}
+
+}  // namespace defocus

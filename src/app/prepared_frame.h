@@ -1,0 +1,34 @@
+#pragma once
+// From options to a world and a view that can be planned and rendered.
+
+#include <memory>
+#include <string>
+
+#include "app/scene_options.h"
+#include "core/progress.h"
+#include "plan/view.h"
+
+namespace defocus {
+
+struct PreparedFrame {
+    std::unique_ptr<Scene> scene;  // world points to it
+    World world;
+    View view;
+    RenderSettings settings;
+    std::string sceneName;  // the file's name, or "fish school"
+    std::string cameraName;
+    double loadMilliseconds = 0;
+    double pyramidMilliseconds = 0;
+};
+
+// Loads the scene and places camera, lens and lights; the world has no pyramids yet. Throws Error for whatever the
+// options ask for and the scene doesn't have.
+PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress = {});
+
+// Simplifies the meshes, or only brings them into the pyramids' form when the settings use no other level.
+void addPyramids(PreparedFrame& frame, const Progress& progress = {});
+
+// Both.
+PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress = {});
+
+}  // namespace defocus

@@ -1,0 +1,192 @@
+// defocus render: a scene to images.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "app/option_text.h"
+#include "app/prepared_frame.h"
+#include "app/render_report.h"
+#include "app/scene_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+#include "image/tone_map.h"
+#include "render/aov.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct AovRequest {
+    bool depth = false;
+    bool coc = false;
+    bool level = false;
+    [[nodiscard]] bool any() const { return depth || coc || level; }
+};
+
+struct RenderArguments {
+    SceneOptions scene;
+    std::vector<std::filesystem::path> outputs;
+    std::filesystem::path stats;
+    AovRequest aovs;
+    WriteOptions write;
+};
+
+void parseAovs(const std::string& text, AovRequest& aovs) {
+    const std::vector<std::string> names = {"depth", "coc", "level"};
+    const std::array<bool*, 3> wanted = {&aovs.depth, &aovs.coc, &aovs.level};
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        *wanted[parseChoice(text.substr(begin, end - begin), names)] = true;
+        begin = end + 1;
+    }
+}
+
+// out.exr and "depth.exr" → out.depth.exr
+std::filesystem::path derivedPath(const std::filesystem::path& output, const std::string& ending) {
+    std::filesystem::path path = output;
+    path.replace_extension(ending);
+    return path;
+}
+
+std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
+    std::vector<std::filesystem::path> paths;
+    const std::filesystem::path& output = arguments.outputs.front();
+    if (arguments.aovs.depth) paths.push_back(derivedPath(output, "depth.exr"));
+    if (arguments.aovs.coc) paths.push_back(derivedPath(output, "coc.exr"));
+    if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.exr"));
+    if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.png"));
+    return paths;
+}
+
+void checkOutputs(const RenderArguments& arguments) {
+    for (const std::filesystem::path& path : arguments.outputs) {
+        checkImageExtension(path);
+        checkWritable(path);
+    }
+    for (const std::filesystem::path& path : aovPaths(arguments)) checkWritable(path);
+    if (!arguments.stats.empty()) checkWritable(arguments.stats);
+}
+
+Image renderImage(Renderer& renderer, const FramePlan& plan, const Progress& progress) {
+    renderer.start(plan);
+    do {
+        report(progress, "samples", renderer.samples(), plan.samples.size());
+    } while (renderer.advance());
+    return renderer.image();
+}
+
+void writeAovs(const RenderArguments& arguments, const AovImages& images, const Metadata& metadata) {
+    const std::filesystem::path& output = arguments.outputs.front();
+    if (arguments.aovs.depth) writeImage(derivedPath(output, "depth.exr"), images.depth, metadata);
+    if (arguments.aovs.coc) writeImage(derivedPath(output, "coc.exr"), images.coc, metadata);
+    if (!arguments.aovs.level) return;
+    writeImage(derivedPath(output, "level.exr"), images.level, metadata);
+    writeImage(derivedPath(output, "level.png"), levelColourMap(images.level));
+}
+
+void printSummary(const RenderArguments& arguments, const RenderReport& report) {
+    std::string names;
+    for (const std::filesystem::path& path : arguments.outputs) names += (names.empty() ? "" : ", ") + path.string();
+    for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
+    fmt::print(stderr, "{}: {}\n", names, summary(report));
+}
+
+void printChoices(const GlContext* context, const FramePlan& plan, const RenderReport& report) {
+    if (context != nullptr)
+        for (const std::string& line : context->log()) fmt::print(stderr, "{}\n", line);
+    fmt::print(stderr, "{} layers of {} at once\n", report.stats.wave, report.stats.layerFormat);
+    for (const LeftOut& entry : plan.leftOut) fmt::print(stderr, "left out: {}: {}\n", entry.what, entry.reason);
+    fmt::print(stderr, "load {:.0f} ms, pyramids {:.0f} ms, set-up {:.0f} ms, render {:.0f} ms\n",
+               report.frame.loadMilliseconds, report.frame.pyramidMilliseconds, report.stats.setupMilliseconds,
+               report.stats.renderMilliseconds);
+}
+
+void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
+    // Faults first: outputs, scene, lens, device; only then the long work.
+    const Clock::time_point start = Clock::now();
+    checkOutputs(arguments);
+    const Method& method = methodNamed(arguments.scene.method);
+    Progress progress = terminalProgress(global);
+    PreparedFrame frame = placeFrame(arguments.scene, progress);
+    std::unique_ptr<GlContext> context;
+    if (method.needsGl || arguments.aovs.any()) context = createHeadlessContext();
+    addPyramids(frame, progress);
+
+    // Plan and render.
+    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    RendererOptions options;
+    options.layerFormat = arguments.scene.layerFormat;
+    options.wave = arguments.scene.wave;
+    options.shaderFolder = global.shaderDir;
+    const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
+    const Image image = renderImage(*renderer, plan, progress);
+    progress = {};
+
+    // Write.
+    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    const bool software = context == nullptr || context->software();
+    const RenderReport report{arguments.scene, frame, plan, renderer->stats(), software, milliseconds};
+    const Metadata metadata = renderMetadata(report);
+    for (const std::filesystem::path& path : arguments.outputs) writeImage(path, image, metadata, arguments.write);
+    if (arguments.aovs.any()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
+    if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
+    if (global.verbose) printChoices(context.get(), plan, report);
+    if (!global.quiet) printSummary(arguments, report);
+}
+
+void addOutputs(CLI::App& command, RenderArguments& arguments) {
+    const char* group = "Output";
+    arguments.outputs = {"out.exr"};
+    command
+        .add_option("-o,--output", arguments.outputs,
+                    "Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. Can be given "
+                    "several times")
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->default_str("out.exr")
+        ->group(group);
+    addNumber(command, "--exposure", arguments.write.exposure, {-60, 60}, "EV", "Of .png and .jpg")->group(group);
+    addChoice<ToneMap>(command, "--tonemap", arguments.write.toneMap,
+                       {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
+                       "Film curve of .png and .jpg")
+        ->group(group);
+    addParsed(command, "--aov", "depth,coc,level",
+              "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px) and out.level.exr with "
+              "out.level.png (level of detail)",
+              [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
+        ->group(group);
+    command.add_option("--stats", arguments.stats, "Write times, triangles and memory as JSON")
+        ->type_name("FILE")
+        ->group(group);
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<RenderArguments>();
+    CLI::App* command = program.add_subcommand("render", "Render a glTF scene with the depth of field of a real lens");
+    addOutputs(*command, *arguments);
+    addSceneOptions(*command, arguments->scene);
+    command->footer(
+        "Examples:\n"
+        "  defocus render -o fish.exr -o fish.png\n"
+        "  defocus render scene.glb -o out.exr --fstop 1.4 --focus-distance 2.5 --samples 256\n"
+        "  defocus render scene.glb -o out.png --tonemap agx --focus-pixel 512,384 --blades 7 --aov depth,coc");
+    command->callback([arguments, &global] { runRender(*arguments, global); });
+}
+
+}  // namespace defocus

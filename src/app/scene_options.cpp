@@ -1,0 +1,191 @@
+#include "app/scene_options.h"
+
+#include <limits>
+
+#include "app/option_text.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::uint64_t mostPixels = 16'384;
+constexpr std::uint64_t mostSamples = 65'536;
+
+void parseSize(const std::string& text, SceneOptions& options) {
+    const std::size_t cross = text.find_first_of("xX");
+    if (cross == std::string::npos) fail("'{}' is not WIDTHxHEIGHT, such as 1024x768", text);
+    try {
+        options.width = static_cast<int>(parseWhole(text.substr(0, cross), 1, mostPixels));
+        options.height = static_cast<int>(parseWhole(text.substr(cross + 1), 1, mostPixels));
+    } catch (const Error&) {
+        fail("'{}': width and height must be whole numbers from 1 to {}, such as 1024x768", text, mostPixels);
+    }
+}
+
+void parsePixel(const std::string& text, SceneOptions& options) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos) fail("'{}' is not X,Y (column and row, 0,0 at the top left)", text);
+    options.focusPixel = glm::ivec2(parseWhole(text.substr(0, comma), 0, mostPixels - 1),
+                                    parseWhole(text.substr(comma + 1), 0, mostPixels - 1));
+}
+
+void parseBackground(const std::string& text, SceneOptions& options) {
+    if (text.find(',') != std::string::npos) {
+        const std::vector<double> color = parseNumbers(text, 3, {0, 1e9});
+        options.background = Background::uniform;
+        options.backgroundColor = glm::vec3(color[0], color[1], color[2]);
+        return;
+    }
+    const std::size_t choice = parseChoice(text, {"environment", "none", "R,G,B"});
+    if (choice > 1) fail("give three numbers for R,G,B, such as 0.2,0.2,0.2");
+    options.background = choice == 0 ? Background::environment : Background::none;
+}
+
+void addScene(CLI::App& command, SceneOptions& options) {
+    const char* group = "Scene";
+    CLI::Option* scene =
+        command.add_option("SCENE", options.path, "glTF file (.gltf, .glb); without one, the built-in school of fish")
+            ->type_name("FILE");
+    addWhole(command, "--fish", options.fishCount, 1, 10'000, "Number of fish in the built-in school")
+        ->excludes(scene)
+        ->group(group);
+    addWhole(command, "--fish-triangles", options.trianglesPerFish, 200, 10'000'000, "Triangles a fish, about")
+        ->excludes(scene)
+        ->group(group);
+    addNumber(command, "--time", options.time, {-1e9, 1e9}, "S",
+              "Seconds into the first animation; before and after it, its ends")
+        ->group(group);
+    command
+        .add_option("--environment", options.environment,
+                    "Equirectangular image that lies behind the scene and lights it (.hdr or .exr)")
+        ->type_name("FILE")
+        ->group(group);
+    addParsed(
+        command, "--background", "WHAT",
+        "'environment' (the default), 'none' for a transparent image, or R,G,B (linear) for one colour all around",
+        [&options](const std::string& text) { parseBackground(text, options); })
+        ->group(group);
+}
+
+void addCamera(CLI::App& command, SceneOptions& options) {
+    const char* group = "Camera";
+    command
+        .add_option("--camera", options.camera,
+                    "Name of a camera of the file, or 'auto' for one that frames the scene; without it, the first")
+        ->type_name("NAME")
+        ->group(group);
+    addParsed(command, "--size", "WxH", "Image size in pixels",
+              [&options](const std::string& text) { parseSize(text, options); })
+        ->default_str(fmt::format("{}x{}", options.width, options.height))
+        ->group(group);
+}
+
+void addFocus(CLI::App& command, SceneOptions& options) {
+    const char* group = "Lens";
+    CLI::Option* distance = addNumber(command, "--focus-distance", options.focusDistance, {1e-6, 1e12}, "M",
+                                      "Distance of the focus plane along the view axis; without any focus option, the "
+                                      "camera's own, else the depth of the scene's centre");
+    CLI::Option* node = command
+                            .add_option("--focus-node", options.focusNode,
+                                        "Focus on the centre of this node (its mesh's box, or its origin)")
+                            ->type_name("NAME");
+    CLI::Option* pixel =
+        addParsed(command, "--focus-pixel", "X,Y", "Focus on the surface seen at this pixel (0,0 is the top left one)",
+                  [&options](const std::string& text) { parsePixel(text, options); });
+    distance->excludes(node)->excludes(pixel)->group(group);
+    node->excludes(pixel)->group(group);
+    pixel->group(group);
+}
+
+void addLens(CLI::App& command, SceneOptions& options) {
+    const char* group = "Lens";
+    addNumber(command, "--fstop", options.fStop, {1e-3, 1e6}, "N", "f-number; without it, the camera's own, else 2.8")
+        ->group(group);
+    addNumber(command, "--focal-length", options.focalLength, {1e-2, 1e6}, "MM",
+              "Sets the field of view; without it, it follows from the camera's")
+        ->group(group);
+    addNumber(command, "--horizontal-aperture", options.horizontalAperture, {1e-2, 1e6}, "MM",
+              "Width of the sensor; without it, the camera's own, else 36")
+        ->group(group);
+    addFocus(command, options);
+    addParsed(command, "--blades", "N", "Blades of the aperture: 3 to 64, or 0 for a disk",
+              [&options](const auto& text) {
+                  options.bladeCount = static_cast<int>(parseWhole(text, 0, 64));
+                  if (options.bladeCount == 1 || options.bladeCount == 2)
+                      fail("'{}' is neither 0 (a disk) nor 3 to 64", text);
+              })
+        ->default_str("0")
+        ->group(group);
+    addNumber(command, "--blade-rotation", options.bladeRotation, {-1e6, 1e6}, "DEG", "Turns the blades")->group(group);
+    addNumber(command, "--anamorphic-ratio", options.anamorphicRatio, {1e-2, 1e2}, "R",
+              "Above 1, blurred points are tall ovals")
+        ->group(group);
+    addNumber(command, "--blur-scale", options.blurScale, {0, 1e3}, "R", "Exaggerates the blur; 1 is physical")
+        ->group(group);
+    command.add_flag("--no-dof", options.noDof, "A pinhole: everything sharp")->group(group);
+    command
+        .add_flag("--focus-breathing", options.focusBreathing,
+                  "The textbook thin lens, whose field of view narrows as the focus comes nearer")
+        ->group(group);
+}
+
+void addLevels(CLI::App& command, SceneOptions& options) {
+    const char* group = "Samples and level of detail";
+    addWhole(command, "--samples", options.samples, 1, mostSamples, "Lens samples")->group(group);
+    addWhole(command, "--seed", options.seed, 0, std::numeric_limits<std::uint32_t>::max(),
+             "Picks another set of sample points")
+        ->group(group);
+    addChoice<LodMode>(
+        command, "--lod", options.lod,
+        {{"fractional", LodMode::fractional}, {"nearest", LodMode::nearest}, {"off", LodMode::off}},
+        "Coarser meshes for blurred objects: samples split between two levels, one level, or full detail")
+        ->group(group);
+    addChoice<LodMetric>(command, "--lod-metric", options.metric,
+                         {{"size", LodMetric::size}, {"error", LodMetric::error}},
+                         "Levels are chosen by the projected size of their edges or of their error")
+        ->group(group);
+    addChoice<bool>(command, "--lod-coc", options.lodCocAtCentre, {{"smallest", false}, {"centre", true}},
+                    "The blur that an object may count on: the smallest over its box, or the one at its centre")
+        ->group(group);
+    addNumber(command, "--blur-threshold", options.blurThreshold, {0, 1e3}, "K",
+              "Target in pixels per pixel of blur; without it, by the number of samples")
+        ->group(group);
+    addNumber(command, "--size-threshold", options.sizeThreshold, {0, 1e6}, "K",
+              "Least target in pixels; without it, by the number of samples")
+        ->group(group);
+    command
+        .add_flag("--keep-all", options.keepAll, "Leave out nothing, not even what cannot be seen (same image, slower)")
+        ->group(group);
+}
+
+void addMethod(CLI::App& command, SceneOptions& options) {
+    const char* group = "Method";
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    addParsed(command, "--method", fmt::format("{}", fmt::join(names, "|")), "How the image is made",
+              [&options, names](const std::string& text) { options.method = names[parseChoice(text, names)]; })
+        ->default_str(options.method)
+        ->group(group);
+    addChoice<LayerFormat>(command, "--layer-format", options.layerFormat,
+                           {{"automatic", LayerFormat::automatic},
+                            {"rgb9e5", LayerFormat::rgb9e5},
+                            {"rgba16f", LayerFormat::rgba16f},
+                            {"rgba32f", LayerFormat::rgba32f},
+                            {"rgba8", LayerFormat::rgba8}},
+                           "Pixels of a sample's layer; rgba32f for references")
+        ->group(group);
+    addWhole(command, "--wave", options.wave, 0, 64, "Samples drawn at once; 0: as memory allows (same image)")
+        ->group(group);
+}
+
+}  // namespace
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    addScene(command, options);
+    addCamera(command, options);
+    addLens(command, options);
+    addLevels(command, options);
+    addMethod(command, options);
+}
+
+}  // namespace defocus

@@ -1,0 +1,69 @@
+#pragma once
+// What render, plan and their kin have in common: a scene, a camera with its lens, levels of detail, surroundings.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+
+#include "plan/view.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+enum class Background { environment, none, uniform };
+
+// As the command line gives it. Each number was checked by itself; what depends on the scene is checked by placeFrame.
+// Lens values: option, else the camera's own value, else the default.
+struct SceneOptions {
+    // Scene. Without a path: the built-in fish school.
+    std::filesystem::path path;
+    int fishCount = 20;
+    int trianglesPerFish = 90'000;
+    double time = 0;  // s into the scene's first animation
+    std::filesystem::path environment;
+    Background background = Background::environment;
+    glm::vec3 backgroundColor{0.0f};  // Background::uniform
+
+    // Camera and image.
+    std::string camera;  // empty: the first, or one that frames the scene
+    int width = 1024;
+    int height = 768;
+
+    // Lens.
+    std::optional<double> fStop;               // default 2.8
+    std::optional<double> focalLength;         // mm; default: from the camera's field of view
+    std::optional<double> horizontalAperture;  // mm; default 36
+    std::optional<double> focusDistance;       // m; default: the depth of the centre of the scene
+    std::string focusNode;
+    std::optional<glm::ivec2> focusPixel;  // column from the left, row from the top
+    int bladeCount = 0;
+    double bladeRotation = 0;  // degrees
+    double anamorphicRatio = 1;
+    double blurScale = 1;
+    bool noDof = false;
+    bool focusBreathing = false;
+
+    // Samples and levels of detail.
+    std::uint32_t samples = 64;
+    std::uint32_t seed = 0;
+    LodMode lod = LodMode::fractional;
+    LodMetric metric = LodMetric::size;
+    bool lodCocAtCentre = false;
+    std::optional<double> blurThreshold;  // default: defaultThresholds
+    std::optional<double> sizeThreshold;
+    bool keepAll = false;
+
+    // Method.
+    std::string method = "accumulation";
+    LayerFormat layerFormat = LayerFormat::automatic;
+    std::uint32_t wave = 0;  // 0: as memory allows
+};
+
+// Adds the options in groups. `options` must outlive the parse.
+void addSceneOptions(CLI::App& command, SceneOptions& options);
+
+}  // namespace defocus

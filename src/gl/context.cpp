@@ -1,0 +1,165 @@
+#include "gl/context.h"
+
+// epoxy before EGL's own headers
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+const char* eglErrorName(EGLint code) {
+    switch (code) {
+        case EGL_SUCCESS: return "EGL_SUCCESS";
+        case EGL_NOT_INITIALIZED: return "EGL_NOT_INITIALIZED";
+        case EGL_BAD_ACCESS: return "EGL_BAD_ACCESS";
+        case EGL_BAD_ALLOC: return "EGL_BAD_ALLOC";
+        case EGL_BAD_ATTRIBUTE: return "EGL_BAD_ATTRIBUTE";
+        case EGL_BAD_CONFIG: return "EGL_BAD_CONFIG";
+        case EGL_BAD_CONTEXT: return "EGL_BAD_CONTEXT";
+        case EGL_BAD_DISPLAY: return "EGL_BAD_DISPLAY";
+        case EGL_BAD_MATCH: return "EGL_BAD_MATCH";
+        case EGL_BAD_PARAMETER: return "EGL_BAD_PARAMETER";
+        case EGL_BAD_SURFACE: return "EGL_BAD_SURFACE";
+        default: return "an unknown EGL error";
+    }
+}
+
+bool listed(const char* extensions, std::string_view name) {
+    const std::string_view all = extensions != nullptr ? extensions : "";
+    for (std::size_t at = all.find(name); at != std::string_view::npos; at = all.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        if ((at == 0 || all[at - 1] == ' ') && (end == all.size() || all[end] == ' ')) return true;
+    }
+    return false;
+}
+
+// A display that can be tried: made lazily, because asking for one may already touch a driver.
+struct Candidate {
+    std::string name;
+    EGLenum platform = EGL_NONE;  // EGL_NONE: the default display
+    void* native = nullptr;
+};
+
+std::vector<Candidate> candidates() {
+    const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    std::vector<Candidate> result;
+    if (listed(extensions, "EGL_EXT_platform_base") && listed(extensions, "EGL_EXT_platform_device") &&
+        (listed(extensions, "EGL_EXT_device_enumeration") || listed(extensions, "EGL_EXT_device_base"))) {
+        std::array<EGLDeviceEXT, 32> devices{};
+        EGLint count = 0;
+        if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_TRUE) {
+            std::vector<Candidate> software;
+            for (EGLint i = 0; i < count; ++i) {
+                const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
+                const bool isSoftware =
+                    listed(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+                Candidate candidate{fmt::format("EGL device {}{}", i, isSoftware ? " (software)" : ""),
+                                    EGL_PLATFORM_DEVICE_EXT, device};
+                (isSoftware ? software : result).push_back(std::move(candidate));
+            }
+            result.insert(result.end(), software.begin(), software.end());
+        }
+    }
+    if (listed(extensions, "EGL_MESA_platform_surfaceless"))
+        result.push_back({"surfaceless platform", EGL_PLATFORM_SURFACELESS_MESA, nullptr});
+    result.push_back({"default display", EGL_NONE, nullptr});
+    return result;
+}
+
+class HeadlessContext final : public GlContext {
+public:
+    HeadlessContext() = default;
+    HeadlessContext(const HeadlessContext&) = delete;
+    HeadlessContext& operator=(const HeadlessContext&) = delete;
+    ~HeadlessContext() override { close(); }
+
+    // Tries one display; on failure everything is undone and the reason returned, on success an empty string.
+    std::string open(const Candidate& candidate) {
+        const std::string reason = tryOpen(candidate);
+        if (!reason.empty()) close();
+        return reason;
+    }
+
+    [[nodiscard]] const std::string& device() const override { return device_; }
+    [[nodiscard]] const std::string& driver() const override { return driver_; }
+    [[nodiscard]] bool software() const override { return software_; }
+    [[nodiscard]] const std::vector<std::string>& log() const override { return log_; }
+    std::vector<std::string>& log() { return log_; }
+
+private:
+    std::string tryOpen(const Candidate& candidate) {
+        const auto failed = [](const char* call) { return fmt::format("{}: {}", call, eglErrorName(eglGetError())); };
+        // The EXT entry point: libepoxy can't resolve the core one before a display exists.
+        display_ = candidate.platform == EGL_NONE
+                       ? eglGetDisplay(EGL_DEFAULT_DISPLAY)
+                       : eglGetPlatformDisplayEXT(candidate.platform, candidate.native, nullptr);
+        if (display_ == EGL_NO_DISPLAY) return failed("eglGetPlatformDisplayEXT");
+        EGLint major = 0;
+        EGLint minor = 0;
+        if (eglInitialize(display_, &major, &minor) != EGL_TRUE) {
+            display_ = EGL_NO_DISPLAY;
+            return failed("eglInitialize");
+        }
+        if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return failed("eglBindAPI(EGL_OPENGL_API)");
+        const EGLint configAttributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_NONE};
+        EGLConfig config = EGL_NO_CONFIG_KHR;
+        EGLint configs = 0;
+        const bool chosen = eglChooseConfig(display_, configAttributes, &config, 1, &configs) == EGL_TRUE && configs > 0;
+        if (!chosen && !listed(eglQueryString(display_, EGL_EXTENSIONS), "EGL_KHR_no_config_context"))
+            return failed("eglChooseConfig");
+        const EGLint contextAttributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+                                            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        context_ = eglCreateContext(display_, chosen ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, contextAttributes);
+        if (context_ == EGL_NO_CONTEXT) return failed("eglCreateContext (OpenGL 4.5 core)");
+        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
+            return failed("eglMakeCurrent without a surface");
+        device_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+        driver_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+        software_ = device_.find("llvmpipe") != std::string::npos || device_.find("softpipe") != std::string::npos ||
+                    device_.find("SWR") != std::string::npos;
+        return {};
+    }
+
+    void close() {
+        if (display_ == EGL_NO_DISPLAY) return;
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
+        // The display is shared by the process and stays initialised: another context may live on it.
+        context_ = EGL_NO_CONTEXT;
+        display_ = EGL_NO_DISPLAY;
+    }
+
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+    std::string device_;
+    std::string driver_;
+    bool software_ = false;
+    std::vector<std::string> log_;
+};
+
+}  // namespace
+
+std::unique_ptr<GlContext> createHeadlessContext() {
+    auto context = std::make_unique<HeadlessContext>();
+    std::string reasons;
+    for (const Candidate& candidate : candidates()) {
+        const std::string reason = context->open(candidate);
+        if (reason.empty()) {
+            context->log().push_back(
+                fmt::format("{}: {}, OpenGL {}", candidate.name, context->device(), context->driver()));
+            return context;
+        }
+        context->log().push_back(fmt::format("{}: {}", candidate.name, reason));
+        reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", candidate.name, reason);
+    }
+    fail("no OpenGL 4.5 context: {}; install a driver (Debian: libegl1 libgl1-mesa-dri)", reasons);
+}
+
+}  // namespace defocus

@@ -1,0 +1,118 @@
+#include "gl/program.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "gl/shader_source.h"
+
+namespace defocus {
+
+namespace {
+
+struct Stage {
+    GLenum type;
+    const char* name;
+};
+
+Stage stageOf(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension == ".vert") return {GL_VERTEX_SHADER, "vertex"};
+    if (extension == ".geom") return {GL_GEOMETRY_SHADER, "geometry"};
+    if (extension == ".frag") return {GL_FRAGMENT_SHADER, "fragment"};
+    if (extension == ".comp") return {GL_COMPUTE_SHADER, "compute"};
+    fail("shader {}: the extension names no stage", path);
+}
+
+std::string sourceOf(const std::string& path, const std::filesystem::path& overrideFolder) {
+    if (!overrideFolder.empty() && std::filesystem::exists(overrideFolder / path)) {
+        const std::vector<std::byte> bytes = readFile(overrideFolder / path);
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+    const auto found = embeddedShaders().find(path);
+    if (found == embeddedShaders().end()) fail("shader {}: there is no such file", path);
+    return std::string(found->second);
+}
+
+// `including` holds the files on the way down to this one.
+std::string expanded(const std::string& path, const std::filesystem::path& overrideFolder, std::set<std::string>& including) {
+    if (!including.insert(path).second) fail("shader {}: includes itself", path);
+    std::istringstream source(sourceOf(path, overrideFolder));
+    std::string result;
+    std::string line;
+    for (int number = 1; std::getline(source, line); ++number) {
+        constexpr std::string_view directive = "#include \"";
+        if (!line.starts_with(directive)) {
+            result += line + '\n';
+            continue;
+        }
+        const std::size_t end = line.find('"', directive.size());
+        if (end == std::string::npos) fail("shader {}:{}: an #include without its closing quote", path, number);
+        result += "#line 1\n" + expanded(line.substr(directive.size(), end - directive.size()), overrideFolder, including) +
+                  fmt::format("#line {}\n", number + 1);
+    }
+    including.erase(path);
+    return result;
+}
+
+// One line: an Error is one line.
+std::string oneLine(std::string log) {
+    while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) log.pop_back();
+    for (std::size_t at = log.find('\n'); at != std::string::npos; at = log.find('\n', at)) log.replace(at, 1, " | ");
+    return log;
+}
+
+GLuint compiled(const std::string& path, const ProgramInfo& info) {
+    const Stage stage = stageOf(path);
+    const std::string text = shaderText(path, info.defines, info.overrideFolder);
+    const char* source = text.c_str();
+    const GLuint shader = glCreateShader(stage.type);
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok == GL_TRUE) return shader;
+    std::string log(8192, '\0');
+    GLsizei length = 0;
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    glDeleteShader(shader);
+    fail("{} shader {} does not compile: {}", stage.name, path, oneLine(log));
+}
+
+}  // namespace
+
+std::string shaderText(const std::string& path, const ShaderDefines& defines, const std::filesystem::path& overrideFolder) {
+    std::set<std::string> including;
+    std::string text = "#version 450 core\n";
+    for (const auto& [name, value] : defines) text += fmt::format("#define {} {}\n", name, value);
+    return text + "#line 1\n" + expanded(path, overrideFolder, including);
+}
+
+Program::Program(const ProgramInfo& info) : handle_(glCreateProgram()) {
+    std::string names;
+    for (const std::string& path : info.shaders) {
+        const GLuint shader = compiled(path, info);
+        glAttachShader(name(), shader);
+        glDeleteShader(shader);  // lives as long as the program holds it
+        names += (names.empty() ? "" : ", ") + path;
+    }
+    glLinkProgram(name());
+    GLint ok = 0;
+    glGetProgramiv(name(), GL_LINK_STATUS, &ok);
+    if (ok == GL_TRUE) return;
+    std::string log(8192, '\0');
+    GLsizei length = 0;
+    glGetProgramInfoLog(name(), static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    fail("shaders {} do not link: {}", names, oneLine(log));
+}
+
+bool vertexShaderMayPickLayer() {
+    return epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array") ||
+           epoxy_has_gl_extension("GL_AMD_vertex_shader_layer");
+}
+
+}  // namespace defocus

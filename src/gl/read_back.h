@@ -1,0 +1,12 @@
+#pragma once
+// Texture → Image. The one place where OpenGL's bottom-up rows become top-down.
+
+#include "gl/texture.h"
+#include "image/image.h"
+
+namespace defocus {
+
+// Layer 0 of a float or normalised texture with `channels` (1, 3 or 4) channels as floats.
+Image readBack(const GlTexture& texture, int channels);
+
+}  // namespace defocus

@@ -1,0 +1,47 @@
+#include "gl/target.h"
+
+#include <array>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+const char* inWords(GLenum status) {
+    switch (status) {
+        case GL_FRAMEBUFFER_UNSUPPORTED: return "the driver does not render to this combination of formats";
+        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT: return "an attachment cannot be rendered to";
+        case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS: return "the attachments differ in their layers";
+        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT: return "it has no attachment";
+        default: return "it is incomplete";
+    }
+}
+
+}  // namespace
+
+Target::Target(std::initializer_list<const GlTexture*> colors, const GlTexture* depth) {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    handle_ = GlHandle<destroyFramebuffer>(name);
+    std::array<GLenum, 8> drawBuffers{};
+    GLsizei count = 0;
+    for (const GlTexture* color : colors) {
+        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(count);
+        glNamedFramebufferTexture(name, attachment, color->name(), 0);
+        drawBuffers[static_cast<std::size_t>(count++)] = attachment;
+        width_ = color->info().width;
+        height_ = color->info().height;
+    }
+    glNamedFramebufferDrawBuffers(name, count, drawBuffers.data());
+    if (depth != nullptr) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+    const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) fail("render target of {} x {} px: {}", width_, height_, inWords(status));
+}
+
+void Target::bind() const {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name());
+    glViewport(0, 0, width_, height_);
+}
+
+}  // namespace defocus

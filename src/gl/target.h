@@ -1,0 +1,27 @@
+#pragma once
+// A framebuffer over textures that it doesn't own: colour attachments in order and an optional depth texture. Array textures
+// are attached with all their layers (gl_Layer picks one).
+
+#include <initializer_list>
+
+#include "gl/texture.h"
+
+namespace defocus {
+
+class Target {
+public:
+    Target() = default;
+    // Throws Error in words when the driver can't render to this combination.
+    Target(std::initializer_list<const GlTexture*> colors, const GlTexture* depth = nullptr);
+
+    // Makes it current with its whole area as viewport.
+    void bind() const;
+    [[nodiscard]] GLuint name() const { return handle_.name(); }
+
+private:
+    GlHandle<destroyFramebuffer> handle_;
+    int width_ = 0;
+    int height_ = 0;
+};
+
+}  // namespace defocus

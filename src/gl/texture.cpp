@@ -1,0 +1,84 @@
+#include "gl/texture.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+struct FormatRow {
+    GLenum internal;
+    GLenum upload;
+    GLenum type;
+    std::size_t bytes;
+};
+
+FormatRow row(TextureFormat format) {
+    switch (format) {
+        case TextureFormat::r32f: return {GL_R32F, GL_RED, GL_FLOAT, 4};
+        case TextureFormat::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+        case TextureFormat::rgba16f: return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 8};
+        case TextureFormat::rgba8: return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+        case TextureFormat::srgb8Alpha8: return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+        case TextureFormat::r32ui: return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+        case TextureFormat::depth32f: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+    }
+    return {};
+}
+
+}  // namespace
+
+GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    if (info.width > limit || info.height > limit)
+        fail("{} x {} px is beyond this driver's largest texture of {} px a side", info.width, info.height, limit);
+    GLuint name = 0;
+    glCreateTextures(info.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
+    handle_ = GlHandle<destroyTexture>(name);
+    while (glGetError() != GL_NO_ERROR) {}
+    const GLenum format = row(info.format).internal;
+    if (info.layers > 0)
+        glTextureStorage3D(name, info.levels, format, info.width, info.height, info.layers);
+    else
+        glTextureStorage2D(name, info.levels, format, info.width, info.height);
+    if (glGetError() != GL_NO_ERROR)
+        fail("graphics memory: a texture of {} x {} px and {} layers cannot be had; choose a smaller size or wave",
+             info.width, info.height, std::max(info.layers, 1));
+    sampling(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+}
+
+void GlTexture::upload(int level, int width, int height, const void* pixels) {
+    const FormatRow format = row(info_.format);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(name(), level, 0, 0, width, height, format.upload, format.type, pixels);
+}
+
+void GlTexture::generateMipmaps() { glGenerateTextureMipmap(name()); }
+
+void GlTexture::sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenum wrapT) {
+    glTextureParameteri(name(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minFilter));
+    glTextureParameteri(name(), GL_TEXTURE_MAG_FILTER, static_cast<GLint>(magFilter));
+    glTextureParameteri(name(), GL_TEXTURE_WRAP_S, static_cast<GLint>(wrapS));
+    glTextureParameteri(name(), GL_TEXTURE_WRAP_T, static_cast<GLint>(wrapT));
+}
+
+std::size_t GlTexture::bytes() const {
+    if (!handle_) return 0;
+    std::size_t pixels = 0;
+    for (int level = 0; level < info_.levels; ++level)
+        pixels += static_cast<std::size_t>(std::max(info_.width >> level, 1)) *
+                  static_cast<std::size_t>(std::max(info_.height >> level, 1));
+    return pixels * static_cast<std::size_t>(std::max(info_.layers, 1)) * pixelBytes(info_.format);
+}
+
+int mipmapLevels(int width, int height) {
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max({width, height, 1}))));
+}
+
+std::size_t pixelBytes(TextureFormat format) { return row(format).bytes; }
+
+}  // namespace defocus

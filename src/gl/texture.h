@@ -1,0 +1,51 @@
+#pragma once
+// An immutable GL texture (2D, or an array of layers), move-only.
+
+#include <cstddef>
+
+#include "gl/handle.h"
+
+namespace defocus {
+
+enum class TextureFormat {
+    r32f, rgba32f, rgba16f, rgba8, srgb8Alpha8,
+    r32ui,  // integer: 32 packed bits
+    depth32f,
+};
+
+struct TextureInfo {
+    TextureFormat format = TextureFormat::rgba32f;
+    int width = 1;
+    int height = 1;
+    int layers = 0;   // 0: a 2D texture; ≥ 1: a 2D array
+    int levels = 1;   // mipmap levels
+};
+
+class GlTexture {
+public:
+    GlTexture() = default;
+    // Throws Error when the size is beyond the driver's limits or memory.
+    explicit GlTexture(const TextureInfo& info);
+
+    // Level `level` from tightly packed pixels: bytes (rgba8, srgb8Alpha8) or floats of the format's channels.
+    void upload(int level, int width, int height, const void* pixels);
+    void generateMipmaps();
+    void sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenum wrapT);
+    void attach(GLuint unit) const { glBindTextureUnit(unit, handle_.name()); }
+
+    [[nodiscard]] GLuint name() const { return handle_.name(); }
+    [[nodiscard]] const TextureInfo& info() const { return info_; }
+    [[nodiscard]] std::size_t bytes() const;
+    explicit operator bool() const { return static_cast<bool>(handle_); }
+
+private:
+    GlHandle<destroyTexture> handle_;
+    TextureInfo info_;
+};
+
+// Mipmap levels of a full chain.
+int mipmapLevels(int width, int height);
+// Bytes a pixel.
+std::size_t pixelBytes(TextureFormat format);
+
+}  // namespace defocus

@@ -1,0 +1,212 @@
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/parallel.h"
+#include "image/image_io.h"
+#include "image/oiio_names.h"
+#include "image/png_structure.h"
+
+namespace defocus {
+
+namespace {
+
+// 268 million pixels: a 16384 × 16384 texture. More is a damaged header or more than a float image should take.
+constexpr std::uint64_t maximumPixels = 1ull << 28;
+
+struct Format {
+    std::string_view magic;
+    const char* name;  // OpenImageIO's
+};
+constexpr std::array<Format, 7> formats = {{
+    {"\x89PNG\r\n\x1a\n", "png"},
+    {"\xff\xd8\xff", "jpeg"},
+    {"\x76\x2f\x31\x01", "openexr"},
+    {"#?RADIANCE", "hdr"},
+    {"#?RGBE", "hdr"},
+    {std::string_view("II*\0", 4), "tiff"},
+    {std::string_view("MM\0*", 4), "tiff"},
+}};
+
+std::optional<std::string_view> formatOf(std::span<const std::byte> encoded) {
+    for (const Format& format : formats)
+        if (encoded.size() >= format.magic.size() &&
+            std::memcmp(encoded.data(), format.magic.data(), format.magic.size()) == 0)
+            return format.name;
+    return std::nullopt;
+}
+
+// A reader and what it reads from, which must outlive it.
+struct OpenImage {
+    std::vector<unsigned char> bytes;
+    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
+    std::unique_ptr<OIIO::ImageInput> input;
+    OIIO::ImageSpec spec;
+};
+
+OpenImage openImage(std::span<const std::byte> encoded, std::string_view format, const std::string& name) {
+    OpenImage image;
+    if (format == "png") {
+        image.bytes = checkedPng(encoded, name);
+    } else {
+        const auto* first = reinterpret_cast<const unsigned char*>(encoded.data());
+        image.bytes.assign(first, first + encoded.size());
+    }
+    image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(image.bytes.data(), image.bytes.size());
+    image.input = OIIO::ImageInput::create(std::string(format), false, nullptr, image.memory.get());
+    if (!image.input) fail("{}: cannot be read: {}", name, firstLine(OIIO::geterror()));
+
+    // Alpha as the file has it: OpenImageIO would premultiply encoded values.
+    OIIO::ImageSpec hints;
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+    image.input->set_ioproxy(image.memory.get());
+    if (!image.input->open("image", image.spec, hints))
+        fail("{}: cannot be read: {}", name, firstLine(image.input->geterror()));
+    const OIIO::ImageSpec& spec = image.spec;
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail("{}: cannot be read: it has no pixels", name);
+    if (spec.deep) fail("{}: deep images cannot be read", name);
+    if (std::uint64_t(spec.width) * std::uint64_t(spec.height) > maximumPixels)
+        fail("{}: {}x{} pixels are more than the {} million that can be read", name, spec.width, spec.height,
+             maximumPixels / 1000000);
+    return image;
+}
+
+// Which channels of a file become grey, RGB or RGBA, in this order.
+std::vector<int> colourChannels(const OIIO::ImageSpec& spec, const std::string& name) {
+    const auto named = [&](std::string_view channel) {
+        const auto found = std::ranges::find(spec.channelnames, channel);
+        return found == spec.channelnames.end() ? -1 : static_cast<int>(found - spec.channelnames.begin());
+    };
+    std::vector<int> channels = {named("R"), named("G"), named("B")};
+    if (std::ranges::find(channels, -1) != channels.end()) {
+        if (spec.nchannels == 1) return {0};
+        if (spec.nchannels == 2 && spec.alpha_channel == 1) return {0, 0, 0, 1};
+        if (spec.nchannels != 3 && spec.nchannels != 4)
+            fail("{}: has {} channels, none of them named R, G and B", name, spec.nchannels);
+        channels = {0, 1, 2};
+    }
+    if (spec.alpha_channel >= 0) channels.push_back(spec.alpha_channel);
+    return channels;
+}
+
+// The chosen channels of all pixels, one after the other.
+template <typename T>
+std::vector<T> readChannels(OpenImage& image, const std::vector<int>& channels, const std::string& name) {
+    const int first = *std::ranges::min_element(channels);
+    const int end = *std::ranges::max_element(channels) + 1;
+    const std::size_t stride = static_cast<std::size_t>(end - first);
+    const std::size_t pixels = std::size_t(image.spec.width) * std::size_t(image.spec.height);
+    std::vector<T> read(pixels * stride);
+    const bool complete =
+        image.input->read_image(0, 0, first, end, OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value), read.data());
+    // libjpeg fills up what is missing and only warns.
+    const std::string message = image.input->geterror();
+    if (!complete || message.find("Premature end") != std::string::npos)
+        fail("{}: cannot be read: {}", name, firstLine(message));
+
+    bool allInOrder = channels.size() == stride;
+    for (std::size_t c = 0; c < channels.size(); ++c) allInOrder = allInOrder && channels[c] == first + int(c);
+    if (allInOrder) return read;
+    std::vector<T> chosen(pixels * channels.size());
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            chosen[i * channels.size() + c] = read[i * stride + std::size_t(channels[c] - first)];
+    return chosen;
+}
+
+bool isEncoded(const OIIO::ImageSpec& spec) {
+    return !spec.format.is_floating_point() &&
+           !OIIO::Strutil::iequals(spec.get_string_attribute("oiio:ColorSpace"), "linear");
+}
+
+// sRGB → linear, and straight → premultiplied alpha.
+void linearise(Image& image, bool encoded, bool straightAlpha) {
+    if (!encoded && !(straightAlpha && image.channels == 4)) return;
+    const int colours = std::min(image.channels, 3);
+    parallelFor(static_cast<std::size_t>(image.height), [&](std::size_t row) {
+        for (int x = 0; x < image.width; ++x) {
+            float* pixel = image.at(x, static_cast<int>(row));
+            const float coverage = straightAlpha && image.channels == 4 ? pixel[3] : 1.0f;
+            for (int c = 0; c < colours; ++c) pixel[c] = coverage * (encoded ? srgbDecode(pixel[c]) : pixel[c]);
+        }
+    });
+}
+
+std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
+    const OIIO::TypeDesc type = attribute.type();
+    if (type == OIIO::TypeString) return attribute.get_string();
+    if (type == OIIO::TypeInt) return attribute.get_int();
+    if (type == OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE)) return *static_cast<const double*>(attribute.data());
+    if (type == OIIO::TypeFloat)  // as the shortest decimal that is this float: 1.4, not 1.39999998
+        return std::stod(fmt::format("{}", attribute.get_float()));
+    if (type == OIIO::TypeMatrix) {
+        glm::mat4 matrix;
+        std::memcpy(&matrix, attribute.data(), sizeof matrix);
+        return matrix;
+    }
+    return std::nullopt;
+}
+
+Metadata metadataOf(const OIIO::ImageSpec& spec) {
+    Metadata metadata;
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+        const std::string_view name(attribute.name().c_str(), attribute.name().size());
+        if (name.starts_with("oiio:")) continue;
+        if (auto value = metadataValue(attribute)) metadata.emplace(exrNameOf(name), std::move(*value));
+    }
+    return metadata;
+}
+
+}  // namespace
+
+Image readImage(const std::filesystem::path& path, Metadata* metadata) {
+    // The whole file, and what it is.
+    const std::string name = path.string();
+    const std::vector<std::byte> encoded = readFile(path);
+    if (encoded.empty()) fail("{}: cannot be read: the file is empty", name);
+    const auto format = formatOf(encoded);
+    if (!format) fail("{}: not an image in a known format (PNG, JPEG, OpenEXR, Radiance HDR, TIFF)", name);
+
+    // Its pixels as floats.
+    OpenImage file = openImage(encoded, *format, name);
+    const std::vector<int> channels = colourChannels(file.spec, name);
+    Image image;
+    image.width = file.spec.width;
+    image.height = file.spec.height;
+    image.channels = static_cast<int>(channels.size());
+    image.pixels = readChannels<float>(file, channels, name);
+
+    // Linear and premultiplied.
+    linearise(image, isEncoded(file.spec), file.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0);
+    if (metadata != nullptr) *metadata = metadataOf(file.spec);
+    return image;
+}
+
+TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name) {
+    const auto format = formatOf(encoded);
+    if (format != "png" && format != "jpeg") fail("{}: neither a PNG nor a JPEG image", name);
+    OpenImage file = openImage(encoded, *format, name);
+    std::vector<int> channels = colourChannels(file.spec, name);
+    if (channels.size() == 1) channels.resize(3, channels[0]);
+    const std::vector<std::uint8_t> values = readChannels<std::uint8_t>(file, channels, name);
+
+    TextureImage texture{file.spec.width, file.spec.height, {}};
+    const std::size_t pixels = values.size() / channels.size();
+    texture.rgba.assign(pixels * 4, 255);
+    for (std::size_t i = 0; i < pixels; ++i)
+        std::copy_n(values.data() + i * channels.size(), channels.size(), texture.rgba.data() + i * 4);
+    return texture;
+}
+
+}  // namespace defocus

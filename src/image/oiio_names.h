@@ -1,0 +1,42 @@
+#pragma once
+// What reading and writing share about OpenImageIO: its names for EXR's standard attributes, and its messages as one
+// line.
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace defocus {
+
+// EXR attribute name and the one that OpenImageIO turns it into.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 8> oiioNames = {{
+    {"aperture", "FNumber"},
+    {"expTime", "ExposureTime"},
+    {"comments", "ImageDescription"},
+    {"owner", "Copyright"},
+    {"capDate", "DateTime"},
+    {"worldToCamera", "worldtocamera"},
+    {"worldToNDC", "worldtoscreen"},
+    {"pixelAspectRatio", "PixelAspectRatio"},
+}};
+
+inline std::string oiioNameOf(std::string_view exrName) {
+    for (const auto& [exr, oiio] : oiioNames)
+        if (exr == exrName) return std::string(oiio);
+    return std::string(exrName);
+}
+
+inline std::string exrNameOf(std::string_view oiioName) {
+    for (const auto& [exr, oiio] : oiioNames)
+        if (oiio == oiioName) return std::string(exr);
+    return std::string(oiioName);
+}
+
+// The first line of a library's message, which names the cause; the rest repeats it in other words.
+inline std::string firstLine(const std::string& message) {
+    const std::string line = message.substr(0, message.find('\n'));
+    return line.empty() ? "no reason given" : line;
+}
+
+}  // namespace defocus

@@ -1,0 +1,78 @@
+#pragma once
+// One-dimensional filters along the rows and the columns of a one-channel plane; the image's edge pixels are repeated
+// outside. Loops run over contiguous memory so that the compiler vectorises them; rows are spread over the cores.
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "core/parallel.h"
+
+namespace defocus {
+
+template <typename T>
+struct Plane {
+    int width = 0;
+    int height = 0;
+    std::vector<T> values;  // width · height, row 0 first
+
+    Plane(int planeWidth, int planeHeight)
+        : width(planeWidth),
+          height(planeHeight),
+          values(static_cast<std::size_t>(planeWidth) * static_cast<std::size_t>(planeHeight)) {}
+    [[nodiscard]] T* row(int y) {
+        return values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+    }
+    [[nodiscard]] const T* row(int y) const {
+        return values.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+    }
+};
+
+// An odd number of weights, the middle one at offset 0.
+template <typename T>
+using Kernel = std::vector<T>;
+
+// body(y) for every row, on all cores.
+template <typename Body>
+void forEachRow(int height, const Body& body) {
+    parallelFor(static_cast<std::size_t>(height), [&](std::size_t y) { body(static_cast<int>(y)); });
+}
+
+// out(x, y) = Σ kernel[i] · in(x + i − radius, y)
+template <typename T>
+Plane<T> filteredAlongRows(const Plane<T>& in, const Kernel<T>& kernel) {
+    const int radius = static_cast<int>(kernel.size() / 2);
+    Plane<T> out(in.width, in.height);
+    forEachRow(in.height, [&](int y) {
+        const T* source = in.row(y);
+        std::vector<T> padded(static_cast<std::size_t>(in.width + 2 * radius));
+        std::fill_n(padded.begin(), radius, source[0]);
+        std::copy_n(source, in.width, padded.begin() + radius);
+        std::fill_n(padded.end() - radius, radius, source[in.width - 1]);
+        T* target = out.row(y);
+        for (std::size_t i = 0; i < kernel.size(); ++i) {
+            const T weight = kernel[i];
+            const T* shifted = padded.data() + i;
+            for (int x = 0; x < in.width; ++x) target[x] += weight * shifted[x];
+        }
+    });
+    return out;
+}
+
+// out(x, y) = Σ kernel[i] · in(x, y + i − radius)
+template <typename T>
+Plane<T> filteredAlongColumns(const Plane<T>& in, const Kernel<T>& kernel) {
+    const int radius = static_cast<int>(kernel.size() / 2);
+    Plane<T> out(in.width, in.height);
+    forEachRow(in.height, [&](int y) {
+        T* target = out.row(y);
+        for (int i = 0; i < static_cast<int>(kernel.size()); ++i) {
+            const T weight = kernel[static_cast<std::size_t>(i)];
+            const T* source = in.row(std::clamp(y + i - radius, 0, in.height - 1));
+            for (int x = 0; x < in.width; ++x) target[x] += weight * source[x];
+        }
+    });
+    return out;
+}
+
+}  // namespace defocus

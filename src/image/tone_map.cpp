@@ -1,0 +1,126 @@
+// sRGB: IEC 61966-2-1.
+// ACES: Stephen Hill's fit of the reference rendering and output transforms (RRT, ODT for Rec.709), published in MJP's
+// BakingLab; the input matrix goes from sRGB to the RRT's saturated AP1, the output matrix from the ODT's back to sRGB.
+// AgX: Troy Sobotka's picture formation; matrices and polynomial for the base look by Benjamin Wrensch, "Minimal AgX
+// Implementation", 2023. Its result is encoded for a display of power 2.2.
+
+#include "image/tone_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace defocus {
+
+namespace {
+
+// Beyond this every curve is flat, and squares are still finite.
+constexpr float brightest = 1e6f;
+
+constexpr std::array<std::pair<std::string_view, ToneMap>, 3> names = {
+    {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}}};
+
+// [0, brightest], NaN to 0 (the comparison is false for NaN).
+float finite(float value) {
+    return value > 0 ? std::min(value, brightest) : 0.0f;
+}
+
+glm::vec3 srgbEncoded(const glm::vec3& linear) {
+    return {srgbEncode(linear.r), srgbEncode(linear.g), srgbEncode(linear.b)};
+}
+
+glm::vec3 acesEncoded(const glm::vec3& linear) {
+    const glm::mat3 input(0.59719f, 0.07600f, 0.02840f, 0.35458f, 0.90834f, 0.13383f, 0.04823f, 0.01566f, 0.83777f);
+    const glm::mat3 output(1.60475f, -0.10208f, -0.00327f, -0.53108f, 1.10813f, -0.07276f, -0.07367f, -0.00605f,
+                           1.07602f);
+    const glm::vec3 v = input * linear;
+    const glm::vec3 fitted = (v * (v + 0.0245786f) - 0.000090537f) / (v * (0.983729f * v + 0.4329510f) + 0.238081f);
+    return srgbEncoded(output * fitted);
+}
+
+// The sigmoid of AgX's base look over normalised log2 exposure, as a polynomial of degree 6.
+float agxContrast(float x) {
+    return ((((((15.5f * x - 40.14f) * x + 31.96f) * x - 6.868f) * x + 0.4298f) * x + 0.1191f) * x) - 0.00232f;
+}
+
+glm::vec3 agxEncoded(const glm::vec3& linear) {
+    constexpr float darkest = -12.47393f;  // EV, log2 of the linear value
+    constexpr float lightest = 4.026069f;
+    const glm::mat3 inset(0.842479062253094f, 0.0423282422610123f, 0.0423756549057051f, 0.0784335999999992f,
+                          0.878468636469772f, 0.0784336f, 0.0792237451477643f, 0.0791661274605434f, 0.879142973793104f);
+    const glm::mat3 outset(1.19687900512017f, -0.0528968517574562f, -0.0529716355144438f, -0.0980208811401368f,
+                           1.15190312990417f, -0.0980434501171241f, -0.0990297440797205f, -0.0989611768448433f,
+                           1.15107367264116f);
+    glm::vec3 v = inset * linear;
+    for (int c = 0; c < 3; ++c) {
+        const float exposure = std::log2(std::max(v[c], 1e-10f));
+        v[c] = agxContrast(std::clamp((exposure - darkest) / (lightest - darkest), 0.0f, 1.0f));
+    }
+    v = outset * v;
+    for (int c = 0; c < 3; ++c) v[c] = std::clamp(v[c], 0.0f, 1.0f);
+    return v;
+}
+
+glm::vec3 encoded(const glm::vec3& linear, ToneMap toneMap) {
+    switch (toneMap) {
+        case ToneMap::aces:
+            return acesEncoded(linear);
+        case ToneMap::agx:
+            return agxEncoded(linear);
+        case ToneMap::none:
+            break;
+    }
+    return srgbEncoded(linear);
+}
+
+}  // namespace
+
+ToneMap toneMapNamed(std::string_view name) {
+    for (const auto& [known, toneMap] : names)
+        if (name == known) return toneMap;
+    fail("unknown tone map \"{}\"; use none, aces or agx", name);
+}
+
+float srgbEncode(float linear) {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return 1;
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+float srgbDecode(float encoded) {
+    if (!(encoded > 0)) return 0;
+    if (encoded >= 1) return 1;
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+Image displayEncoded(const Image& linear, ToneMap toneMap, double exposure) {
+    Image display(linear.width, linear.height, linear.channels);
+    const auto gain = static_cast<float>(std::exp2(exposure));
+    const bool grey = linear.channels < 3;
+    parallelFor(static_cast<std::size_t>(linear.height), [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < linear.width; ++x) {
+            const float* in = linear.at(x, y);
+            float* out = display.at(x, y);
+            if (grey) {
+                // The curves keep greys grey up to their matrices' rounding; green carries most of the luminance.
+                out[0] = encoded(glm::vec3(finite(gain * in[0])), toneMap).g;
+                continue;
+            }
+            const glm::vec3 colour =
+                encoded({finite(gain * in[0]), finite(gain * in[1]), finite(gain * in[2])}, toneMap);
+            for (int c = 0; c < 3; ++c) out[c] = colour[c];
+            if (linear.channels == 4) out[3] = std::min(finite(in[3]), 1.0f);
+        }
+    });
+    return display;
+}
+
+}  // namespace defocus

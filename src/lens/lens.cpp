@@ -1,0 +1,76 @@
+// Jeong, Kim, Lee 2011, Multi-Resolution Depth-of-Field Rendering; Munkberg, Toth, Akenine-Möller 2012, Per-Vertex Defocus
+// Blur for Stochastic Rasterization (C with the opposite sign).
+
+#include "lens/lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double millimetre = 1e-3;
+
+void requirePositive(double value, const char* name, const char* unit) {
+    if (!(value > 0) || !std::isfinite(value)) fail("lens: {} must be a finite number above 0{}, not {}", name, unit, value);
+}
+
+// Distance from the lens to the sensor, mm: the focal length, or the image distance f·s/(s − f) of the thin lens.
+double imageDistance(const Lens& lens) {
+    if (!lens.focusBreathing || std::isinf(lens.focusDistance)) return lens.focalLength;
+    const double f = lens.focalLength * millimetre;
+    return lens.focalLength * lens.focusDistance / (lens.focusDistance - f);
+}
+
+}  // namespace
+
+void checkLens(const Lens& lens) {
+    requirePositive(lens.focalLength, "the focal length", " mm");
+    requirePositive(lens.fStop, "the f-number", "");
+    requirePositive(lens.horizontalAperture, "the horizontal aperture (sensor width)", " mm");
+    requirePositive(lens.anamorphicRatio, "the anamorphic ratio", "");
+    if (!(lens.focusDistance > 0)) fail("lens: the focus distance must be above 0 m, not {}", lens.focusDistance);
+    if (!(lens.blurScale >= 0) || !std::isfinite(lens.blurScale))
+        fail("lens: the blur scale must be a finite number of 0 or more, not {}", lens.blurScale);
+    if (!std::isfinite(lens.bladeRotation)) fail("lens: the blade rotation must be finite, not {}", lens.bladeRotation);
+    if (lens.bladeCount != 0 && (lens.bladeCount < 3 || lens.bladeCount > 64))
+        fail("lens: the blade count must be 0 (a disk) or 3 to 64, not {}", lens.bladeCount);
+    if (lens.focusBreathing && lens.focusDistance <= lens.focalLength * millimetre)
+        fail("lens: with focus breathing the focus distance ({} m) must be beyond the focal length ({} mm)", lens.focusDistance,
+             lens.focalLength);
+}
+
+double tanHalfHorizontalFov(const Lens& lens) { return lens.horizontalAperture / (2 * imageDistance(lens)); }
+
+double apertureDiameter(const Lens& lens) {
+    return lens.dofEnabled ? lens.blurScale * lens.focalLength * millimetre / lens.fStop : 0;
+}
+
+double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture) {
+    return horizontalAperture / (2 * tanHalfHorizontal);
+}
+
+ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens) {
+    const double a = -0.5 * apertureDiameter(lens) / tanHalfHorizontalFov(lens);
+    return {a, std::isinf(lens.focusDistance) ? 0 : -a / lens.focusDistance};
+}
+
+double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width) {
+    return std::isinf(z) ? coc.b * width : (coc.a / z + coc.b) * width;
+}
+
+CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, double zNear, double zFar, int width) {
+    CocRange range;
+    range.nearest = circleOfConfusion(coc, zNear, width);
+    range.farthest = circleOfConfusion(coc, zFar, width);
+    const bool straddles = range.nearest <= 0 && range.farthest >= 0;
+    range.smallest = straddles ? 0 : std::min(std::abs(range.nearest), std::abs(range.farthest));
+    range.largest = std::max(std::abs(range.nearest), std::abs(range.farthest));
+    return range;
+}
+
+}  // namespace defocus

@@ -1,0 +1,276 @@
+// Cutting non-manifold surfaces: after Guéziec, Taubin, Lazarus and Horn 2001, Cutting and Stitching: Converting Sets
+// of Polygons to Manifold Surfaces.
+
+#include "lod/manifold.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+namespace defocus {
+
+namespace {
+
+constexpr std::uint32_t none = Manifold::none;
+// Beyond this many faces at one edge nothing continues anything: all are cut apart, in time linear in their number.
+constexpr std::size_t mostFacesToPair = 32;
+
+std::uint32_t nextCorner(std::uint32_t corner) {
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+std::uint32_t previousCorner(std::uint32_t corner) {
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
+
+// What is known while the surface is put together; faces are those that were kept, corners and half-edges are 3·face +
+// i.
+struct Surface {
+    const std::vector<glm::dvec3>& points;
+    std::vector<std::uint32_t> at;          // welded position of each corner
+    std::vector<std::uint32_t> primitives;  // of each face
+    std::vector<std::uint8_t> turned;
+    std::vector<std::uint8_t> repaired;  // for each face
+    std::vector<std::uint32_t> twins;
+
+    [[nodiscard]] std::size_t faceCount() const { return primitives.size(); }
+    [[nodiscard]] std::uint32_t start(std::uint32_t edge) const { return at[edge]; }
+    [[nodiscard]] std::uint32_t end(std::uint32_t edge) const { return at[nextCorner(edge)]; }
+    // Which way the edge is run through once its face has been turned or not.
+    [[nodiscard]] bool forward(std::uint32_t edge) const {
+        return (start(edge) < end(edge)) != (turned[edge / 3] != 0);
+    }
+};
+
+// The faces that are neither degenerate nor repetitions, in input order.
+std::vector<std::uint32_t> properFaces(const Triangles& triangles) {
+    struct Key {
+        std::array<std::uint32_t, 4> value;  // smallest position first, then in winding order, then the primitive
+        std::uint32_t face;
+    };
+    std::vector<Key> keys;
+    keys.reserve(triangles.primitives.size());
+    for (std::uint32_t f = 0; f < triangles.primitives.size(); ++f) {
+        const std::uint32_t* p = &triangles.positions[3 * std::size_t{f}];
+        if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
+        const std::size_t least = static_cast<std::size_t>(std::min_element(p, p + 3) - p);
+        keys.push_back({{p[least], p[(least + 1) % 3], p[(least + 2) % 3], triangles.primitives[f]}, f});
+    }
+
+    // Bucket by the smallest position (stable, so the first of equal faces stays first); the buckets are short.
+    const std::uint32_t positionCount =
+        keys.empty() ? 0 : 1 + *std::max_element(triangles.positions.begin(), triangles.positions.end());
+    std::vector<std::uint32_t> first(positionCount + std::size_t{1}, 0);
+    for (const Key& key : keys) ++first[key.value[0] + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Key> sorted(keys.size());
+    for (std::vector<std::uint32_t> next = first; const Key& key : keys) sorted[next[key.value[0]]++] = key;
+
+    std::vector<std::uint32_t> faces;
+    faces.reserve(keys.size());
+    for (std::uint32_t p = 0; p < positionCount; ++p) {
+        const auto begin = sorted.begin() + first[p];
+        const auto end = sorted.begin() + first[p + 1];
+        std::sort(begin, end,
+                  [](const Key& a, const Key& b) { return a.value != b.value ? a.value < b.value : a.face < b.face; });
+        for (auto key = begin; key != end; ++key)
+            if (key == begin || key->value != (key - 1)->value) faces.push_back(key->face);
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+// The half-edges grouped by the pair of positions that they join: group g is order[starts[g]] … order[starts[g + 1] −
+// 1].
+struct EdgeGroups {
+    std::vector<std::uint32_t> order;
+    std::vector<std::uint32_t> starts;
+};
+
+EdgeGroups groupEdges(const Surface& surface) {
+    const auto edgeCount = static_cast<std::uint32_t>(surface.at.size());
+    const auto low = [&](std::uint32_t e) { return std::min(surface.start(e), surface.end(e)); };
+    const auto high = [&](std::uint32_t e) { return std::max(surface.start(e), surface.end(e)); };
+
+    // Bucket by the lower position, then sort the few edges of each bucket by the higher one.
+    std::vector<std::uint32_t> first(surface.points.size() + 1, 0);
+    for (std::uint32_t e = 0; e < edgeCount; ++e) ++first[low(e) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    EdgeGroups groups;
+    groups.order.resize(edgeCount);
+    std::vector<std::uint32_t> next = first;
+    for (std::uint32_t e = 0; e < edgeCount; ++e) groups.order[next[low(e)]++] = e;
+    for (std::size_t p = 0; p + 1 < first.size(); ++p)
+        std::sort(groups.order.begin() + first[p], groups.order.begin() + first[p + 1],
+                  [&](std::uint32_t a, std::uint32_t b) { return high(a) != high(b) ? high(a) < high(b) : a < b; });
+
+    for (std::uint32_t i = 0; i < edgeCount; ++i) {
+        const std::uint32_t e = groups.order[i];
+        if (i == 0 || low(groups.order[i - 1]) != low(e) || high(groups.order[i - 1]) != high(e))
+            groups.starts.push_back(i);
+    }
+    groups.starts.push_back(edgeCount);
+    return groups;
+}
+
+// Turns the minority of each component's faces so that neighbours across edges of two faces agree, where they can (a
+// Möbius band stays cut at one edge).
+void orient(Surface& surface, const EdgeGroups& groups) {
+    std::vector<std::uint32_t> across(surface.at.size(), none);
+    for (std::size_t g = 0; g + 1 < groups.starts.size(); ++g) {
+        if (groups.starts[g + 1] - groups.starts[g] != 2) continue;
+        const std::uint32_t a = groups.order[groups.starts[g]];
+        const std::uint32_t b = groups.order[groups.starts[g] + 1];
+        across[a] = b;
+        across[b] = a;
+    }
+
+    std::vector<std::uint8_t> reached(surface.faceCount(), 0);
+    std::vector<std::uint32_t> component;
+    for (std::uint32_t seed = 0; seed < surface.faceCount(); ++seed) {
+        if (reached[seed] != 0) continue;
+        reached[seed] = 1;
+        component.assign(1, seed);
+        std::size_t turnedCount = 0;
+        for (std::size_t i = 0; i < component.size(); ++i) {
+            for (std::uint32_t e = 3 * component[i]; e < 3 * component[i] + 3; ++e) {
+                if (across[e] == none || reached[across[e] / 3] != 0) continue;
+                const std::uint32_t neighbour = across[e] / 3;
+                reached[neighbour] = 1;
+                if (surface.forward(e) == surface.forward(across[e])) {
+                    surface.turned[neighbour] = 1;
+                    ++turnedCount;
+                }
+                component.push_back(neighbour);
+            }
+        }
+        const bool turnOthers = 2 * turnedCount > component.size();
+        for (const std::uint32_t face : component) {
+            if (turnOthers) surface.turned[face] ^= 1;
+            surface.repaired[face] |= surface.turned[face];
+        }
+    }
+}
+
+glm::dvec3 faceNormal(const Surface& surface, std::uint32_t face) {
+    const glm::dvec3& a = surface.points[surface.at[3 * face]];
+    glm::dvec3 normal =
+        glm::cross(surface.points[surface.at[3 * face + 1]] - a, surface.points[surface.at[3 * face + 2]] - a);
+    if (surface.turned[face] != 0) normal = -normal;
+    const double length = glm::length(normal);
+    return length > 0 ? normal / length : glm::dvec3(0);
+}
+
+// Pairs the half-edges at one edge: same primitive before flatter before earlier. A face and its reverse (a sheet with
+// two faces) only close onto each other where nothing else continues them.
+void pairEdges(Surface& surface, const std::uint32_t* edges, std::size_t count) {
+    struct Candidate {
+        double score;
+        std::uint32_t forward, backward;
+    };
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < count && count <= mostFacesToPair; ++i) {
+        if (!surface.forward(edges[i])) continue;
+        const glm::dvec3 normal = faceNormal(surface, edges[i] / 3);
+        for (std::size_t j = 0; j < count; ++j) {
+            if (surface.forward(edges[j])) continue;
+            const std::uint32_t a = edges[i];
+            const std::uint32_t b = edges[j];
+            double score = glm::dot(normal, faceNormal(surface, b / 3));
+            if (surface.primitives[a / 3] == surface.primitives[b / 3]) score += 4;
+            if (surface.at[previousCorner(a)] == surface.at[previousCorner(b)]) score -= 16;
+            candidates.push_back({score, a, b});
+        }
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    for (const Candidate& candidate : candidates) {
+        if (surface.twins[candidate.forward] != none || surface.twins[candidate.backward] != none) continue;
+        surface.twins[candidate.forward] = candidate.backward;
+        surface.twins[candidate.backward] = candidate.forward;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        if (surface.twins[edges[i]] == none) surface.repaired[edges[i] / 3] = 1;
+}
+
+void pairAllEdges(Surface& surface, const EdgeGroups& groups) {
+    for (std::size_t g = 0; g + 1 < groups.starts.size(); ++g) {
+        const std::uint32_t* edges = &groups.order[groups.starts[g]];
+        const std::size_t count = groups.starts[g + 1] - groups.starts[g];
+        if (count == 1) continue;
+        if (count == 2 && surface.forward(edges[0]) != surface.forward(edges[1])) {
+            surface.twins[edges[0]] = edges[1];
+            surface.twins[edges[1]] = edges[0];
+        } else {
+            pairEdges(surface, edges, count);
+        }
+    }
+}
+
+// Numbers the fans: corners that are joined by paired edges are one vertex. Union-find, the smaller corner is the root.
+void numberVertices(Surface& surface, Manifold& manifold) {
+    std::vector<std::uint32_t> parent(surface.at.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t corner) {
+        while (parent[corner] != corner) corner = parent[corner] = parent[parent[corner]];
+        return corner;
+    };
+    for (std::uint32_t e = 0; e < surface.at.size(); ++e) {
+        const std::uint32_t twin = surface.twins[e];
+        if (twin == none || twin < e) continue;
+        for (const std::uint32_t mine : {e, nextCorner(e)}) {
+            const std::uint32_t theirs = surface.at[mine] == surface.at[twin] ? twin : nextCorner(twin);
+            const std::uint32_t a = root(mine);
+            const std::uint32_t b = root(theirs);
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    }
+
+    manifold.corners.resize(surface.at.size());
+    std::vector<std::uint8_t> taken(surface.points.size(), 0);  // positions that have a vertex already
+    std::vector<std::uint8_t> further;                          // for each vertex: not the first of its position
+    for (std::uint32_t corner = 0; corner < surface.at.size(); ++corner) {
+        const std::uint32_t fan = root(corner);
+        if (fan == corner) {
+            manifold.corners[corner] = static_cast<std::uint32_t>(manifold.positions.size());
+            manifold.positions.push_back(surface.at[corner]);
+            further.push_back(taken[surface.at[corner]]);
+            taken[surface.at[corner]] = 1;
+        }
+        manifold.corners[corner] = manifold.corners[fan];
+        surface.repaired[corner / 3] |= further[manifold.corners[corner]];
+    }
+}
+
+}  // namespace
+
+Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>& points) {
+    // Keep the faces that can be part of a surface.
+    Manifold manifold;
+    manifold.faces = properFaces(triangles);
+    const std::size_t count = manifold.faces.size();
+    Surface surface{points, {}, {}, {}, {}, {}};
+    surface.turned.assign(count, 0);
+    surface.repaired.assign(count, 0);
+    surface.twins.assign(3 * count, none);
+    for (const std::uint32_t face : manifold.faces) {
+        for (std::size_t i = 0; i < 3; ++i) surface.at.push_back(triangles.positions[3 * std::size_t{face} + i]);
+        surface.primitives.push_back(triangles.primitives[face]);
+    }
+
+    // Make neighbours agree, join them edge by edge, and give each fan its vertex.
+    const EdgeGroups groups = groupEdges(surface);
+    orient(surface, groups);
+    pairAllEdges(surface, groups);
+    numberVertices(surface, manifold);
+
+    manifold.turned = std::move(surface.turned);
+    manifold.twins = std::move(surface.twins);
+    manifold.repairedFaces = static_cast<std::uint32_t>(
+        triangles.primitives.size() - count +
+        static_cast<std::size_t>(std::count(surface.repaired.begin(), surface.repaired.end(), 1)));
+    return manifold;
+}
+
+}  // namespace defocus

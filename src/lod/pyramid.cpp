@@ -1,0 +1,177 @@
+#include "lod/pyramid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "lod/level_normals.h"
+#include "lod/level_order.h"
+#include "lod/simplify.h"
+#include "lod/weld.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double leastEdgeGrowth = 1.05;   // from level to level
+constexpr double leastErrorGrowth = 1.25;  // from level to level, from level 1 on
+constexpr double errorFloor = 1e-6;        // of the box's diagonal
+
+template <typename T>
+std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& order) {
+    std::vector<T> result;
+    if (values.empty()) return result;
+    result.reserve(order.size());
+    for (const std::uint32_t i : order) result.push_back(values[i]);
+    return result;
+}
+
+Vertices gathered(const Vertices& vertices, const std::vector<std::uint32_t>& order) {
+    Vertices result;
+    result.positions = gathered(vertices.positions, order);
+    result.normals = gathered(vertices.normals, order);
+    result.tangents = gathered(vertices.tangents, order);
+    result.uv0 = gathered(vertices.uv0, order);
+    result.uv1 = gathered(vertices.uv1, order);
+    result.colors = gathered(vertices.colors, order);
+    result.joints = gathered(vertices.joints, order);
+    result.weights = gathered(vertices.weights, order);
+    return result;
+}
+
+LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertexIds) {
+    LevelTriangles level;
+    for (const Primitive& primitive : mesh.primitives) {
+        const std::size_t count = primitive.indices.size() / 3 * 3;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t v = primitive.indices[i];
+            if (v >= vertexIds.size())
+                fail("mesh \"{}\": index {} is beyond its {} vertices", mesh.name, v, vertexIds.size());
+            level.indices.push_back(vertexIds[v]);
+        }
+        level.primitiveIndexCounts.push_back(static_cast<std::uint32_t>(count));
+    }
+    return level;
+}
+
+// Of finite positions: a box only picks among the coordinates, so single precision is exact.
+Bounds boundsOf(const std::vector<glm::vec3>& positions) {
+    Bounds bounds;
+    for (const glm::vec3& p : positions)
+        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) bounds.extend(glm::dvec3(p));
+    return bounds;
+}
+
+double meanEdge(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
+    double sum = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k)
+            sum +=
+                glm::distance(glm::dvec3(positions[indices[i + k]]), glm::dvec3(positions[indices[i + (k + 1) % 3]]));
+    const double mean = indices.empty() ? 0 : sum / static_cast<double>(indices.size());
+    return std::isfinite(mean) ? mean : 0;
+}
+
+// Appends a level's ranges and indices; `triangles` are in final vertex numbers.
+PyramidLevel appendLevel(Pyramid& pyramid, const LevelTriangles& triangles, std::uint32_t vertexCount) {
+    PyramidLevel level;
+    level.vertexCount = vertexCount;
+    level.triangleCount = static_cast<std::uint32_t>(triangles.indices.size() / 3);
+    auto first = static_cast<std::uint32_t>(pyramid.indices.size());
+    for (const std::uint32_t count : triangles.primitiveIndexCounts) {
+        level.primitives.push_back({first, count});
+        first += count;
+    }
+    pyramid.indices.insert(pyramid.indices.end(), triangles.indices.begin(), triangles.indices.end());
+    level.meanEdge = meanEdge(pyramid.vertices.positions, triangles.indices);
+    return level;
+}
+
+// Strictly growing, so that a level can be found for any target.
+void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
+    for (std::size_t l = 1; l < levels.size(); ++l) {
+        levels[l].meanEdge = std::max(levels[l].meanEdge, leastEdgeGrowth * levels[l - 1].meanEdge);
+        levels[l].error = std::max({levels[l].error, leastErrorGrowth * levels[l - 1].error, errorFloor * diagonal});
+    }
+}
+
+Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
+    // Join equal vertices; weld the positions of the rest.
+    const Welded unique = weldVertices(mesh);
+    Vertices vertices = gathered(mesh.vertices, unique.first);
+    const Welded positions = weldPositions(vertices.positions);
+    std::vector<LevelTriangles> triangles = {allTriangles(mesh, unique.id)};
+    if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, triangles.front().indices);
+
+    // Simplify.
+    Pyramid pyramid;
+    std::vector<double> errors = {0};
+    Simplification simplification;
+    if (options.mostLevels > 1)
+        simplification =
+            simplify(vertices, positions, triangles.front(), {options.leastTriangles, options.mostLevels - 1});
+    pyramid.repairedFaces = simplification.repairedFaces;
+    for (SimplifiedLevel& level : simplification.levels) {
+        triangles.push_back(std::move(level.triangles));
+        errors.push_back(level.error);
+    }
+
+    // Order triangles for the cache and vertices by survival.
+    for (LevelTriangles& level : triangles) optimizeTriangleOrder(level, vertices.count());
+    const SurvivalOrder order = sortBySurvival(triangles, positions);
+    pyramid.vertices = gathered(vertices, order.vertices);
+    pyramid.source = gathered(unique.first, order.vertices);
+    pyramid.bounds = boundsOf(pyramid.vertices.positions);
+
+    // Describe each level: ranges, sizes and its own normals.
+    const std::vector<std::uint32_t> groups =
+        smoothingGroups(pyramid.vertices.normals, gathered(positions.id, order.vertices));
+    for (std::size_t l = 0; l < triangles.size(); ++l) {
+        PyramidLevel level = appendLevel(pyramid, triangles[l], order.vertexCounts[l]);
+        level.error = errors[l];
+        level.normals = l == 0 ? pyramid.vertices.normals
+                               : levelNormals(pyramid.vertices.positions, pyramid.vertices.normals, groups,
+                                              triangles[l].indices, level.vertexCount);
+        pyramid.levels.push_back(std::move(level));
+    }
+    separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));
+    return pyramid;
+}
+
+}  // namespace
+
+Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options) {
+    return build(mesh, options);
+}
+
+std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options,
+                                   const Progress& progress) {
+    // The largest first, so that no core is left with a large one at the end.
+    std::vector<std::size_t> order(meshes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return meshes[a].triangleCount() > meshes[b].triangleCount();
+    });
+
+    std::vector<Pyramid> pyramids(meshes.size());
+    std::mutex mutex;
+    std::uint64_t done = 0;
+    parallelFor(meshes.size(), [&](std::size_t i) {
+        pyramids[order[i]] = build(meshes[order[i]], options);
+        const std::scoped_lock lock(mutex);
+        report(progress, "pyramids", ++done, meshes.size());
+    });
+    return pyramids;
+}
+
+Pyramid fullDetail(const Mesh& mesh) {
+    PyramidOptions options;
+    options.mostLevels = 1;
+    return build(mesh, options);
+}
+
+}  // namespace defocus

@@ -1,0 +1,191 @@
+// Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics; half-edge collapses over OpenMesh's
+// half-edges (Botsch, Steinberg, Bischoff and Kobbelt 2002). One pass with a lazy priority queue: the queue holds each
+// vertex's cheapest collapse by cost alone, and whether it is allowed is only looked at when it comes up.
+
+#include "lod/simplify.h"
+
+#include <algorithm>
+
+#include "lod/simplify_state.h"
+
+namespace defocus {
+
+namespace {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+// A poor collapse is made when good ones cost this much more.
+constexpr double poorPenalty = 10;
+// A further level must save a quarter of the triangles …
+constexpr double largestShare = 0.75;
+// … but leave this share of those that can still go: where many components are as small as they get, halving all would be at
+// the cost of the few large ones.
+constexpr double leastShareOfMovable = 0.25;
+
+void enqueue(Simplifier& s, std::uint32_t v, HalfedgeHandle edge, double cost, Fit fit) {
+    Candidate& candidate = s.candidates[v];
+    if (edge.is_valid() && candidate.edge == edge && candidate.cost == cost && candidate.fit == fit) return;
+    candidate = {edge, cost, fit, candidate.version + 1};
+    if (!edge.is_valid()) return;
+    s.queue.push_back({cost, v, candidate.version, fit == Fit::bad});
+    std::push_heap(s.queue.begin(), s.queue.end());
+}
+
+// Puts the vertex's cheapest collapse into the queue, unseen whether it is a good one.
+void enqueueCheapest(Simplifier& s, std::uint32_t v) {
+    HalfedgeHandle cheapest;
+    double least = std::numeric_limits<double>::infinity();
+    forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) {
+        if (const double cost = collapseCost(s, edge); cost < least) {
+            least = cost;
+            cheapest = edge;
+        }
+    });
+    enqueue(s, v, cheapest, least, Fit::good);
+}
+
+// Puts the vertex's best collapse into the queue, all of them judged; nothing if none is possible.
+void enqueueBest(Simplifier& s, std::uint32_t v) {
+    HalfedgeHandle best;
+    Fit bestFit = Fit::impossible;
+    double least = std::numeric_limits<double>::infinity();
+    forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) {
+        const Fit fit = judgeCollapse(s, edge);
+        if (fit == Fit::impossible || (fit == Fit::bad && bestFit < Fit::bad)) return;
+        const double cost = collapseCost(s, edge) * (fit == Fit::poor ? poorPenalty : 1);
+        if (!(cost < least) && (fit == Fit::bad || bestFit < Fit::bad)) return;
+        best = edge;
+        bestFit = fit;
+        least = cost;
+    });
+    enqueue(s, v, best, least, bestFit);
+}
+
+void fillQueue(Simplifier& s) {
+    s.queue.clear();
+    for (std::uint32_t v = 0; v < s.points.size(); ++v) {
+        if (s.mesh.status(vertexHandle(v)).deleted()) continue;
+        s.candidates[v].edge.invalidate();
+        enqueueCheapest(s, v);
+    }
+}
+
+// The neighbours of the survivor: only the way to it has a new cost, unless the cheapest way led there or was refused.
+void requeueAround(Simplifier& s, VertexHandle survivor) {
+    enqueueCheapest(s, index(survivor));
+    forEachOutgoing(s.mesh, survivor, [&](HalfedgeHandle edge) {
+        const std::uint32_t v = index(s.mesh.to_vertex_handle(edge));
+        const HalfedgeHandle back = s.mesh.opposite_halfedge_handle(edge);
+        const Candidate& candidate = s.candidates[v];
+        const bool known = candidate.edge.is_valid() && candidate.fit == Fit::good &&
+                           !s.mesh.status(s.mesh.edge_handle(candidate.edge)).deleted() &&
+                           s.mesh.to_vertex_handle(candidate.edge) != survivor;
+        if (!known)
+            enqueueCheapest(s, v);
+        else if (const double cost = collapseCost(s, back); cost < candidate.cost)
+            enqueue(s, v, back, cost, Fit::good);
+    });
+}
+
+// `s.retargets` are this edge's.
+void collapse(Simplifier& s, HalfedgeHandle edge) {
+    const HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
+    const std::uint32_t from = index(s.mesh.to_vertex_handle(opposite));
+    const VertexHandle survivor = s.mesh.to_vertex_handle(edge);
+    const std::uint32_t to = index(survivor);
+    for (const HalfedgeHandle side : {edge, opposite})
+        if (s.mesh.face_handle(side).is_valid()) --s.liveFaces;
+    for (const Retarget& retarget : s.retargets) {
+        s.corners.vertex[retarget.corner] = to;
+        s.corners.wedge[retarget.corner] = retarget.wedge;
+    }
+    s.quadrics[to].add(s.quadrics[from]);
+    s.survivors[from] = to;
+    ++s.candidates[from].version;
+    s.mesh.collapse(edge);
+    requeueAround(s, survivor);
+}
+
+// Collapses in order of fit and cost until `target` faces are left; false if nothing more is possible before.
+bool collapseTo(Simplifier& s, std::size_t target) {
+    bool collapsed = true;
+    while (s.liveFaces > target) {
+        if (s.queue.empty()) {
+            // A collapse may become possible by one two rings away, which nobody is told of: look once more everywhere.
+            if (!collapsed) return false;
+            collapsed = false;
+            fillQueue(s);
+            continue;
+        }
+        std::pop_heap(s.queue.begin(), s.queue.end());
+        const QueueEntry entry = s.queue.back();
+        s.queue.pop_back();
+        const Candidate candidate = s.candidates[entry.vertex];
+        if (entry.version != candidate.version) continue;
+        if (judgeCollapse(s, candidate.edge) > candidate.fit) {
+            enqueueBest(s, entry.vertex);
+            continue;
+        }
+        collapse(s, candidate.edge);
+        collapsed = true;
+    }
+    return true;
+}
+
+SimplifiedLevel snapshot(Simplifier& s, std::size_t primitiveCount) {
+    SimplifiedLevel level;
+    level.triangles.primitiveIndexCounts.assign(primitiveCount, 0);
+    level.triangles.indices.reserve(3 * s.liveFaces);
+    for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
+        if (s.mesh.status(FaceHandle(static_cast<int>(face))).deleted()) continue;
+        for (std::uint32_t i = 0; i < 3; ++i) level.triangles.indices.push_back(s.corners.wedge[3 * face + i]);
+        level.triangles.primitiveIndexCounts[s.corners.primitive[face]] += 3;
+    }
+    level.error = deviation(s);
+    return level;
+}
+
+// Faces of whose vertices none can go: of tetrahedra, single triangles and the like.
+std::size_t stuckFaces(const Simplifier& s) {
+    std::size_t count = 0;
+    for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
+        if (s.mesh.status(FaceHandle(static_cast<int>(face))).deleted()) continue;
+        const auto canGo = [&](std::uint32_t corner) { return s.candidates[s.corners.vertex[corner]].edge.is_valid(); };
+        if (!canGo(3 * face) && !canGo(3 * face + 1) && !canGo(3 * face + 2)) ++count;
+    }
+    return count;
+}
+
+// How many faces the next level should have.
+std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
+    const std::size_t stuck = stuckFaces(s);
+    const auto kept = static_cast<std::size_t>(leastShareOfMovable * static_cast<double>(s.liveFaces - stuck));
+    return std::max({s.liveFaces / 2, leastTriangles, stuck + kept});
+}
+
+}  // namespace
+
+Simplification simplify(const Vertices& vertices, const Welded& positions, const LevelTriangles& triangles,
+                        const SimplifyOptions& options) {
+    Simplification result;
+    Simplifier s = prepareSimplifier(vertices, positions, triangles);
+    result.repairedFaces = s.repairedFaces;
+
+    // Collapse, and take a picture whenever half of the triangles are gone.
+    s.candidates.resize(s.points.size());
+    fillQueue(s);
+    while (result.levels.size() < static_cast<std::size_t>(std::max(0, options.mostLevels))) {
+        const std::size_t before = s.liveFaces;
+        const std::size_t target = nextTarget(s, options.leastTriangles);
+        const auto enough = static_cast<std::size_t>(largestShare * static_cast<double>(before));
+        if (target > enough || before == 0) break;
+        const bool reached = collapseTo(s, target);
+        if (s.liveFaces <= enough) result.levels.push_back(snapshot(s, triangles.primitiveIndexCounts.size()));
+        if (!reached) break;
+    }
+    return result;
+}
+
+}  // namespace defocus

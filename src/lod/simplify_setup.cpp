@@ -1,0 +1,203 @@
+// Half-edges after Botsch, Steinberg, Bischoff and Kobbelt 2002, OpenMesh; quadrics and boundary constraints after
+// Garland and Heckbert 1997.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "lod/manifold.h"
+#include "lod/simplify_state.h"
+
+namespace defocus {
+
+namespace {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+// Constraint planes through an edge, upright on its face, weighed by the edge's squared length (a face weighs its
+// area).
+constexpr double borderWeight = 10;  // open and material borders
+constexpr double seamWeight = 0.5;   // jumps of uv or colour
+
+// Links half-edges directly: the manifold is known to be one, which add_face would find out again face by face.
+void buildConnectivity(Simplifier& s, const Manifold& manifold) {
+    auto& mesh = s.mesh;
+    mesh.request_vertex_status();
+    mesh.request_edge_status();
+    mesh.request_halfedge_status();
+    mesh.request_face_status();
+    const std::size_t edgeCount = manifold.twins.size();
+    mesh.reserve(manifold.positions.size(), edgeCount, manifold.faces.size());
+    for (std::size_t v = 0; v < manifold.positions.size(); ++v) mesh.new_vertex();
+
+    // Half-edge 3·f + i joins corners i and i + 1, against that order where the face is turned.
+    const auto next = [](std::size_t e) { return e % 3 == 2 ? e - 2 : e + 1; };
+    const auto previous = [](std::size_t e) { return e % 3 == 0 ? e + 2 : e - 1; };
+    std::vector<HalfedgeHandle> handles(edgeCount);
+    std::vector<HalfedgeHandle> borderInto(manifold.positions.size());
+    for (std::size_t e = 0; e < edgeCount; ++e) {
+        if (handles[e].is_valid()) continue;
+        const bool turned = manifold.turned[e / 3] != 0;
+        const VertexHandle a = vertexHandle(manifold.corners[turned ? next(e) : e]);
+        const VertexHandle b = vertexHandle(manifold.corners[turned ? e : next(e)]);
+        handles[e] = mesh.new_edge(a, b);
+        mesh.set_halfedge_handle(a, handles[e]);
+        mesh.set_halfedge_handle(b, mesh.opposite_halfedge_handle(handles[e]));
+        if (manifold.twins[e] != Manifold::none)
+            handles[manifold.twins[e]] = mesh.opposite_halfedge_handle(handles[e]);
+        else
+            borderInto[index(a)] = mesh.opposite_halfedge_handle(handles[e]);
+    }
+    for (std::size_t e = 0; e < edgeCount; ++e) {
+        if (e % 3 == 0) mesh.set_halfedge_handle(mesh.new_face(), handles[e]);
+        mesh.set_face_handle(handles[e], FaceHandle(static_cast<int>(e / 3)));
+        mesh.set_next_halfedge_handle(handles[e], handles[manifold.turned[e / 3] != 0 ? previous(e) : next(e)]);
+    }
+
+    // Each border vertex has one border half-edge in and one out; the latter is its first, as OpenMesh expects.
+    for (std::size_t e = 0; e < edgeCount; ++e) {
+        if (manifold.twins[e] != Manifold::none) continue;
+        const HalfedgeHandle border = mesh.opposite_halfedge_handle(handles[e]);
+        const VertexHandle start = mesh.from_vertex_handle(border);
+        mesh.set_halfedge_handle(start, border);
+        mesh.set_next_halfedge_handle(borderInto[index(start)], border);
+    }
+}
+
+glm::dvec3 faceCross(const Simplifier& s, std::uint32_t face) {
+    const glm::dvec3& a = s.points[s.corners.vertex[3 * face]];
+    return glm::cross(s.points[s.corners.vertex[3 * face + 1]] - a, s.points[s.corners.vertex[3 * face + 2]] - a);
+}
+
+// Weight of the constraint that edge `e` (of the manifold) puts on its face's side; 0 for edges inside a smooth chart.
+double constraintWeight(const Corners& corners, const Manifold& manifold, std::uint32_t e) {
+    const std::uint32_t twin = manifold.twins[e];
+    if (twin == Manifold::none || corners.primitive[e / 3] != corners.primitive[twin / 3]) return borderWeight;
+    const std::uint32_t end = e % 3 == 2 ? e - 2 : e + 1;
+    for (const std::uint32_t corner : {e, end}) {
+        const std::uint32_t mine = corners.wedge[corner];
+        const std::uint32_t theirs = corners.wedge[corners.at(twin / 3, corners.vertex[corner])];
+        if (mine == theirs) continue;
+        const WedgeAttributes& a = corners.attributes[mine];
+        const WedgeAttributes& b = corners.attributes[theirs];
+        if (a.uv != b.uv || a.color != b.color) return seamWeight;
+    }
+    return 0;
+}
+
+void buildQuadrics(Simplifier& s, const Manifold& manifold) {
+    s.quadrics.resize(s.points.size());
+    for (std::uint32_t face = 0; face < manifold.faces.size(); ++face) {
+        const glm::dvec3 cross = faceCross(s, face);
+        const double doubleArea = glm::length(cross);
+        if (!(doubleArea > 0)) continue;
+        const glm::dvec3 normal = cross / doubleArea;
+        for (std::uint32_t e = 3 * face; e < 3 * face + 3; ++e) {
+            const std::uint32_t a = s.corners.vertex[e];
+            const std::uint32_t b = s.corners.vertex[e % 3 == 2 ? e - 2 : e + 1];
+            s.quadrics[a].addPlane(normal, s.points[a], doubleArea / 6);
+            const double weight = constraintWeight(s.corners, manifold, e);
+            const glm::dvec3 edge = s.points[b] - s.points[a];
+            const glm::dvec3 upright = glm::cross(edge, normal);
+            const double length = glm::length(upright);
+            if (weight == 0 || !(length > 0)) continue;
+            s.quadrics[a].addPlane(upright / length, s.points[a], weight * length * length);
+            s.quadrics[b].addPlane(upright / length, s.points[a], weight * length * length);
+        }
+    }
+}
+
+struct Frame {
+    glm::dvec3 centre{0};
+    double scale = 0;  // longest side of the box; 0 if there is none
+};
+
+Frame frameOf(const Vertices& vertices, const std::vector<std::uint32_t>& indices) {
+    Bounds bounds;
+    for (const std::uint32_t v : indices) {
+        const glm::dvec3 point = vertices.positions[v];
+        if (std::isfinite(point.x + point.y + point.z)) bounds.extend(point);
+    }
+    const glm::dvec3 size = bounds.size();
+    return bounds.empty() ? Frame{} : Frame{bounds.centre(), std::max({size.x, size.y, size.z})};
+}
+
+// Faces with a corner that is no place at all become degenerate.
+Triangles weldedTriangles(const std::vector<glm::dvec3>& points, const Welded& positions, const LevelTriangles& input) {
+    const std::vector<std::uint32_t>& indices = input.indices;
+    Triangles triangles;
+    triangles.positions.reserve(indices.size());
+    for (std::size_t f = 0; f < indices.size() / 3; ++f) {
+        const std::uint32_t p[3] = {positions.id[indices[3 * f]], positions.id[indices[3 * f + 1]],
+                                    positions.id[indices[3 * f + 2]]};
+        const glm::dvec3 sum = points[p[0]] + points[p[1]] + points[p[2]];
+        const bool proper = std::isfinite(sum.x + sum.y + sum.z);
+        for (const std::uint32_t corner : p) triangles.positions.push_back(proper ? corner : p[0]);
+    }
+    for (std::uint32_t p = 0; p < input.primitiveIndexCounts.size(); ++p)
+        triangles.primitives.insert(triangles.primitives.end(), input.primitiveIndexCounts[p] / 3, p);
+    return triangles;
+}
+
+// uv in lengths of the unit frame: the ratio that keeps the mesh's whole area.
+std::vector<WedgeAttributes> scaledAttributes(const Vertices& vertices, const std::vector<std::uint32_t>& indices,
+                                              const Frame& frame) {
+    std::vector<WedgeAttributes> attributes(vertices.count());
+    double area = 0;
+    double uvArea = 0;
+    for (std::size_t i = 0; i + 2 < indices.size() && !vertices.uv0.empty(); i += 3) {
+        const std::uint32_t* v = &indices[i];
+        const glm::dvec3 a = vertices.positions[v[0]];
+        area +=
+            glm::length(glm::cross(glm::dvec3(vertices.positions[v[1]]) - a, glm::dvec3(vertices.positions[v[2]]) - a));
+        const glm::dvec2 s = glm::dvec2(vertices.uv0[v[1]]) - glm::dvec2(vertices.uv0[v[0]]);
+        const glm::dvec2 t = glm::dvec2(vertices.uv0[v[2]]) - glm::dvec2(vertices.uv0[v[0]]);
+        uvArea += std::abs(s.x * t.y - s.y * t.x);
+    }
+    const double ratio = std::sqrt(area / uvArea) / frame.scale;
+    const float uvScale = std::isfinite(ratio) ? static_cast<float>(ratio) : 0.0f;
+    for (std::size_t v = 0; v < attributes.size(); ++v) {
+        if (!vertices.normals.empty()) attributes[v].normal = vertices.normals[v];
+        if (!vertices.colors.empty()) attributes[v].color = glm::vec3(vertices.colors[v]) / 255.0f;
+        if (!vertices.uv0.empty()) attributes[v].uv = uvScale * vertices.uv0[v];
+    }
+    return attributes;
+}
+
+}  // namespace
+
+Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions, const LevelTriangles& triangles) {
+    // Bring the mesh to unit size, so that no weight depends on its scale.
+    Simplifier s;
+    const Frame frame = frameOf(vertices, triangles.indices);
+    s.scale = frame.scale;
+    if (!(frame.scale > 0)) return s;
+    std::vector<glm::dvec3> points(positions.first.size());
+    for (std::size_t p = 0; p < points.size(); ++p)
+        points[p] = (glm::dvec3(vertices.positions[positions.first[p]]) - frame.centre) / frame.scale;
+
+    // Make a manifold of it.
+    const Triangles welded = weldedTriangles(points, positions, triangles);
+    const Manifold manifold = buildManifold(welded, points);
+    s.repairedFaces = manifold.repairedFaces;
+    s.liveFaces = manifold.faces.size();
+    for (const std::uint32_t position : manifold.positions) s.points.push_back(points[position]);
+
+    // Describe it: corners with their wedges, half-edges, quadrics.
+    s.corners.vertex = manifold.corners;
+    for (const std::uint32_t face : manifold.faces) {
+        for (std::size_t i = 0; i < 3; ++i) s.corners.wedge.push_back(triangles.indices[3 * std::size_t{face} + i]);
+        s.corners.primitive.push_back(welded.primitives[face]);
+    }
+    s.corners.attributes = scaledAttributes(vertices, triangles.indices, frame);
+    buildConnectivity(s, manifold);
+    buildQuadrics(s, manifold);
+    s.survivors.resize(s.points.size());
+    std::iota(s.survivors.begin(), s.survivors.end(), 0u);
+    return s;
+}
+
+}  // namespace defocus

@@ -1,0 +1,235 @@
+// Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering: level selection from blur and projected size.
+
+#include "plan/frame_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::uint32_t mostSamples = 65'536;
+constexpr int mostPixels = 16'384;
+
+void checkRequest(const View& view, const RenderSettings& settings) {
+    checkLens(view.lens);
+    if (view.width < 1 || view.height < 1 || view.width > mostPixels || view.height > mostPixels)
+        fail("image size {} x {}: each side must be 1 to {} px", view.width, view.height, mostPixels);
+    if (settings.sampleCount < 1 || settings.sampleCount > mostSamples)
+        fail("{} samples: choose 1 to {}", settings.sampleCount, mostSamples);
+    if (!(view.nearPlane > 0)) fail("near plane {} m: must be above 0", view.nearPlane);
+    if (!(settings.thresholds.blur >= 0) || !(settings.thresholds.size >= 0))
+        fail("level-of-detail thresholds must be 0 or more");
+}
+
+double largestScale(const glm::dmat4& matrix) {
+    return std::max({glm::length(glm::dvec3(matrix[0])), glm::length(glm::dvec3(matrix[1])), glm::length(glm::dvec3(matrix[2]))});
+}
+
+// No lens sample sees any of the box: all corners lie outside one plane of the frustum widened by the lens. For the left plane a
+// point is outside while x/tan + w + |C(w)| < 0 (half a pixel added for the jitter); |C| is convex, so corners bound it.
+bool outsideWidenedFrustum(const Bounds& viewBox, const View& view, double tanX, double tanY,
+                           const ClipCircleOfConfusion& coc) {
+    bool outside[5] = {true, true, true, true, true};
+    for (const glm::dvec3& corner : viewBox.corners()) {
+        const double w = -corner.z;
+        const double reach = std::abs(coc.at(w));
+        const double x = corner.x / tanX;
+        const double y = corner.y / tanY;
+        const double marginX = std::abs(w) / view.width + reach;
+        const double marginY = std::abs(w) / view.height + reach * view.width / view.height;
+        outside[0] &= x + w + marginX < 0;
+        outside[1] &= w - x + marginX < 0;
+        outside[2] &= y + w + marginY < 0;
+        outside[3] &= w - y + marginY < 0;
+        outside[4] &= w < view.nearPlane;
+    }
+    return std::any_of(std::begin(outside), std::end(outside), [](bool value) { return value; });
+}
+
+const Material& materialOf(const Scene& scene, const Primitive& primitive) {
+    static const Material gltfDefault;
+    return primitive.material >= 0 ? scene.materials[static_cast<std::size_t>(primitive.material)] : gltfDefault;
+}
+
+bool hasBlending(const Scene& scene, const Mesh& mesh) {
+    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& primitive) {
+        return materialOf(scene, primitive).alphaMode == AlphaMode::blend;
+    });
+}
+
+bool hasTextures(const Scene& scene, const Mesh& mesh) {
+    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& primitive) {
+        const Material& m = materialOf(scene, primitive);
+        return m.baseColor.used() || m.metallicRoughness.used() || m.normal.used() || m.occlusion.used() || m.emissive.used();
+    });
+}
+
+// Depths and blur of an object's box, before anything is decided.
+ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t index, const glm::dmat4& viewFromWorld) {
+    const Object& object = world.pose.objects[index];
+    ObjectPlan result;
+    result.object = static_cast<int>(index);
+    result.mesh = object.mesh;
+    result.name = object.name;
+    result.viewFromObject = viewFromWorld * object.worldFromObject;
+    result.mirrored = glm::determinant(glm::dmat3(result.viewFromObject)) < 0;
+    const Bounds box = transformed(world.pyramids[static_cast<std::size_t>(object.mesh)].bounds, result.viewFromObject);
+    if (box.empty()) return result;
+    result.nearestDepth = -box.maximum.z;
+    result.farthestDepth = -box.minimum.z;
+    if (result.nearestDepth > plan.view.nearPlane)
+        result.coc = circleOfConfusionRange(plan.coc, result.nearestDepth, result.farthestDepth, plan.view.width);
+    else
+        result.coc = {std::numeric_limits<double>::infinity(), 0, 0, std::numeric_limits<double>::infinity()};
+    return result;
+}
+
+double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const FramePlan& plan) {
+    if (plan.settings.lod == LodMode::off || object.nearestDepth <= plan.view.nearPlane) return 0;
+    LevelQuery query;
+    query.pixelsPerUnit =
+        largestScale(object.viewFromObject) * plan.view.width / (2 * plan.tanHalfHorizontal * object.nearestDepth);
+    const double centre = 0.5 * (object.nearestDepth + object.farthestDepth);
+    query.coc = plan.settings.lodCocAtCentre ? std::abs(circleOfConfusion(plan.coc, centre, plan.view.width))
+                                             : object.coc.smallest;
+    return levelOfDetail(pyramid, query, plan.settings.metric, plan.settings.thresholds);
+}
+
+// λ, the two levels around it and the samples that draw each.
+void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& plan) {
+    const auto sampleCount = static_cast<std::uint32_t>(plan.samples.size());
+    if (object.nearestDepth > 0)
+        object.projectedEdge = pyramid.levels.front().meanEdge * largestScale(object.viewFromObject) * plan.view.width /
+                               (2 * plan.tanHalfHorizontal * object.nearestDepth);
+    object.lambda = selectedLevel(pyramid, object, plan);
+    const SampleSplit split = splitSamples(object.lambda, sampleCount, plan.settings.lod);
+    const auto last = static_cast<std::uint32_t>(pyramid.levels.size() - 1);
+    const auto draw = [&](std::uint32_t level, std::uint32_t first, std::uint32_t count) {
+        level = std::min(level, last);
+        return LevelDraw{level, first, count, pyramid.levels[level].triangleCount};
+    };
+    object.coarse = draw(split.level + 1, 0, split.coarseCount);
+    object.fine = draw(split.level, split.coarseCount, sampleCount - split.coarseCount);
+}
+
+// Why this object need not be drawn; empty if it must.
+std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object, double tanY) {
+    const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
+    if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
+    if (plan.settings.keepAll) return "";
+    const Bounds box = transformed(pyramid.bounds, object.viewFromObject);
+    if (outsideWidenedFrustum(box, plan.view, plan.tanHalfHorizontal, tanY, plan.coc)) return "no lens sample can see it";
+    return "";
+}
+
+// The blur of whatever is drawn, the background included where it isn't the same everywhere.
+double largestBlur(const FramePlan& plan, const World& world) {
+    double largest = 0;
+    for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
+    const EnvironmentType type = world.environment.type;
+    if (type == EnvironmentType::gradient || type == EnvironmentType::map)
+        largest = std::max(largest, std::abs(plan.coc.b) * plan.view.width);
+    return largest;
+}
+
+void leaveOutLens(FramePlan& plan, const World& world) {
+    const double blur = largestBlur(plan, world);
+    if (plan.settings.keepAll || blur >= leastBlur) return;
+    plan.leftOut.push_back({"lens samples", fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} antialiasing "
+                                                        "samples remain",
+                                                        blur, std::min(plan.settings.sampleCount, antialiasingSamples))});
+    plan.usesLens = false;
+    plan.coc = {};
+    plan.apertureDiameter = 0;
+    plan.samples.resize(std::min(plan.settings.sampleCount, antialiasingSamples));
+    for (LensSample& sample : plan.samples) sample.lens = glm::vec2(0);
+    for (ObjectPlan& object : plan.objects) object.coc = {};
+}
+
+void noteUnusedPaths(FramePlan& plan, const World& world) {
+    const Scene& scene = *world.scene;
+    for (ObjectPlan& object : plan.objects) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
+        object.blended = hasBlending(scene, mesh);
+        plan.usesBlending |= object.blended;
+        plan.usesTextures |= hasTextures(scene, mesh);
+    }
+    if (!plan.usesTextures) plan.leftOut.push_back({"texture path", "no drawn material has a texture"});
+    if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
+    plan.leftOut.push_back({"motion path", "the scene stands still within a frame"});
+}
+
+void noteLevels(FramePlan& plan, const World& world) {
+    std::uint64_t kept = 0;
+    std::uint64_t all = 0;
+    std::uint64_t whole = 0;
+    plan.levelsUsed.resize(world.pyramids.size());
+    for (std::size_t mesh = 0; mesh < world.pyramids.size(); ++mesh) {
+        plan.levelsUsed[mesh].assign(world.pyramids[mesh].levels.size(), plan.settings.keepAll);
+        all += world.pyramids[mesh].levels.size();
+    }
+    for (const ObjectPlan& object : plan.objects) {
+        auto& used = plan.levelsUsed[static_cast<std::size_t>(object.mesh)];
+        for (const LevelDraw& draw : {object.coarse, object.fine}) {
+            if (draw.sampleCount > 0) used[draw.level] = true;
+            plan.trianglesDrawn += std::uint64_t{draw.triangleCount} * draw.sampleCount;
+        }
+        plan.trianglesAtFullDetail += std::uint64_t{world.pyramids[static_cast<std::size_t>(object.mesh)].levels[0].triangleCount} *
+                                      plan.samples.size();
+        whole += object.coarse.sampleCount == 0 ? 1 : 0;
+    }
+    for (const auto& used : plan.levelsUsed) kept += static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
+    if (kept < all)
+        plan.leftOut.push_back({fmt::format("{} of {} pyramid levels", all - kept, all), "no sample of this frame draws them"});
+    if (whole > 0 && plan.settings.lod == LodMode::fractional)
+        plan.leftOut.push_back({fmt::format("sample split of {} object(s)", whole), "their level is whole"});
+}
+
+}  // namespace
+
+FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings) {
+    checkRequest(view, settings);
+    FramePlan plan;
+    plan.view = view;
+    plan.settings = settings;
+    plan.tanHalfHorizontal = tanHalfHorizontalFov(view.lens);
+    plan.apertureDiameter = apertureDiameter(view.lens);
+    plan.coc = clipCircleOfConfusion(view.lens);
+    plan.needsAlpha = world.environment.type == EnvironmentType::none;
+    for (std::uint32_t i = 0; i < settings.sampleCount; ++i)
+        plan.samples.push_back(lensSample(view.lens, std::uint64_t{settings.firstSample} + i, settings.seed));
+
+    // Place every object and drop those that cannot be seen.
+    const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
+    const double tanY = plan.tanHalfHorizontal * view.height / view.width;
+    for (std::size_t i = 0; i < world.pose.objects.size(); ++i) {
+        ObjectPlan object = placedObject(world, plan, i, viewFromWorld);
+        std::string reason = reasonToLeaveOut(world, plan, object, tanY);
+        if (reason.empty())
+            plan.objects.push_back(std::move(object));
+        else
+            plan.leftOut.push_back({"object " + object.name, std::move(reason)});
+    }
+
+    // Decide on the lens first: levels depend on the blur that remains.
+    leaveOutLens(plan, world);
+    for (ObjectPlan& object : plan.objects)
+        chooseLevels(object, world.pyramids[static_cast<std::size_t>(object.mesh)], plan);
+
+    // Nearest first: what is drawn first hides the rest.
+    std::stable_sort(plan.objects.begin(), plan.objects.end(),
+                     [](const ObjectPlan& a, const ObjectPlan& b) { return a.nearestDepth < b.nearestDepth; });
+    noteUnusedPaths(plan, world);
+    noteLevels(plan, world);
+    return plan;
+}
+
+}  // namespace defocus

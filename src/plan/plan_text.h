@@ -1,0 +1,14 @@
+#pragma once
+// A FramePlan in words: a table for people, JSON for programs.
+
+#include <string>
+
+#include "plan/frame_plan.h"
+
+namespace defocus {
+
+std::string planTable(const FramePlan& plan);
+// Keys: image, lens, samples, objects[] (name, depth, coc, projectedEdge, lambda, draws[]), leftOut[], triangles.
+std::string planJson(const FramePlan& plan);
+
+}  // namespace defocus

@@ -1,0 +1,165 @@
+// Haeberli and Akeley 1990, The Accumulation Buffer; Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering.
+
+#include "render/accumulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include <epoxy/gl.h>
+#include <glm/common.hpp>
+
+#include "core/error.h"
+#include "gl/timer.h"
+#include "render/layer_sum.h"
+#include "render/surface_pass.h"
+
+namespace defocus {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string glString(GLenum name) {
+    const auto* text = reinterpret_cast<const char*>(glGetString(name));
+    return text != nullptr ? text : "";
+}
+
+float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+// Radiance that a half float cannot hold: layers must be 32-bit floats then.
+bool beyondHalfFloat(const World& world) {
+    constexpr float limit = 6e4f;
+    const Environment& e = world.environment;
+    return std::any_of(world.scene->materials.begin(), world.scene->materials.end(),
+                       [&](const Material& m) { return largest(m.emissiveFactor) > limit; }) ||
+           std::max({largest(e.zenith), largest(e.horizon), largest(e.nadir)}) > limit;
+}
+
+LayerFormat chosenFormat(const World& world, const FramePlan& plan, LayerFormat asked) {
+    if (asked == LayerFormat::automatic) return beyondHalfFloat(world) ? LayerFormat::rgba32f : LayerFormat::rgba16f;
+    if (asked == LayerFormat::rgb9e5 && (plan.usesBlending || plan.needsAlpha))
+        fail("layer format {}: it holds no alpha, which blended materials and a transparent background need; choose rgba16f",
+             layerFormatName(asked));
+    return asked;
+}
+
+// As many layers as the memory allows, at most a block.
+std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, LayerFormat format) {
+    const std::uint64_t layerBytes =
+        std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} * static_cast<std::uint32_t>(plan.view.height) *
+        layerPixelBytes(format);
+    const std::uint64_t wanted = options.wave > 0 ? options.wave : options.waveBytes / layerBytes;
+    const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
+}
+
+class AccumulationRenderer final : public Renderer {
+public:
+    AccumulationRenderer(const World& world, const RendererOptions& options) : options_(options), scene_(world) {}
+
+    void start(const FramePlan& plan) override {
+        const Clock::time_point begin = Clock::now();
+        plan_ = plan;
+        prepareTarget();
+        scene_.prepare(plan_);
+        frame_.upload(scene_.world(), plan_, sum_->info().layers);
+        surfaces_->prepare(plan_, frame_);
+        glFinish();
+        stats_.setupMilliseconds = millisecondsSince(begin);
+        stats_.renderMilliseconds = 0;
+        stats_.trianglesDrawn = 0;
+        stats_.peakBytes = std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + frame_.bytes() +
+                                                                       surfaces_->bytes() + sum_->bytes());
+        timer_.reset();
+        frameStart_ = Clock::now();
+    }
+
+    bool advance() override {
+        const std::uint32_t first = sum_->samples();
+        const auto total = static_cast<std::uint32_t>(plan_.samples.size());
+        if (first >= total) return false;
+        const std::uint32_t count = std::min({sum_->info().layers, total - first, blockSamples - first % blockSamples});
+        timer_.begin();
+        drawWave(first, count);
+        timer_.end();
+        if (first + count == total) {
+            glFinish();
+            stats_.renderMilliseconds = millisecondsSince(frameStart_);
+        }
+        return first + count < total;
+    }
+
+    [[nodiscard]] std::uint32_t samples() const override { return sum_ ? sum_->samples() : 0; }
+    [[nodiscard]] Image image() override { return sum_->mean(); }
+
+    [[nodiscard]] RenderStats stats() const override {
+        RenderStats stats = stats_;
+        stats.samples = samples();
+        stats.gpuMilliseconds = timer_.milliseconds();
+        stats.wave = sum_->info().layers;
+        stats.layerFormat = layerFormatName(sum_->info().format);
+        stats.device = glString(GL_RENDERER);
+        stats.driver = glString(GL_VERSION);
+        return stats;
+    }
+
+private:
+    // The sums and the pass that fills them, made anew only when size or format change.
+    void prepareTarget() {
+        const LayerFormat format = chosenFormat(scene_.world(), plan_, options_.layerFormat);
+        const LayerSumInfo info{plan_.view.width,
+                                plan_.view.height,
+                                chosenWave(plan_, options_, format),
+                                format,
+                                options_.shaderFolder};
+        const bool same = sum_ && sum_->info().width == info.width && sum_->info().height == info.height &&
+                          sum_->info().layers == info.layers && sum_->info().format == info.format;
+        if (!same) {
+            sum_.reset();  // before the new one is made: both may not fit
+            sum_.emplace(info);
+            surfaces_.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
+                                                      .defines = layerFormatDefines(format),
+                                                      .vertexShaderLayers =
+                                                          vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
+                                                      .shaderFolder = options_.shaderFolder});
+        }
+        sum_->reset();
+    }
+
+    void drawWave(std::uint32_t first, std::uint32_t count) {
+        sum_->beginWave();
+        surfaces_->drawOpaque(first, count);
+        if (scene_.world().environment.type == EnvironmentType::map) surfaces_->drawSky(first, count);
+        surfaces_->drawBlended(first, count);
+        sum_->endWave(frame_, count);
+        for (const ObjectPlan& object : plan_.objects)
+            for (const LevelDraw& draw : {object.coarse, object.fine}) {
+                const std::uint32_t begin = std::max(first, draw.firstSample);
+                const std::uint32_t end = std::min(first + count, draw.firstSample + draw.sampleCount);
+                if (begin < end) stats_.trianglesDrawn += std::uint64_t{end - begin} * draw.triangleCount;
+            }
+    }
+
+    RendererOptions options_;
+    GpuScene scene_;
+    FramePlan plan_;
+    FrameUniforms frame_;
+    std::optional<LayerSum> sum_;
+    std::optional<SurfacePass> surfaces_;
+    mutable GpuTimer timer_;
+    RenderStats stats_;
+    Clock::time_point frameStart_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options) {
+    return std::make_unique<AccumulationRenderer>(world, options);
+}
+
+}  // namespace defocus

@@ -1,0 +1,14 @@
+#pragma once
+// Method "accumulation": every object is drawn once per lens sample, in waves of K samples into a layered target, at the level
+// and for the samples that the plan gives it (Haeberli and Akeley 1990; Jeong, Kim and Lee 2011).
+
+#include <memory>
+
+#include "render/methods.h"
+
+namespace defocus {
+
+// Needs a current GL 4.5 context, which must outlive the renderer.
+std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options);
+
+}  // namespace defocus

@@ -1,0 +1,127 @@
+#include "render/frame_uniforms.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "render/environment_light.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double goldenRatio = 0.618033988749894848;
+
+GpuLight gpuLight(const PlacedLight& placed, const glm::dmat4& viewFromWorld) {
+    const Light& light = placed.light;
+    const glm::vec3 direction(glm::normalize(glm::dmat3(viewFromWorld) * placed.direction));
+    const glm::vec3 position(viewFromWorld * glm::dvec4(placed.position, 1.0));
+    // KHR_lights_punctual: the cone's falloff is a linear ramp between the cosines of its angles, squared in the shader.
+    const float inner = std::cos(light.innerConeAngle);
+    const float outer = std::cos(light.outerConeAngle);
+    const float scale = 1.0f / std::max(inner - outer, 1e-4f);
+    const float type = light.type == LightType::directional ? 0.0f : light.type == LightType::point ? 1.0f : 2.0f;
+    return {glm::vec4(position, light.range), glm::vec4(direction, type), glm::vec4(light.color * light.intensity, scale),
+            glm::vec4(-outer * scale, 0, 0, 0)};
+}
+
+int environmentNumber(EnvironmentType type) {
+    switch (type) {
+        case EnvironmentType::none: return 0;
+        case EnvironmentType::uniform: return 1;
+        case EnvironmentType::gradient: return 2;
+        case EnvironmentType::map: return 3;
+    }
+    return 0;
+}
+
+GlTexture environmentTexture(const Image& map) {
+    const int levels = mipmapLevels(map.width, map.height);
+    std::vector<float> rgba(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height) * 4);
+    for (std::size_t i = 0; i < rgba.size() / 4; ++i)
+        for (std::size_t c = 0; c < 4; ++c) {
+            const auto channels = static_cast<std::size_t>(map.channels);
+            const float value = c == 3 ? 1.0f : map.pixels[i * channels + (channels >= 3 ? c : 0)];
+            rgba[i * 4 + c] = std::clamp(value, 0.0f, 65504.0f);
+        }
+    GlTexture texture({.format = TextureFormat::rgba16f, .width = map.width, .height = map.height, .levels = levels});
+    texture.upload(0, map.width, map.height, rgba.data());
+    texture.generateMipmaps();
+    texture.sampling(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+}  // namespace
+
+void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint32_t layerCount) {
+    if (world.lights.size() > mostLights)
+        fail("the scene has {} lights; at most {} can light one image", world.lights.size(), mostLights);
+    const EnvironmentType type = world.environment.type;
+    const int levels = type == EnvironmentType::map
+                           ? mipmapLevels(world.environment.map->width, world.environment.map->height) - 1
+                           : 0;
+    defines_ = {{"MAX_LIGHTS", std::to_string(mostLights)},
+                {"BLOCK_SAMPLES", std::to_string(blockSamples)},
+                {"ENVIRONMENT", std::to_string(environmentNumber(type))},
+                {"ENVIRONMENT_LEVELS", fmt::format("{:.1f}", static_cast<double>(levels))},
+                {"ENVIRONMENT_LIGHTING", fmt::format("{:.6f}", world.environment.lighting)},
+                {"LIGHT_COUNT", std::to_string(world.lights.size())}};
+    if (type == EnvironmentType::map && !environmentMap_) environmentMap_ = environmentTexture(*world.environment.map);
+    uploadSamples(plan, layerCount);
+
+    const View& view = plan.view;
+    const double tanX = plan.tanHalfHorizontal;
+    const double tanY = tanX * view.height / view.width;
+    GpuFrame block{};
+    block.projection = {1 / tanX, 1 / tanY, view.nearPlane, 0};
+    block.coc = {plan.coc.a, plan.coc.b, view.width, 0};
+    block.worldFromView = glm::mat4(glm::mat3(view.worldFromCamera));
+    block.environment = {glm::vec4(world.environment.zenith, 1), glm::vec4(world.environment.horizon, 1),
+                         glm::vec4(world.environment.nadir, 1)};
+    block.irradiance = diffuseCoefficients(world.environment);
+    const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
+    for (std::size_t i = 0; i < world.lights.size(); ++i) block.lights[i] = gpuLight(world.lights[i], viewFromWorld);
+    frameBlock_ = Buffer(sizeof block, &block);
+}
+
+void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCount) {
+    const float k = static_cast<float>(plan.view.width) / static_cast<float>(plan.view.height);
+    const auto radius = static_cast<float>(0.5 * plan.apertureDiameter);
+    const glm::vec2 pixel(2.0f / static_cast<float>(plan.view.width), 2.0f / static_cast<float>(plan.view.height));
+    std::vector<GpuSample> samples(plan.samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const LensSample& sample = plan.samples[i];
+        // Looking at a point right of the pixel's centre moves the scene left.
+        const glm::vec2 jitter = -sample.pixel * pixel;
+        const double dither = 0.5 + goldenRatio * static_cast<double>(plan.settings.firstSample + i);
+        const auto layer = static_cast<float>(i % blockSamples % layerCount);
+        samples[i] = {{sample.lens.x, k * sample.lens.y, jitter.x, jitter.y},
+                      {radius * sample.lens.x, radius * sample.lens.y, static_cast<float>(dither - std::floor(dither)), layer}};
+    }
+    samples_ = Buffer::of(std::span<const GpuSample>(samples));
+
+    // At infinity C/w = b: the sky seen through a pixel lies where the lens and the jitter moved it from, in units of the image
+    // plane at distance 1. Padded to whole blocks, which are bound one at a time.
+    const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
+    const auto b = static_cast<float>(plan.coc.b);
+    std::vector<glm::vec4> shifts((samples.size() + blockSamples - 1) / blockSamples * blockSamples);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const glm::vec4& s = samples[i].lensAndJitter;
+        shifts[i] = glm::vec4(-(b * glm::vec2(s.x, s.y) + glm::vec2(s.z, s.w)) * imagePlane, 0, 0);
+    }
+    sampleShifts_ = Buffer::of(std::span<const glm::vec4>(shifts));
+}
+
+void FrameUniforms::bind(std::uint32_t firstSample) const {
+    constexpr std::size_t blockBytes = blockSamples * sizeof(glm::vec4);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.name());
+    glBindBufferRange(GL_UNIFORM_BUFFER, 3, sampleShifts_.name(),
+                      static_cast<GLintptr>(firstSample / blockSamples * blockBytes), blockBytes);
+    if (environmentMap_) environmentMap_.attach(5);
+}
+
+std::size_t FrameUniforms::bytes() const {
+    return frameBlock_.bytes() + samples_.bytes() + sampleShifts_.bytes() + environmentMap_.bytes();
+}
+
+}  // namespace defocus

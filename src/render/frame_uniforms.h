@@ -1,0 +1,36 @@
+#pragma once
+// What every pass of a frame reads: camera, lens, lights and environment as uniforms, the lens samples as instances.
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "plan/frame_plan.h"
+#include "render/gpu_blocks.h"
+
+namespace defocus {
+
+inline constexpr std::uint32_t blockSamples = 64;  // samples a block of the sum
+
+class FrameUniforms {
+public:
+    // `layerCount` is K, the lens samples drawn at once: sample i goes to layer (i mod 64) mod K.
+    void upload(const World& world, const FramePlan& plan, std::uint32_t layerCount);
+
+    // The defines that shaders/include/frame.glsl and environment.glsl need for this world.
+    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
+    // Binds the uniform blocks (and the environment's map) for samples [firstSample, …) of one block of the sum.
+    void bind(std::uint32_t firstSample) const;
+    [[nodiscard]] const Buffer& samples() const { return samples_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    void uploadSamples(const FramePlan& plan, std::uint32_t layerCount);
+
+    ShaderDefines defines_;
+    Buffer frameBlock_;
+    Buffer samples_;       // GpuSample, one a lens sample
+    Buffer sampleShifts_;  // vec4, one a lens sample: where the sky lies for it
+    GlTexture environmentMap_;
+};
+
+}  // namespace defocus

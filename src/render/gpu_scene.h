@@ -1,0 +1,60 @@
+#pragma once
+// A World on the GPU: vertex and index buffers of the pyramid levels that frames use, textures and materials of the meshes that
+// are drawn. What no plan has asked for is never uploaded.
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/texture.h"
+#include "plan/frame_plan.h"
+#include "render/gpu_blocks.h"
+
+namespace defocus {
+
+// A level's place in the mesh's buffers.
+struct GpuLevel {
+    bool uploaded = false;
+    std::size_t normalOffset = 0;              // bytes into the normals buffer
+    std::vector<std::size_t> indexOffsets;     // bytes into the index buffer, one a primitive
+};
+
+struct GpuMesh {
+    VertexArray vertexArray;
+    Buffer positions, normals, colors, uv0, uv1, tangents, indices;
+    std::vector<GpuLevel> levels;
+};
+
+// The five textures of a material in the order of the shader's bindings; null where there is none.
+struct GpuMaterialTextures {
+    const GlTexture* slots[5] = {};
+};
+
+class GpuScene {
+public:
+    explicit GpuScene(const World& world) : world_(&world) {}
+
+    // Uploads what `plan` draws and isn't there yet. Throws Error when graphics memory runs out.
+    void prepare(const FramePlan& plan);
+
+    [[nodiscard]] const World& world() const { return *world_; }
+    [[nodiscard]] GpuMesh& mesh(int index) { return meshes_.at(index); }
+    [[nodiscard]] const GpuMaterialTextures& textures(int material) const { return materialTextures_.at(material); }
+    [[nodiscard]] const Material& material(int index) const;
+    [[nodiscard]] std::size_t bytes() const;
+
+    [[nodiscard]] static GpuMaterial materialBlock(const Material& material);
+
+private:
+    void uploadMesh(int mesh, const std::vector<bool>& levels);
+    const GlTexture* texture(const TextureUse& use, bool srgb);
+    void prepareMaterial(int material);
+
+    const World* world_;
+    std::map<int, GpuMesh> meshes_;
+    std::map<std::pair<int, bool>, GlTexture> textures_;  // by texture and whether it is sRGB
+    std::map<int, GpuMaterialTextures> materialTextures_;
+};
+
+}  // namespace defocus

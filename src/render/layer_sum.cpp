@@ -1,0 +1,152 @@
+// Neumaier 1974, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen.
+
+#include "render/layer_sum.h"
+
+#include "core/error.h"
+#include "gl/read_back.h"
+
+namespace defocus {
+
+namespace {
+
+TextureFormat textureFormat(LayerFormat format) {
+    switch (format) {
+        case LayerFormat::rgb9e5: return TextureFormat::r32ui;
+        case LayerFormat::rgba32f: return TextureFormat::rgba32f;
+        case LayerFormat::rgba8: return TextureFormat::rgba8;
+        default: return TextureFormat::rgba16f;
+    }
+}
+
+GlTexture layerTexture(const LayerSumInfo& info, TextureFormat format) {
+    return GlTexture({.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(info.layers)});
+}
+
+}  // namespace
+
+ShaderDefines layerFormatDefines(LayerFormat format) {
+    if (format == LayerFormat::rgb9e5) return {{"LAYER_RGB9E5", "1"}};
+    if (format == LayerFormat::rgba16f) return {{"LAYER_LARGEST", "65504.0"}};
+    return {};
+}
+
+const char* layerFormatName(LayerFormat format) {
+    switch (format) {
+        case LayerFormat::automatic: return "automatic";
+        case LayerFormat::rgb9e5: return "rgb9e5";
+        case LayerFormat::rgba16f: return "rgba16f";
+        case LayerFormat::rgba32f: return "rgba32f";
+        case LayerFormat::rgba8: return "rgba8";
+    }
+    return "";
+}
+
+std::size_t layerPixelBytes(LayerFormat format) {
+    return pixelBytes(textureFormat(format)) + pixelBytes(TextureFormat::depth32f);
+}
+
+LayerSum::Sum::Sum(int width, int height) {
+    for (int i = 0; i < 2; ++i) {
+        sum[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
+        compensation[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
+        target[i] = Target({&sum[i], &compensation[i]});
+    }
+}
+
+LayerSum::LayerSum(const LayerSumInfo& info)
+    : info_(info),
+      layers_(layerTexture(info, textureFormat(info.format))),
+      depth_(layerTexture(info, TextureFormat::depth32f)),
+      layerTarget_({&layers_}, &depth_),
+      block_(info.width, info.height),
+      frame_(info.width, info.height) {
+    const auto pass = [&](const char* fragment) {
+        return Program({{"accumulation/fullscreen.vert", fragment}, layerFormatDefines(info.format), info.shaderFolder});
+    };
+    addBlock_ = pass("accumulation/add_block.frag");
+    resolve_ = pass("accumulation/resolve.frag");
+}
+
+void LayerSum::reset() { samples_ = 0; }
+
+void LayerSum::beginWave() {
+    layerTarget_.bind();
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    constexpr float farthest = 0;  // reversed depth
+    constexpr float transparent[4] = {};
+    constexpr GLuint nothingDrawn[4] = {};
+    glClearNamedFramebufferfv(layerTarget_.name(), GL_DEPTH, 0, &farthest);
+    if (info_.format == LayerFormat::rgb9e5)
+        glClearNamedFramebufferuiv(layerTarget_.name(), GL_COLOR, 0, nothingDrawn);
+    else
+        glClearNamedFramebufferfv(layerTarget_.name(), GL_COLOR, 0, transparent);
+}
+
+void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t count) {
+    if (!addLayers_ || addDefines_ != frame.defines()) {
+        addDefines_ = frame.defines();
+        ShaderDefines defines = addDefines_;
+        for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
+        addLayers_ = Program({{"accumulation/fullscreen.vert", "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
+    }
+    block_.target[1 - block_.current].bind();
+    frame.bind(samples_);
+    layers_.attach(0);
+    block_.sum[block_.current].attach(1);
+    block_.compensation[block_.current].attach(2);
+    glProgramUniform1i(addLayers_.name(), 0, static_cast<GLint>(count));
+    glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(samples_ % blockSamples));
+    drawFullscreen(addLayers_);
+    block_.flip();
+    samples_ += count;
+    if (samples_ % blockSamples == 0) {
+        addBlockTo(frame_, samples_ == blockSamples);
+        frame_.flip();
+    }
+}
+
+void LayerSum::addBlockTo(Sum& frame, bool startsFrame) {
+    frame.target[1 - frame.current].bind();
+    block_.sum[block_.current].attach(0);
+    block_.compensation[block_.current].attach(1);
+    frame.sum[frame.current].attach(2);
+    frame.compensation[frame.current].attach(3);
+    glProgramUniform1i(addBlock_.name(), 0, startsFrame ? 1 : 0);
+    drawFullscreen(addBlock_);
+}
+
+void LayerSum::drawFullscreen(const Program& program) {
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    program.use();
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Image LayerSum::mean() {
+    if (samples_ == 0) fail("the accumulation holds no sample yet");
+    // An unfinished block is added to a copy: the frame's own sum goes on at the block border.
+    const bool unfinished = samples_ % blockSamples != 0;
+    if (unfinished) addBlockTo(frame_, samples_ < blockSamples);
+    const int latest = unfinished ? 1 - frame_.current : frame_.current;
+
+    const GlTexture result({.format = TextureFormat::rgba32f, .width = info_.width, .height = info_.height});
+    const Target target({&result});
+    target.bind();
+    frame_.sum[latest].attach(0);
+    frame_.compensation[latest].attach(1);
+    glProgramUniform1f(resolve_.name(), 0, static_cast<float>(samples_));
+    drawFullscreen(resolve_);
+    return readBack(result, 4);
+}
+
+std::size_t LayerSum::bytes() const {
+    std::size_t total = layers_.bytes() + depth_.bytes();
+    for (const Sum* sum : {&block_, &frame_})
+        for (int i = 0; i < 2; ++i) total += sum->sum[i].bytes() + sum->compensation[i].bytes();
+    return total;
+}
+
+}  // namespace defocus

@@ -1,0 +1,76 @@
+#pragma once
+// The accumulation target: K layers, one a lens sample, and the compensated sums they are added to.
+//
+// Layers are added one after the other, in order, with Neumaier's compensation, to the sum of a block of 64 samples, and
+// finished blocks likewise to the frame's sum: the same pixels for every K, and for every split over machines at block borders.
+// The sum is divided when it is read, never in place.
+
+#include <cstdint>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gl/target.h"
+#include "image/image.h"
+#include "render/frame_uniforms.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+struct LayerSumInfo {
+    int width = 1;
+    int height = 1;
+    std::uint32_t layers = 1;                    // K, 1 … 64
+    LayerFormat format = LayerFormat::rgba16f;   // not automatic
+    std::filesystem::path shaderFolder;
+};
+
+class LayerSum {
+public:
+    explicit LayerSum(const LayerSumInfo& info);
+
+    // Forgets everything summed.
+    void reset();
+    // Clears the layers to nothing (black, transparent, infinitely far) and makes them the render target.
+    void beginWave();
+    // Adds layers [0, count), each composed over the environment of `frame`; `count` ≤ K and not beyond the block's end.
+    void endWave(const FrameUniforms& frame, std::uint32_t count);
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }
+    // The mean of the samples so far, RGBA. At least one.
+    [[nodiscard]] Image mean();
+    [[nodiscard]] std::size_t bytes() const;
+    [[nodiscard]] const LayerSumInfo& info() const { return info_; }
+
+private:
+    // A compensated sum of which passes read one copy and write the other.
+    struct Sum {
+        explicit Sum(int width, int height);
+        void flip() { current = 1 - current; }
+        GlTexture sum[2];
+        GlTexture compensation[2];
+        Target target[2];
+        int current = 0;  // holds the latest values
+    };
+    void addBlockTo(Sum& frame, bool startsFrame);
+    void drawFullscreen(const Program& program);
+
+    LayerSumInfo info_;
+    GlTexture layers_;
+    GlTexture depth_;
+    Target layerTarget_;
+    Sum block_;
+    Sum frame_;
+    Program addLayers_;
+    ShaderDefines addDefines_;  // that addLayers_ was built with
+    Program addBlock_;
+    Program resolve_;
+    VertexArray noVertices_;
+    std::uint32_t samples_ = 0;
+};
+
+// The defines that make shaders write or read `format`.
+ShaderDefines layerFormatDefines(LayerFormat format);
+const char* layerFormatName(LayerFormat format);
+// Bytes a pixel of one layer, depth included.
+std::size_t layerPixelBytes(LayerFormat format);
+
+}  // namespace defocus

@@ -1,0 +1,225 @@
+#include "render/surface_pass.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+
+namespace defocus {
+
+namespace {
+
+std::size_t aligned(std::size_t bytes) {
+    GLint alignment = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    const auto step = static_cast<std::size_t>(alignment);
+    return (bytes + step - 1) / step * step;
+}
+
+// Items laid out at `stride` in one buffer.
+template <typename T>
+Buffer stridedBuffer(const std::vector<T>& items, std::size_t stride) {
+    std::vector<std::byte> bytes(items.size() * stride);
+    for (std::size_t i = 0; i < items.size(); ++i) std::memcpy(bytes.data() + i * stride, &items[i], sizeof(T));
+    return Buffer(bytes.size(), bytes.data());
+}
+
+bool local(const PlacedLight& placed) { return placed.light.type != LightType::directional; }
+
+std::string keyOf(const ShaderDefines& defines) {
+    std::string key;
+    for (const auto& [name, value] : defines) key += name + '=' + value + ';';
+    return key;
+}
+
+}  // namespace
+
+void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame) {
+    frame_ = &frame;
+    uploadObjects(plan);
+    addDraws(plan);
+    uploadMaterials();
+    skyArray_.attribute(lensLocation, 4, GL_FLOAT, false, true);
+    skyArray_.attribute(eyeLocation, 4, GL_FLOAT, false, true);
+    skyArray_.bind(lensLocation, frame.samples(), 0, sizeof(GpuSample));
+    skyArray_.bind(eyeLocation, frame.samples(), sizeof(glm::vec4), sizeof(GpuSample));
+}
+
+void SurfacePass::uploadObjects(const FramePlan& plan) {
+    std::vector<GpuObject> blocks;
+    blocks.reserve(plan.objects.size());
+    for (const ObjectPlan& object : plan.objects)
+        blocks.push_back({glm::mat4(object.viewFromObject),
+                          glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
+                          glm::vec4(object.lambda, 0, 0, 0)});
+    objectStride_ = aligned(sizeof(GpuObject));
+    objectBlocks_ = stridedBuffer(blocks, objectStride_);
+}
+
+void SurfacePass::uploadMaterials() {
+    std::vector<GpuMaterial> blocks(materialSlots_.size());
+    for (const auto& [material, slot] : materialSlots_) blocks[slot] = GpuScene::materialBlock(scene_->material(material));
+    materialStride_ = aligned(sizeof(GpuMaterial));
+    materialBlocks_ = stridedBuffer(blocks, materialStride_);
+}
+
+void SurfacePass::addDraws(const FramePlan& plan) {
+    opaque_.clear();
+    blended_.clear();
+    materialSlots_.clear();
+    for (std::size_t index = 0; index < plan.objects.size(); ++index) {
+        const ObjectPlan& object = plan.objects[index];
+        const Pyramid& pyramid = scene_->world().pyramids[static_cast<std::size_t>(object.mesh)];
+        const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
+        GpuMesh& gpuMesh = scene_->mesh(object.mesh);
+        gpuMesh.vertexArray.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
+        gpuMesh.vertexArray.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
+        for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+            const int materialIndex = mesh.primitives[p].material;
+            const Material& material = scene_->material(materialIndex);
+            materialSlots_.try_emplace(materialIndex, materialSlots_.size());
+            for (const LevelDraw& level : {object.coarse, object.fine}) {
+                const std::uint32_t indexCount = pyramid.levels[level.level].primitives[p].count;
+                if (level.sampleCount == 0 || indexCount == 0) continue;
+                auto& list = material.alphaMode == AlphaMode::blend ? blended_ : opaque_;
+                list.push_back({object.mesh, level.level, p, static_cast<std::uint32_t>(index), materialIndex, level.firstSample,
+                                level.sampleCount, static_cast<GLsizei>(indexCount), object.mirrored,
+                                &program(material, gpuMesh, materialIndex)});
+            }
+        }
+    }
+    std::reverse(blended_.begin(), blended_.end());  // the plan's objects come nearest first
+}
+
+ShaderDefines SurfacePass::passDefines() const {
+    ShaderDefines defines = frame_->defines();
+    defines.insert(defines.end(), info_.defines.begin(), info_.defines.end());
+    if (info_.vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "1");
+    return defines;
+}
+
+const Program& SurfacePass::program(const Material& material, const GpuMesh& mesh, int materialIndex) {
+    static constexpr const char* textureDefines[5] = {"BASE_COLOR_TEXTURE", "METALLIC_ROUGHNESS_TEXTURE", "NORMAL_TEXTURE",
+                                                      "OCCLUSION_TEXTURE", "EMISSIVE_TEXTURE"};
+    ShaderDefines defines = passDefines();
+    const auto set = [&](bool condition, const char* name) {
+        if (condition) defines.emplace_back(name, "1");
+    };
+    const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
+    const GpuMaterialTextures& textures = scene_->textures(materialIndex);
+    const bool masked = material.alphaMode == AlphaMode::mask;
+    bool textured = false;
+    for (std::size_t i = 0; i < 5; ++i) {
+        const bool wanted = info_.shaded || (i == 0 && masked);
+        const bool used = textures.slots[i] != nullptr && hasUv && wanted && (i != 2 || mesh.tangents);
+        textured |= used;
+        set(used, textureDefines[i]);
+    }
+    const bool lit = info_.shaded && !material.unlit;
+    const std::vector<PlacedLight>& lights = scene_->world().lights;
+    set(textured, "TEXTURED");
+    set(!lit, "UNLIT");
+    set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
+    set(static_cast<bool>(mesh.colors), "VERTEX_COLORS");
+    set(material.doubleSided, "DOUBLE_SIDED");
+    set(masked, "ALPHA_MASK");
+    set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
+    const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));
+    if (isNew) {
+        std::vector<std::string> shaders = {"accumulation/object.vert", info_.fragmentShader};
+        if (!info_.vertexShaderLayers) shaders.emplace_back("accumulation/object.geom");
+        entry->second = Program({std::move(shaders), std::move(defines), info_.shaderFolder});
+    }
+    return entry->second;
+}
+
+void SurfacePass::bindFrame() {
+    frame_->bind(0);
+    glEnable(GL_DEPTH_TEST);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+}
+
+void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    const std::uint32_t begin = std::max(first, item.firstSample);
+    const std::uint32_t end = std::min(first + count, item.firstSample + item.sampleCount);
+    if (begin >= end) return;
+    GpuMesh& mesh = scene_->mesh(item.mesh);
+    const GpuLevel& level = mesh.levels[item.level];
+    item.program->use();
+    glBindBufferRange(GL_UNIFORM_BUFFER, 1, objectBlocks_.name(), static_cast<GLintptr>(item.object * objectStride_),
+                      sizeof(GpuObject));
+    glBindBufferRange(GL_UNIFORM_BUFFER, 2, materialBlocks_.name(),
+                      static_cast<GLintptr>(materialSlots_.at(item.material) * materialStride_), sizeof(GpuMaterial));
+    const GpuMaterialTextures& textures = scene_->textures(item.material);
+    for (GLuint i = 0; i < 5; ++i)
+        if (textures.slots[i] != nullptr) textures.slots[i]->attach(i);
+    mesh.vertexArray.bind(normalLocation, mesh.normals, level.normalOffset, sizeof(glm::vec3));
+    glBindVertexArray(mesh.vertexArray.name());
+    glFrontFace(item.mirrored ? GL_CW : GL_CCW);
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT,
+                                        reinterpret_cast<const void*>(level.indexOffsets[item.primitive]),
+                                        static_cast<GLsizei>(end - begin), begin);
+}
+
+void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count) {
+    bindFrame();
+    glDisable(GL_BLEND);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    for (const Draw& item : items) {
+        if (scene_->material(item.material).doubleSided)
+            glDisable(GL_CULL_FACE);
+        else
+            glEnable(GL_CULL_FACE);
+        glCullFace(GL_BACK);
+        draw(item, first, count);
+    }
+}
+
+void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) { drawSolid(opaque_, first, count); }
+
+void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
+    drawSolid(opaque_, first, count);
+    drawSolid(blended_, first, count);
+}
+
+void SurfacePass::drawBlended(std::uint32_t first, std::uint32_t count) {
+    if (blended_.empty()) return;
+    bindFrame();
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_CULL_FACE);
+    for (const Draw& item : blended_) {
+        if (scene_->material(item.material).doubleSided) {  // the far side first
+            glCullFace(GL_FRONT);
+            draw(item, first, count);
+        }
+        glCullFace(GL_BACK);
+        draw(item, first, count);
+    }
+    glDisable(GL_BLEND);
+}
+
+void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
+    if (!sky_) {
+        std::vector<std::string> shaders = {"accumulation/sky.vert", "accumulation/sky.frag"};
+        if (!info_.vertexShaderLayers) shaders.emplace_back("accumulation/sky.geom");
+        sky_ = Program({std::move(shaders), passDefines(), info_.shaderFolder});
+    }
+    bindFrame();
+    sky_.use();
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_GEQUAL);  // equal to the cleared depth only where nothing was drawn
+    glBindVertexArray(skyArray_.name());
+    glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
+}
+
+std::size_t SurfacePass::bytes() const {
+    return objectBlocks_.bytes() + materialBlocks_.bytes();
+}
+
+}  // namespace defocus

@@ -1,0 +1,76 @@
+#pragma once
+// Draws the surfaces of a FramePlan: one shader program for each set of features that the drawn materials need, and per object,
+// primitive and wave at most two instanced draws (a wave meets at most one boundary between levels).
+
+#include <map>
+#include <string>
+
+#include "gl/program.h"
+#include "render/frame_uniforms.h"
+#include "render/gpu_scene.h"
+
+namespace defocus {
+
+struct SurfacePassInfo {
+    std::string fragmentShader;            // under shaders/
+    ShaderDefines defines;                 // of the pass (layer format …)
+    bool shaded = true;                    // false: neither lights nor textures beyond the alpha test
+    bool vertexShaderLayers = true;        // false: a geometry shader picks the layer
+    std::filesystem::path shaderFolder;
+};
+
+class SurfacePass {
+public:
+    SurfacePass(GpuScene& scene, SurfacePassInfo info) : scene_(&scene), info_(std::move(info)) {}
+
+    // Builds the draws and programs of `plan`. `frame` must outlive the drawing.
+    void prepare(const FramePlan& plan, const FrameUniforms& frame);
+    // Draws samples [first, first + count) of the opaque and alpha-tested surfaces, front to back.
+    void drawOpaque(std::uint32_t first, std::uint32_t count);
+    // The same for alpha-blended surfaces, back to front (blending onto premultiplied colours).
+    void drawBlended(std::uint32_t first, std::uint32_t count);
+    // All surfaces, blended ones too, as if they were opaque.
+    void drawSurfaces(std::uint32_t first, std::uint32_t count);
+    // An environment map behind everything, where no surface was drawn (simpler skies are composed when layers are added).
+    void drawSky(std::uint32_t first, std::uint32_t count);
+
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    struct Draw {                     // a primitive of an object at one level
+        int mesh = -1;
+        std::uint32_t level = 0;
+        std::uint32_t primitive = 0;
+        std::uint32_t object = 0;     // into the object blocks
+        int material = -1;
+        std::uint32_t firstSample = 0;
+        std::uint32_t sampleCount = 0;
+        GLsizei indexCount = 0;
+        bool mirrored = false;
+        const Program* program = nullptr;
+    };
+
+    void uploadObjects(const FramePlan& plan);
+    void uploadMaterials();
+    void addDraws(const FramePlan& plan);
+    const Program& program(const Material& material, const GpuMesh& mesh, int materialIndex);
+    [[nodiscard]] ShaderDefines passDefines() const;
+    void bindFrame();
+    void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
+    void draw(const Draw& item, std::uint32_t first, std::uint32_t count);
+
+    GpuScene* scene_;
+    SurfacePassInfo info_;
+    std::map<std::string, Program> programs_;
+    Program sky_;
+    VertexArray skyArray_;
+    const FrameUniforms* frame_ = nullptr;
+    Buffer objectBlocks_, materialBlocks_;
+    std::size_t objectStride_ = 0;
+    std::size_t materialStride_ = 0;
+    std::map<int, std::size_t> materialSlots_;
+    std::vector<Draw> opaque_;
+    std::vector<Draw> blended_;
+};
+
+}  // namespace defocus

@@ -1,0 +1,82 @@
+#include "scene/animation.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace defocus {
+
+namespace {
+
+// Where a moment falls among the keys: between `key` and `key + 1`, at `fraction` of the way; `span` seconds apart.
+struct Segment {
+    std::size_t key = 0;
+    double fraction = 0;
+    double span = 0;
+};
+
+Segment segmentAt(const std::vector<float>& times, double time) {
+    const auto after = std::upper_bound(times.begin(), times.end(), time);
+    if (after == times.begin()) return {};
+    const auto key = static_cast<std::size_t>(after - times.begin()) - 1;
+    if (after == times.end()) return {key, 0, 0};
+    const double span = static_cast<double>(*after) - static_cast<double>(times[key]);
+    return {key, (time - static_cast<double>(times[key])) / span, span};
+}
+
+// glTF 2.0 C.5: Hermite spline through v_k and v_(k+1) with the out-tangent b_k and the in-tangent a_(k+1), scaled by the
+// time between the keys. A key holds in-tangent, value, out-tangent.
+double cubicSpline(const float* key, const float* next, std::size_t count, const Segment& segment) {
+    const double t = segment.fraction;
+    const double t2 = t * t;
+    const double t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * static_cast<double>(key[count]) +
+           segment.span * (t3 - 2 * t2 + t) * static_cast<double>(key[2 * count]) +
+           (-2 * t3 + 3 * t2) * static_cast<double>(next[count]) +
+           segment.span * (t3 - t2) * static_cast<double>(next[0]);
+}
+
+glm::dquat rotationKey(const AnimationChannel& channel, std::size_t key) {
+    const float* value = channel.values.data() + 4 * key;
+    return glm::normalize(glm::dquat(value[3], value[0], value[1], value[2]));
+}
+
+}  // namespace
+
+std::vector<double> sampleValues(const AnimationChannel& channel, std::size_t count, double time) {
+    const std::size_t perKey = channel.interpolation == Interpolation::cubicSpline ? 3 * count : count;
+    assert(!channel.times.empty() && channel.values.size() == channel.times.size() * perKey);
+    const Segment segment = segmentAt(channel.times, time);
+    const float* key = channel.values.data() + segment.key * perKey;
+    const float* next = segment.span > 0 ? key + perKey : key;
+
+    std::vector<double> result(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        switch (channel.interpolation) {
+            case Interpolation::step:
+                result[i] = key[i];
+                break;
+            case Interpolation::linear:
+                result[i] = (1 - segment.fraction) * static_cast<double>(key[i]) +
+                            segment.fraction * static_cast<double>(next[i]);
+                break;
+            case Interpolation::cubicSpline:
+                result[i] = cubicSpline(key + i, next + i, count, segment);
+                break;
+        }
+    }
+    return result;
+}
+
+glm::dquat sampleRotation(const AnimationChannel& channel, double time) {
+    if (channel.interpolation == Interpolation::linear) {
+        const Segment segment = segmentAt(channel.times, time);
+        const glm::dquat from = rotationKey(channel, segment.key);
+        if (segment.span <= 0) return from;
+        return glm::normalize(glm::slerp(from, rotationKey(channel, segment.key + 1), segment.fraction));
+    }
+    const std::vector<double> value = sampleValues(channel, 4, time);
+    const glm::dquat rotation(value[3], value[0], value[1], value[2]);
+    return glm::dot(rotation, rotation) > 0 ? glm::normalize(rotation) : glm::dquat(1, 0, 0, 0);
+}
+
+}  // namespace defocus

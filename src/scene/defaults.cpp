@@ -1,0 +1,191 @@
+// The fit of the camera: each of the four side planes of the view is moved until it touches the box, which gives the depth and
+// the sideways shift in closed form. The lights follow the photographer's key, fill and rim.
+#include "scene/defaults.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double framingTangent = 18.0 / 50.0;  // half the image's longer side: a 50 mm lens before a 36 mm sensor
+constexpr double framingFill = 0.94;            // share of the image that the box may fill
+constexpr double framingAzimuth = glm::radians(30.0);    // to the right of +z, the side that glTF models face
+constexpr double framingElevation = glm::radians(18.0);
+constexpr std::string_view framingName = "auto";
+
+// ---- cameras -----------------------------------------------------------------------------------------------------------
+
+struct CameraNode {
+    const Node* node;
+    const Camera* camera;
+    std::size_t index;
+};
+
+// The nodes with a camera that belong to the scene, in the order of the file.
+std::vector<CameraNode> cameraNodes(const Scene& scene) {
+    std::vector<CameraNode> result;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].camera >= 0)
+            result.push_back({&scene.nodes[i], &scene.cameras[static_cast<std::size_t>(scene.nodes[i].camera)], i});
+    return result;
+}
+
+// Rotation and position of a node's matrix. The way it looks is kept, then its up; scale, shear and mirroring are dropped.
+glm::dmat4 withoutScale(const glm::dmat4& world) {
+    const auto unit = [](const glm::dvec3& vector, const glm::dvec3& otherwise) {
+        const double length = glm::length(vector);
+        return length > 0 && std::isfinite(length) ? vector / length : otherwise;
+    };
+    const glm::dvec3 z = unit(glm::dvec3(world[2]), {0, 0, 1});
+    const glm::dvec3 aside = std::abs(z.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    const glm::dvec3 x = unit(glm::cross(glm::dvec3(world[1]), z), glm::normalize(glm::cross(aside, z)));
+    const glm::dvec3 y = glm::cross(z, x);
+    return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), world[3]};
+}
+
+PlacedCamera framingCamera(const Bounds& sceneBounds, double aspect) {
+    Bounds bounds = sceneBounds;
+    if (bounds.empty()) bounds = {glm::dvec3(-1), glm::dvec3(1)};
+    const double largest = std::max({bounds.size().x, bounds.size().y, bounds.size().z});
+    const double radius = std::max(0.5 * largest, 1e-6);
+
+    const glm::dvec3 z(std::sin(framingAzimuth) * std::cos(framingElevation), std::sin(framingElevation),
+                       std::cos(framingAzimuth) * std::cos(framingElevation));
+    const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), z));
+    const glm::dvec3 y = glm::cross(z, x);
+    const double tangentX = framingTangent * std::min(aspect, 1.0);
+    const double tangentY = tangentX / aspect;
+
+    // A corner c (in camera axes, relative to the centre) is inside the right plane of a camera at p when
+    // c.x − p.x ≤ (p.z − c.z)·t, so p.x + t·p.z ≥ c.x + t·c.z; the other planes alike.
+    const double tx = framingFill * tangentX;
+    const double ty = framingFill * tangentY;
+    double right = 0, left = 0, top = 0, bottom = 0;
+    double front = 0;
+    for (const glm::dvec3& corner : bounds.corners()) {
+        const glm::dvec3 offset = corner - bounds.centre();
+        const glm::dvec3 c(glm::dot(offset, x), glm::dot(offset, y), glm::dot(offset, z));
+        right = std::max(right, c.x + tx * c.z);
+        left = std::max(left, -c.x + tx * c.z);
+        top = std::max(top, c.y + ty * c.z);
+        bottom = std::max(bottom, -c.y + ty * c.z);
+        front = std::max(front, c.z);
+    }
+    const double distance =
+        std::max({(right + left) / (2 * tx), (top + bottom) / (2 * ty), front + 0.1 * radius, 2 * radius});
+
+    PlacedCamera placed;
+    placed.camera.name = framingName;
+    placed.camera.yfov = 2 * std::atan(tangentY);
+    placed.camera.aspectRatio = aspect;
+    placed.camera.znear = std::max(0.1 * (distance - front), 1e-3 * radius);
+    placed.camera.focusDistance = distance;
+    const glm::dvec3 position =
+        bounds.centre() + 0.5 * (right - left) * x + 0.5 * (top - bottom) * y + distance * z;
+    placed.worldFromCamera = {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
+    return placed;
+}
+
+std::string labelOf(const CameraNode& place) {
+    if (!place.camera->name.empty()) return place.camera->name;
+    return !place.node->name.empty() ? place.node->name : "(no name)";
+}
+
+[[noreturn]] void failForCamera(const std::vector<CameraNode>& places, const std::string& name) {
+    std::vector<std::string> names;
+    for (const CameraNode& place : places) names.push_back(labelOf(place));
+    if (names.empty())
+        fail("there is no camera '{}': the scene has none (name no camera for one that frames the scene)", name);
+    fail("there is no camera '{}'; the scene has: {}, {} (frames the scene)", name, fmt::join(names, ", "),
+         framingName);
+}
+
+// ---- lights ------------------------------------------------------------------------------------------------------------
+
+// A material that looks the same under any light.
+bool selfLit(const Material& material) {
+    const float brightest = std::max({material.emissiveFactor.r, material.emissiveFactor.g, material.emissiveFactor.b});
+    return material.unlit || (brightest > 0 && !material.emissive.used());
+}
+
+bool everythingSelfLit(const Scene& scene, const Pose& pose) {
+    bool anything = false;
+    for (const Object& object : pose.objects)
+        for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(object.mesh)].primitives) {
+            anything = true;
+            if (primitive.material < 0 || !selfLit(scene.materials[static_cast<std::size_t>(primitive.material)]))
+                return false;
+        }
+    return anything;
+}
+
+// A directional light that stands `azimuth` to the right of the camera and `elevation` above it, seen from the scene.
+PlacedLight studioLight(const PlacedCamera& camera, const char* name, double azimuth, double elevation,
+                        const glm::vec3& color, float lux, const glm::dvec3& position) {
+    const glm::dvec3 toLight(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                             std::cos(azimuth) * std::cos(elevation));
+    PlacedLight placed;
+    placed.light = {name, LightType::directional, color, lux};
+    placed.direction = -glm::normalize(glm::dvec3(camera.worldFromCamera * glm::dvec4(toLight, 0)));
+    placed.position = position;
+    return placed;
+}
+
+}  // namespace
+
+PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::string& name, double aspect) {
+    const std::vector<CameraNode> places = cameraNodes(scene);
+
+    // By name; without one, the first that can be used.
+    const CameraNode* chosen = nullptr;
+    for (const CameraNode& place : places) {
+        const bool matches = name.empty() ? !place.camera->orthographic
+                                          : place.camera->name == name || place.node->name == name;
+        if (matches && chosen == nullptr) chosen = &place;
+    }
+    if (chosen == nullptr && name.empty() && !places.empty()) chosen = &places.front();
+    if (chosen != nullptr) {
+        if (chosen->camera->orthographic)
+            fail("camera '{}' cannot be used: {}; name another, or '{}' for one that frames the scene", labelOf(*chosen),
+                 *chosen->camera->orthographic, framingName);
+        return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index])};
+    }
+
+    if (!name.empty() && name != framingName) failForCamera(places, name);
+    return framingCamera(pose.bounds, aspect);
+}
+
+std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera) {
+    if (!pose.lights.empty()) return pose.lights;
+    if (everythingSelfLit(scene, pose)) return {};
+    // Illuminances are chosen together with the sky below: a diffuse ball of 18 % reflectance averages 18 % of display white.
+    const glm::dvec3 centre = pose.bounds.empty() ? glm::dvec3(0) : pose.bounds.centre();
+    return {
+        studioLight(camera, "key", glm::radians(-42.0), glm::radians(38.0), {1.0f, 0.96f, 0.90f}, 2.6f, centre),
+        studioLight(camera, "fill", glm::radians(55.0), glm::radians(12.0), {0.88f, 0.94f, 1.0f}, 0.8f, centre),
+        studioLight(camera, "rim", glm::radians(155.0), glm::radians(35.0), {1.0f, 1.0f, 1.0f}, 2.2f, centre),
+    };
+}
+
+Environment environmentOrDefault(const Scene& scene) {
+    if (scene.environment) return *scene.environment;
+    // A neutral grey-blue studio: calm behind the subject, hence darker to the eye than it lights.
+    Environment sky;
+    sky.type = EnvironmentType::gradient;
+    sky.zenith = {0.21f, 0.26f, 0.33f};
+    sky.horizon = {0.40f, 0.43f, 0.47f};
+    sky.nadir = {0.15f, 0.15f, 0.15f};
+    sky.lighting = 1.6f;
+    return sky;
+}
+
+}  // namespace defocus

@@ -1,0 +1,58 @@
+#pragma once
+// The random numbers of the fish school: PCG32 (O'Neill 2014), and a value noise over an integer hash. Written out here
+// since the distributions of the standard library differ between its implementations, and the school must not.
+
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace defocus {
+
+class FishRandom {
+public:
+    // Two seeds that differ in any bit give unrelated sequences.
+    FishRandom(std::uint32_t seed, std::uint32_t stream) : increment_((std::uint64_t{stream} << 1u) | 1u) {
+        next();
+        state_ += 0x9e3779b97f4a7c15ull * (std::uint64_t{seed} + 1u);
+        next();
+    }
+
+    std::uint32_t next() {
+        const std::uint64_t old = state_;
+        state_ = old * 6364136223846793005ull + increment_;
+        const auto shifted = static_cast<std::uint32_t>(((old >> 18u) ^ old) >> 27u);
+        const auto turn = static_cast<std::uint32_t>(old >> 59u);
+        return (shifted >> turn) | (shifted << ((32u - turn) & 31u));
+    }
+
+    // In [0, 1), 24 bits.
+    float uniform() { return static_cast<float>(next() >> 8u) * 0x1p-24f; }
+    float uniform(float low, float high) { return low + (high - low) * uniform(); }
+    // `value` times a factor within ± `relative`.
+    float vary(float value, float relative) { return value * uniform(1.0f - relative, 1.0f + relative); }
+
+private:
+    std::uint64_t state_ = 0;
+    std::uint64_t increment_;
+};
+
+// A value in [0, 1) for a lattice point.
+inline float latticeValue(int x, int y, std::uint32_t seed) {
+    std::uint32_t h = seed + 0x9e3779b9u * static_cast<std::uint32_t>(x) + 0x85ebca6bu * static_cast<std::uint32_t>(y);
+    h = (h ^ (h >> 16u)) * 0x7feb352du;
+    h = (h ^ (h >> 15u)) * 0x846ca68bu;
+    return static_cast<float>((h ^ (h >> 16u)) >> 8u) * 0x1p-24f;
+}
+
+// Smooth value noise in [0, 1], one lattice cell a unit.
+inline float valueNoise(const glm::vec2& p, std::uint32_t seed) {
+    const glm::vec2 cell = glm::floor(p);
+    const glm::vec2 f = p - cell;
+    const glm::vec2 s = f * f * (3.0f - 2.0f * f);
+    const int x = static_cast<int>(cell.x);
+    const int y = static_cast<int>(cell.y);
+    return glm::mix(glm::mix(latticeValue(x, y, seed), latticeValue(x + 1, y, seed), s.x),
+                    glm::mix(latticeValue(x, y + 1, seed), latticeValue(x + 1, y + 1, seed), s.x), s.y);
+}
+
+}  // namespace defocus

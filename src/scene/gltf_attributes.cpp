@@ -1,0 +1,191 @@
+// glTF 2.0 specification, 3.7.2 (meshes).
+#include "scene/gltf_attributes.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/gltf_accessor.h"
+
+namespace defocus::gltf {
+
+namespace {
+
+class AttributeReader {
+public:
+    AttributeReader(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco, std::string what)
+        : source_(source), primitive_(primitive), draco_(draco), what_(std::move(what)) {
+        count_ = draco_ != nullptr ? draco_->vertexCount() : elementCount(source_, primitive_.attributes.at("POSITION"));
+    }
+
+    void checkCounts() const {
+        for (const auto& [name, accessor] : primitive_.attributes)
+            if (draco_ == nullptr || !draco_->has(name)) checkCount(name, accessor);
+        for (const auto& target : primitive_.targets)
+            for (const auto& [name, accessor] : target) checkCount("morph target " + name, accessor);
+    }
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] bool has(const std::string& name) const { return primitive_.attributes.contains(name); }
+    [[nodiscard]] int components(const std::string& name) const {
+        return componentCount(source_, primitive_.attributes.at(name));
+    }
+
+    // Empty where the primitive doesn't have the attribute.
+    template <typename Vector>
+    std::vector<Vector> read(const std::string& name) const {
+        const auto found = primitive_.attributes.find(name);
+        if (found == primitive_.attributes.end()) return {};
+        if (draco_ == nullptr || !draco_->has(name)) return readVectors<Vector>(source_, found->second, label(name));
+        const std::vector<float> floats =
+            draco_->floats(source_, name, Vector::length(), normalisationScale(source_, found->second));
+        std::vector<Vector> result(count_);
+        for (std::size_t i = 0; i < count_; ++i)
+            for (int c = 0; c < Vector::length(); ++c)
+                result[i][c] = floats[i * static_cast<std::size_t>(Vector::length()) + static_cast<std::size_t>(c)];
+        return result;
+    }
+
+    std::vector<MorphTarget> readTargets() const {
+        std::vector<MorphTarget> result;
+        for (const auto& target : primitive_.targets)
+            result.push_back({displacements(target, "POSITION"), displacements(target, "NORMAL"),
+                              displacements(target, "TANGENT")});
+        return result;
+    }
+
+private:
+    [[nodiscard]] std::string label(const std::string& name) const { return what_ + ": " + name; }
+
+    void checkCount(const std::string& name, int accessor) const {
+        const std::size_t elements = elementCount(source_, accessor);
+        if (elements != count_)
+            fault(source_.document, "{} has {} elements, but POSITION has {}: unequal counts", label(name), elements,
+                  count_);
+    }
+
+    [[nodiscard]] std::vector<glm::vec3> displacements(const std::map<std::string, int>& target, const char* name) const {
+        const auto found = target.find(name);
+        if (found == target.end()) return {};
+        std::vector<glm::vec3> result = readVectors<glm::vec3>(source_, found->second, label("morph target"));
+        for (glm::vec3& displacement : result)
+            if (!std::isfinite(glm::dot(displacement, displacement))) displacement = glm::vec3(0);
+        return result;
+    }
+
+    Source& source_;
+    const tinygltf::Primitive& primitive_;
+    const DracoPrimitive* draco_;
+    std::string what_;
+    std::size_t count_ = 0;
+};
+
+std::uint8_t toByte(float value) {
+    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(std::isfinite(value) ? value : 0.0f, 0.0f, 1.0f)));
+}
+
+std::vector<glm::u8vec4> readColors(const AttributeReader& reader) {
+    std::vector<glm::u8vec4> result;
+    if (!reader.has("COLOR_0")) return result;
+    result.reserve(reader.count());
+    if (reader.components("COLOR_0") == 3)
+        for (const glm::vec3& color : reader.read<glm::vec3>("COLOR_0"))
+            result.emplace_back(toByte(color.r), toByte(color.g), toByte(color.b), 255);
+    else
+        for (const glm::vec4& color : reader.read<glm::vec4>("COLOR_0"))
+            result.emplace_back(toByte(color.r), toByte(color.g), toByte(color.b), toByte(color.a));
+    return result;
+}
+
+std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& reader, const std::string& what) {
+    std::vector<glm::u16vec4> result;
+    for (const glm::vec4& joints : reader.read<glm::vec4>("JOINTS_0")) {
+        for (int i = 0; i < 4; ++i)
+            if (!(joints[i] >= 0 && joints[i] <= 65535)) fault(source.document, "{}: JOINTS_0 holds no joint indices", what);
+        result.emplace_back(joints);
+    }
+    return result;
+}
+
+std::vector<glm::vec2> readTextureCoordinates(const AttributeReader& reader, const std::string& name) {
+    std::vector<glm::vec2> result = reader.read<glm::vec2>(name);
+    for (glm::vec2& uv : result)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = glm::vec2(0);
+    return result;
+}
+
+bool normalise(glm::vec3& vector) {
+    const glm::dvec3 wide = vector;
+    const double length = glm::length(wide);
+    if (!(length > 1e-12) || !std::isfinite(length)) return false;
+    // A length that is one already to single precision stays as the file has it.
+    if (std::abs(length - 1.0) > 1e-6) vector = glm::vec3(wide / length);
+    return true;
+}
+
+void repairNormals(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices) {
+    std::vector<std::size_t> broken;
+    for (std::size_t i = 0; i < block.vertices.normals.size(); ++i)
+        if (!normalise(block.vertices.normals[i])) broken.push_back(i);
+    if (broken.empty()) return;
+    std::vector<std::uint32_t> all;
+    for (const std::vector<std::uint32_t>* list : indices) all.insert(all.end(), list->begin(), list->end());
+    const std::vector<glm::vec3> smooth = smoothNormals(block.vertices.positions, all);
+    for (const std::size_t i : broken) block.vertices.normals[i] = smooth[i];
+    ignore(source, "vertex normals", "of no length or not finite; replaced by the faces' average", broken.size());
+}
+
+void repairTangents(VertexBlock& block) {
+    for (std::size_t i = 0; i < block.vertices.tangents.size(); ++i) {
+        glm::vec4& tangent = block.vertices.tangents[i];
+        glm::vec3 direction(tangent);
+        if (!normalise(direction)) direction = perpendicular(block.vertices.normals[i]);
+        tangent = glm::vec4(direction, tangent.w < 0 ? -1.0f : 1.0f);
+    }
+}
+
+void repairWeights(VertexBlock& block) {
+    for (glm::vec4& weight : block.vertices.weights) {
+        for (int i = 0; i < 4; ++i)
+            if (!(weight[i] > 0) || !std::isfinite(weight[i])) weight[i] = 0;
+        const float sum = weight.x + weight.y + weight.z + weight.w;
+        weight = sum > 0 && std::isfinite(sum) ? weight / sum : glm::vec4(1, 0, 0, 0);
+    }
+}
+
+}  // namespace
+
+VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
+                           const std::string& what) {
+    const AttributeReader reader(source, primitive, draco, what);
+    reader.checkCounts();
+    VertexBlock block;
+    block.vertices.positions = reader.read<glm::vec3>("POSITION");
+    block.vertices.normals = reader.read<glm::vec3>("NORMAL");
+    if (!block.vertices.normals.empty()) block.vertices.tangents = reader.read<glm::vec4>("TANGENT");
+    block.vertices.uv0 = readTextureCoordinates(reader, "TEXCOORD_0");
+    block.vertices.uv1 = readTextureCoordinates(reader, "TEXCOORD_1");
+    block.vertices.colors = readColors(reader);
+    if (reader.has("WEIGHTS_0")) {
+        block.vertices.joints = readJoints(source, reader, what);
+        block.vertices.weights = reader.read<glm::vec4>("WEIGHTS_0");
+    }
+    if (block.vertices.joints.empty()) block.vertices.weights.clear();
+    block.morphTargets = reader.readTargets();
+    return block;
+}
+
+void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices,
+            const std::string& what) {
+    for (std::size_t i = 0; i < block.vertices.count(); ++i) {
+        const glm::vec3& position = block.vertices.positions[i];
+        if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
+            fault(source.document, "{}: a triangle uses a position that is not finite (NaN or infinite)", what);
+    }
+    repairNormals(source, block, indices);
+    repairTangents(block);
+    repairWeights(block);
+}
+
+}  // namespace defocus::gltf

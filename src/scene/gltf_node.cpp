@@ -1,0 +1,252 @@
+// glTF 2.0 specification, 3.5 (scenes, nodes) and 3.10 (cameras); EXT_mesh_gpu_instancing; KHR_lights_punctual.
+#include "scene/gltf_node.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/gltf_accessor.h"
+
+namespace defocus::gltf {
+
+namespace {
+
+// ---- which nodes -------------------------------------------------------------------------------------------------------
+
+// Each node's parent or −1. A tree has one parent a node and no loop.
+std::vector<int> parentsOf(const Source& source) {
+    const std::vector<tinygltf::Node>& nodes = source.model.nodes;
+    std::vector<int> parents(nodes.size(), -1);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (const int child : nodes[i].children) {
+            int& parent = parents[static_cast<std::size_t>(child)];
+            if (parent >= 0) fault(source.document, "node {} is a child of two nodes, {} and {}", child, parent, i);
+            parent = static_cast<int>(i);
+        }
+
+    // With one parent each, whatever is not reached from a parentless node goes round in a loop.
+    std::vector<bool> reached(nodes.size());
+    std::vector<int> stack;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (parents[i] < 0) stack.push_back(static_cast<int>(i));
+    while (!stack.empty()) {
+        const auto node = static_cast<std::size_t>(stack.back());
+        stack.pop_back();
+        reached[node] = true;
+        stack.insert(stack.end(), nodes[node].children.begin(), nodes[node].children.end());
+    }
+    const auto lost = std::find(reached.begin(), reached.end(), false);
+    if (lost != reached.end())
+        fault(source.document, "node {} is its own ancestor: the nodes form a loop", lost - reached.begin());
+    return parents;
+}
+
+std::vector<int> sceneRoots(Source& source, const std::vector<int>& parents, std::string& name) {
+    std::vector<int> roots;
+    if (source.model.scenes.empty()) {
+        for (std::size_t i = 0; i < parents.size(); ++i)
+            if (parents[i] < 0) roots.push_back(static_cast<int>(i));
+        return roots;
+    }
+    const std::size_t chosen = source.document.json.value("scene", std::size_t{0});
+    name = source.model.scenes[chosen].name;
+    for (const int root : source.model.scenes[chosen].nodes) {
+        if (parents[static_cast<std::size_t>(root)] >= 0)
+            fault(source.document, "scene {} lists node {}, which is a child of node {}", chosen, root,
+                  parents[static_cast<std::size_t>(root)]);
+        if (std::find(roots.begin(), roots.end(), root) == roots.end()) roots.push_back(root);
+    }
+    if (source.model.scenes.size() > 1)
+        ignore(source, "scene", "only the file's default scene is drawn", source.model.scenes.size() - 1);
+    return roots;
+}
+
+// The scene's nodes, then the joints of their skins with all ancestors.
+std::vector<bool> neededNodes(const Source& source, const std::vector<int>& parents, const std::vector<int>& roots) {
+    const std::vector<tinygltf::Node>& nodes = source.model.nodes;
+    std::vector<bool> needed(nodes.size());
+    std::vector<int> stack = roots;
+    while (!stack.empty()) {
+        const auto node = static_cast<std::size_t>(stack.back());
+        stack.pop_back();
+        needed[node] = true;
+        stack.insert(stack.end(), nodes[node].children.begin(), nodes[node].children.end());
+    }
+    for (const tinygltf::Skin& skin : source.model.skins)
+        for (int joint : skin.joints)
+            for (; joint >= 0 && !needed[static_cast<std::size_t>(joint)]; joint = parents[static_cast<std::size_t>(joint)])
+                needed[static_cast<std::size_t>(joint)] = true;
+    return needed;
+}
+
+// ---- one node ----------------------------------------------------------------------------------------------------------
+
+glm::dvec3 vectorOf(const std::vector<double>& numbers, const glm::dvec3& otherwise) {
+    return numbers.empty() ? otherwise : glm::dvec3(numbers[0], numbers[1], numbers[2]);
+}
+
+glm::dquat unitQuaternion(double x, double y, double z, double w) {
+    const glm::dquat rotation(w, x, y, z);
+    const double length = glm::length(rotation);
+    return length > 0 && std::isfinite(length) ? rotation / length : glm::dquat(1, 0, 0, 0);
+}
+
+std::vector<glm::dmat4> readInstances(Source& source, const nlohmann::json& json, const std::string& label) {
+    const nlohmann::json& attributes = json["attributes"];
+    const std::string what = label + ": EXT_mesh_gpu_instancing";
+    const auto accessor = [&](const char* name) { return attributes.contains(name) ? attributes[name].get<int>() : -1; };
+    std::optional<std::size_t> count;
+    for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"}) {
+        if (accessor(name) < 0) continue;
+        const std::size_t elements = elementCount(source, accessor(name));
+        if (count && *count != elements)
+            fault(source.document, "{}: {} has {} elements, another attribute {}", what, name, elements, *count);
+        count = elements;
+    }
+    if (!count) return {};
+    takeBudget(source, *count, 2 * sizeof(glm::dmat4), what);
+
+    std::vector<glm::dmat4> instances(*count, glm::dmat4(1.0));
+    if (accessor("TRANSLATION") >= 0) {
+        const auto values = readVectors<glm::vec3>(source, accessor("TRANSLATION"), what);
+        for (std::size_t i = 0; i < *count; ++i) instances[i] = glm::translate(instances[i], glm::dvec3(values[i]));
+    }
+    if (accessor("ROTATION") >= 0) {
+        const auto values = readVectors<glm::vec4>(source, accessor("ROTATION"), what);
+        for (std::size_t i = 0; i < *count; ++i)
+            instances[i] *= glm::mat4_cast(unitQuaternion(values[i].x, values[i].y, values[i].z, values[i].w));
+    }
+    if (accessor("SCALE") >= 0) {
+        const auto values = readVectors<glm::vec3>(source, accessor("SCALE"), what);
+        for (std::size_t i = 0; i < *count; ++i) instances[i] = glm::scale(instances[i], glm::dvec3(values[i]));
+    }
+    return instances;
+}
+
+int lightOf(const Source& source, const nlohmann::json& json, const std::string& label) {
+    const nlohmann::json* extension = findExtension(json, "KHR_lights_punctual");
+    if (extension == nullptr) return -1;
+    const auto light = (*extension)["light"].get<std::uint64_t>();
+    if (light >= source.model.lights.size())
+        fault(source.document, "{}: it names light {}, but the file has {}", label, light, source.model.lights.size());
+    return static_cast<int>(light);
+}
+
+Node readNode(Source& source, std::size_t index) {
+    const tinygltf::Node& from = source.model.nodes[index];
+    const nlohmann::json& json = source.document.json["nodes"][index];
+    const std::string label = labelOf("node", index, from.name);
+    Node node;
+    node.name = from.name;
+    node.translation = vectorOf(from.translation, glm::dvec3(0));
+    node.scale = vectorOf(from.scale, glm::dvec3(1));
+    if (!from.rotation.empty())
+        node.rotation = unitQuaternion(from.rotation[0], from.rotation[1], from.rotation[2], from.rotation[3]);
+    if (!from.matrix.empty()) node.matrix = glm::make_mat4(from.matrix.data());
+    node.mesh = from.mesh;
+    node.skin = from.mesh >= 0 ? from.skin : -1;
+    node.camera = from.camera;
+    node.light = lightOf(source, json, label);
+    for (const double weight : from.weights) node.morphWeights.push_back(toFloat(weight));
+    const nlohmann::json* instancing = findExtension(json, "EXT_mesh_gpu_instancing");
+    if (instancing != nullptr && from.mesh >= 0) node.instances = readInstances(source, *instancing, label);
+    return node;
+}
+
+// ---- cameras -----------------------------------------------------------------------------------------------------------
+
+// A number > 0 among a camera's extras; these three names are the ones of Blender's and USD's lens.
+std::optional<double> lensValue(const nlohmann::json& camera, const char* name) {
+    const auto extras = camera.find("extras");
+    if (extras == camera.end() || !extras->is_object()) return std::nullopt;
+    const auto found = extras->find(name);
+    if (found == extras->end() || !found->is_number() || !(found->get<double>() > 0)) return std::nullopt;
+    return found->get<double>();
+}
+
+}  // namespace
+
+Hierarchy readHierarchy(Source& source) {
+    Hierarchy result;
+    const std::vector<int> parents = parentsOf(source);
+    const std::vector<int> roots = sceneRoots(source, parents, result.sceneName);
+
+    // Keep what is needed, in the order of the file.
+    const std::vector<bool> needed = neededNodes(source, parents, roots);
+    result.kept.assign(parents.size(), -1);
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        if (!needed[i]) continue;
+        result.kept[i] = static_cast<int>(result.nodes.size());
+        result.nodes.push_back(readNode(source, i));
+    }
+
+    // Links between the kept.
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+        if (!needed[i] || parents[i] < 0) continue;
+        const int parent = result.kept[static_cast<std::size_t>(parents[i])];
+        result.nodes[static_cast<std::size_t>(result.kept[i])].parent = parent;
+        result.nodes[static_cast<std::size_t>(parent)].children.push_back(result.kept[i]);
+    }
+    for (const int root : roots) result.roots.push_back(result.kept[static_cast<std::size_t>(root)]);
+    return result;
+}
+
+std::vector<Camera> readCameras(Source& source) {
+    std::vector<Camera> cameras;
+    for (std::size_t i = 0; i < source.model.cameras.size(); ++i) {
+        const tinygltf::Camera& from = source.model.cameras[i];
+        const nlohmann::json& json = source.document.json["cameras"][i];
+        const std::string label = labelOf("camera", i, from.name);
+        Camera camera;
+        camera.name = from.name;
+        camera.fStop = lensValue(json, "fStop");
+        camera.focusDistance = lensValue(json, "focusDistance");
+        camera.horizontalAperture = lensValue(json, "horizontalAperture");
+        if (from.type == "orthographic") {
+            camera.orthographic = "orthographic cameras are not supported";
+            ignore(source, label, *camera.orthographic);
+        } else {
+            camera.yfov = from.perspective.yfov;
+            camera.znear = from.perspective.znear;
+            if (from.perspective.aspectRatio > 0) camera.aspectRatio = from.perspective.aspectRatio;
+            if (!(camera.yfov > 0 && camera.yfov < std::numbers::pi))
+                fault(source.document, "{}: its yfov of {} rad is impossible", label, camera.yfov);
+            if (!(camera.znear > 0)) fault(source.document, "{}: its znear of {} m is impossible", label, camera.znear);
+        }
+        cameras.push_back(camera);
+    }
+    return cameras;
+}
+
+std::vector<Light> readLights(Source& source) {
+    std::vector<Light> lights;
+    for (std::size_t i = 0; i < source.model.lights.size(); ++i) {
+        const tinygltf::Light& from = source.model.lights[i];
+        Light light;
+        light.name = from.name;
+        if (from.type == "point")
+            light.type = LightType::point;
+        else if (from.type == "spot")
+            light.type = LightType::spot;
+        else if (from.type != "directional")
+            fault(source.document, "{}: unknown type '{}'", labelOf("light", i, from.name), from.type);
+        if (from.color.size() == 3)
+            light.color = {toFloat(from.color[0]), toFloat(from.color[1]), toFloat(from.color[2])};
+        light.intensity = toFloat(from.intensity);
+        light.range = toFloat(std::max(from.range, 0.0));
+        light.innerConeAngle = toFloat(from.spot.innerConeAngle);
+        light.outerConeAngle = toFloat(from.spot.outerConeAngle);
+        const bool cone = light.innerConeAngle >= 0 && light.outerConeAngle > light.innerConeAngle &&
+                          light.outerConeAngle <= std::numbers::pi_v<float> / 2 + 1e-4f;
+        if (light.type == LightType::spot && !cone)
+            fault(source.document, "{}: a cone from {} to {} rad is impossible", labelOf("light", i, from.name),
+                  light.innerConeAngle, light.outerConeAngle);
+        lights.push_back(light);
+    }
+    return lights;
+}
+
+}  // namespace defocus::gltf

@@ -1,0 +1,80 @@
+#include "scene/mesh.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace defocus {
+
+namespace {
+
+bool lessByCoordinates(const glm::vec3& a, const glm::vec3& b) {
+    if (a.x != b.x) return a.x < b.x;
+    if (a.y != b.y) return a.y < b.y;
+    return a.z < b.z;
+}
+
+// For each position the first index that holds an equal one (−0 equals 0).
+std::vector<std::uint32_t> weldedIndices(const std::vector<glm::vec3>& positions) {
+    std::vector<std::uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        if (lessByCoordinates(positions[a], positions[b])) return true;
+        return !lessByCoordinates(positions[b], positions[a]) && a < b;
+    });
+    std::vector<std::uint32_t> welded(positions.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool repeats = i > 0 && positions[order[i]] == positions[order[i - 1]];
+        welded[order[i]] = repeats ? welded[order[i - 1]] : order[i];
+    }
+    return welded;
+}
+
+}  // namespace
+
+std::size_t Mesh::triangleCount() const {
+    std::size_t count = 0;
+    for (const Primitive& primitive : primitives) count += primitive.indices.size() / 3;
+    return count;
+}
+
+Bounds Mesh::bounds() const {
+    // Single precision is exact here: a box only picks among the coordinates.
+    glm::vec3 minimum(std::numeric_limits<float>::infinity());
+    glm::vec3 maximum(-std::numeric_limits<float>::infinity());
+    for (const Primitive& primitive : primitives)
+        for (const std::uint32_t index : primitive.indices) {
+            minimum = glm::min(minimum, vertices.positions[index]);
+            maximum = glm::max(maximum, vertices.positions[index]);
+        }
+    Bounds result;
+    result.minimum = minimum;
+    result.maximum = maximum;
+    return result;
+}
+
+std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
+                                     const std::vector<std::uint32_t>& indices) {
+    const std::vector<std::uint32_t> welded = weldedIndices(positions);
+
+    // The cross product of two edges is the face's normal times twice its area: its sum is weighted by area.
+    std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const glm::dvec3 a = positions[indices[i]];
+        const glm::dvec3 cross = glm::cross(glm::dvec3(positions[indices[i + 1]]) - a,
+                                            glm::dvec3(positions[indices[i + 2]]) - a);
+        for (std::size_t corner = 0; corner < 3; ++corner) sums[welded[indices[i + corner]]] += cross;
+    }
+
+    std::vector<glm::vec3> normals(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const glm::dvec3& sum = sums[welded[i]];
+        const double length = glm::length(sum);
+        normals[i] = length > 0 && std::isfinite(length) ? glm::vec3(sum / length) : glm::vec3(0, 1, 0);
+    }
+    return normals;
+}
+
+}  // namespace defocus

@@ -1,0 +1,104 @@
+// Ray against triangle: Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Boxes by slabs: Kay and
+// Kajiya, "Ray Tracing Complex Scenes", 1986.
+#include "scene/pick.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace defocus {
+
+namespace {
+
+struct Ray {
+    glm::dvec3 origin;
+    glm::dvec3 direction;  // the parameter counts in multiples of it, whatever its length
+};
+
+bool reaches(const Ray& ray, const Bounds& box, double farthest) {
+    double enter = 0;
+    double leave = farthest;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ray.direction[axis] == 0) {
+            if (ray.origin[axis] < box.minimum[axis] || ray.origin[axis] > box.maximum[axis]) return false;
+            continue;
+        }
+        double first = (box.minimum[axis] - ray.origin[axis]) / ray.direction[axis];
+        double second = (box.maximum[axis] - ray.origin[axis]) / ray.direction[axis];
+        if (first > second) std::swap(first, second);
+        // A hair wider, so that rounding never rejects a triangle that lies in a face of the box.
+        enter = std::max(enter, first - 1e-12 * std::abs(first));
+        leave = std::min(leave, second + 1e-12 * std::abs(second));
+    }
+    return enter <= leave;
+}
+
+// The ray's parameter where it crosses the triangle a, b, c from either side, or infinity.
+double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    constexpr double miss = std::numeric_limits<double>::infinity();
+    const glm::dvec3 ab = b - a;
+    const glm::dvec3 ac = c - a;
+    const glm::dvec3 p = glm::cross(ray.direction, ac);
+    const double determinant = glm::dot(ab, p);
+    if (determinant == 0) return miss;
+    const glm::dvec3 fromA = ray.origin - a;
+    const double u = glm::dot(fromA, p) / determinant;
+    const glm::dvec3 q = glm::cross(fromA, ab);
+    const double v = glm::dot(ray.direction, q) / determinant;
+    const double t = glm::dot(ac, q) / determinant;
+    return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : miss;
+}
+
+// The nearest crossing of the mesh's triangles, their positions mapped by `place`, that is nearer than `nearest`.
+template <typename Place>
+double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const Place& place) {
+    for (const Primitive& primitive : mesh.primitives)
+        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            const auto corner = [&](std::size_t k) { return place(mesh.vertices.positions[primitive.indices[i + k]]); };
+            nearest = std::min(nearest, crossing(ray, corner(0), corner(1), corner(2)));
+        }
+    return nearest;
+}
+
+// In object space while the matrix can be inverted; a flattened object has its triangles brought to the world instead.
+double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4& worldFromObject, const Ray& world,
+                       double nearest) {
+    const glm::dmat4 objectFromWorld = glm::inverse(worldFromObject);
+    const Ray ray{glm::dvec3(objectFromWorld * glm::dvec4(world.origin, 1)),
+                  glm::dvec3(objectFromWorld * glm::dvec4(world.direction, 0))};
+    const bool invertible = std::isfinite(glm::dot(ray.origin, ray.origin)) &&
+                            std::isfinite(glm::dot(ray.direction, ray.direction)) &&
+                            glm::dot(ray.direction, ray.direction) > 0;
+    if (!invertible) {
+        return nearestCrossing(mesh, world, nearest, [&](const glm::vec3& position) {
+            return glm::dvec3(worldFromObject * glm::dvec4(position, 1));
+        });
+    }
+    if (!reaches(ray, bounds, nearest)) return nearest;
+    return nearestCrossing(mesh, ray, nearest, [](const glm::vec3& position) { return glm::dvec3(position); });
+}
+
+}  // namespace
+
+std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
+                            const glm::dvec3& direction) {
+    const Ray ray{origin, glm::normalize(direction)};
+    std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
+    Hit nearest{std::numeric_limits<double>::infinity(), -1};
+    for (std::size_t i = 0; i < pose.objects.size(); ++i) {
+        const Object& object = pose.objects[i];
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
+        std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
+        if (!bounds) bounds = mesh.bounds();
+        if (bounds->empty()) continue;
+        const double distance = nearestCrossing(mesh, *bounds, object.worldFromObject, ray, nearest.distance);
+        if (distance < nearest.distance) nearest = {distance, static_cast<int>(i)};
+    }
+    if (nearest.object < 0) return std::nullopt;
+    return nearest;
+}
+
+}  // namespace defocus

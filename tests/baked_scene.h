@@ -1,0 +1,67 @@
+#pragma once
+// A scene whose colours two renderers can't disagree about: every material unlit and opaque, textures dropped, Lambert
+// from one fixed direction baked into 8-bit vertex colours, which both interpolate linearly. What is left to compare is
+// geometry, visibility, projection and the lens.
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "scene/scene.h"
+
+namespace defocus {
+
+// A textured material takes a colour of its own, so that its parts can still be told apart.
+inline glm::vec4 bakedColor(const Material& material, std::size_t index) {
+    constexpr std::array<glm::vec3, 6> palette = {glm::vec3(0.80f, 0.35f, 0.20f), glm::vec3(0.25f, 0.55f, 0.75f),
+                                                  glm::vec3(0.70f, 0.65f, 0.25f), glm::vec3(0.35f, 0.65f, 0.35f),
+                                                  glm::vec3(0.65f, 0.40f, 0.65f), glm::vec3(0.75f, 0.75f, 0.75f)};
+    const glm::vec3 factor(material.baseColorFactor);
+    return glm::vec4(material.baseColor.used() ? factor * palette[index % palette.size()] : factor, 1.0f);
+}
+
+inline void bakeLighting(Mesh& mesh) {
+    const glm::vec3 towardsLight = glm::normalize(glm::vec3(0.4f, 0.8f, 0.6f));  // object space
+    if (mesh.vertices.normals.empty()) {
+        std::vector<std::uint32_t> indices;
+        for (const Primitive& primitive : mesh.primitives) {
+            indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
+        }
+        mesh.vertices.normals = smoothNormals(mesh.vertices.positions, indices);
+    }
+    mesh.vertices.colors.resize(mesh.vertices.count(), glm::u8vec4(255));
+    for (std::size_t i = 0; i < mesh.vertices.count(); ++i) {
+        const float lit = 0.2f + 0.8f * std::max(0.0f, glm::dot(mesh.vertices.normals[i], towardsLight));
+        const glm::vec3 color = lit * glm::vec3(mesh.vertices.colors[i]) + 0.5f;
+        mesh.vertices.colors[i] = glm::u8vec4(glm::vec4(color, 255.0f));
+    }
+}
+
+inline Scene bakedUnlit(Scene scene) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material baked;
+        baked.name = scene.materials[i].name;
+        baked.baseColorFactor = bakedColor(scene.materials[i], i);
+        baked.doubleSided = scene.materials[i].doubleSided;
+        baked.unlit = true;
+        scene.materials[i] = std::move(baked);
+    }
+    // Primitives without a material get one too: glTF's default material is lit.
+    Material plain;
+    plain.name = "baked default";
+    plain.unlit = true;
+    scene.materials.push_back(std::move(plain));
+    for (Mesh& mesh : scene.meshes) {
+        bakeLighting(mesh);
+        for (Primitive& primitive : mesh.primitives) {
+            if (primitive.material < 0) primitive.material = static_cast<int>(scene.materials.size()) - 1;
+        }
+    }
+    scene.textures.clear();
+    scene.images.clear();
+    scene.imageNames.clear();
+    return scene;
+}
+
+}  // namespace defocus

@@ -1,0 +1,141 @@
+#pragma once
+// Scenes with closed-form images, and what is measured on them: a small emissive quad on black, through a lens.
+//
+// Second moments. A uniform disk of radius R has a variance of R²/4 an axis; a regular n-gon with circumradius R has
+// R²/12·(2 + cos(2π/n)). A quad of w px adds w²/12, the box filter of the pixel 1/12 (Sheppard's correction).
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+#include <vector>
+
+#include "plan/frame_plan.h"
+#include "render/renderer.h"
+
+namespace defocus {
+
+// A camera at the origin, 50 mm on a 36 mm sensor, with a lens half a metre wide, so that small images show large
+// blurs: c = 0.694·W·|1/2 − 1/z| px, which is 0.231·W at 1.2 m and at 6 m.
+inline View bokehView(int width, int height) {
+    View view;
+    view.width = width;
+    view.height = height;
+    view.nearPlane = 0.01;
+    view.lens.focalLength = 50;
+    view.lens.horizontalAperture = 36;
+    view.lens.fStop = 0.1;
+    view.lens.focusDistance = 2;
+    return view;
+}
+
+inline double tanHalf(const View& view) {
+    return view.lens.horizontalAperture / (2 * view.lens.focalLength);
+}
+
+// The blur diameter in px by DESIGN's formula, c = A·|1/s − 1/z|·W / (2 tan(θx/2)).
+inline double blurDiameter(const View& view, double depth) {
+    const double aperture = view.lens.blurScale * view.lens.focalLength / (1000 * view.lens.fStop);
+    return aperture * std::abs(1 / view.lens.focusDistance - 1 / depth) * view.width / (2 * tanHalf(view));
+}
+
+// The camera-space point at `depth` that projects to (column, row) in px from the image's top left corner.
+inline glm::dvec3 pointAt(const View& view, double column, double row, double depth) {
+    const double pixel = 2 * tanHalf(view) * depth / view.width;  // m
+    return {(column - view.width / 2.0) * pixel, (view.height / 2.0 - row) * pixel, -depth};
+}
+
+struct Rectangle {  // px from the image's top left corner
+    double left = 0;
+    double top = 0;
+    double right = 0;
+    double bottom = 0;
+    double depth = 1;  // m
+};
+
+// An unlit rectangle facing the camera, at the origin of the scene's space, single-sided.
+inline Mesh rectangleMesh(const View& view, const Rectangle& area, int material) {
+    Mesh mesh;
+    for (const glm::dvec2& corner : {glm::dvec2(area.left, area.bottom), glm::dvec2(area.right, area.bottom),
+                                     glm::dvec2(area.right, area.top), glm::dvec2(area.left, area.top)}) {
+        mesh.vertices.positions.emplace_back(pointAt(view, corner.x, corner.y, area.depth));
+        mesh.vertices.normals.emplace_back(0, 0, 1);
+    }
+    mesh.primitives.push_back({material, {0, 1, 2, 0, 2, 3}});
+    return mesh;
+}
+
+inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& areas, const glm::vec3& color) {
+    Scene scene;
+    Material material;
+    material.baseColorFactor = glm::vec4(color, 1);
+    material.unlit = true;
+    scene.materials.push_back(material);
+    for (const Rectangle& area : areas) {
+        Node node;
+        node.mesh = static_cast<int>(scene.meshes.size());
+        scene.roots.push_back(static_cast<int>(scene.nodes.size()));
+        scene.nodes.push_back(node);
+        scene.meshes.push_back(rectangleMesh(view, area, 0));
+    }
+    return scene;
+}
+
+// The world of a scene whose nodes are all roots without children. `scene` must outlive it; there are no pyramids yet.
+inline World flatWorld(const Scene& scene, const Environment& environment) {
+    World world;
+    world.scene = &scene;
+    world.environment = environment;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const glm::dmat4 matrix = scene.nodes[i].matrix.value_or(glm::dmat4(1.0));
+        world.pose.worldFromNode.push_back(matrix);
+        world.pose.objects.push_back({scene.nodes[i].mesh, static_cast<int>(i), "object", matrix});
+        world.pose.bounds.extend(
+            transformed(scene.meshes[static_cast<std::size_t>(scene.nodes[i].mesh)].bounds(), matrix));
+    }
+    return world;
+}
+
+inline Environment blackBackground() {
+    Environment environment;
+    environment.type = EnvironmentType::uniform;
+    return environment;
+}
+
+inline Image renderedImage(Renderer& renderer, const FramePlan& plan) {
+    renderer.start(plan);
+    while (renderer.advance()) {
+    }
+    return renderer.image();
+}
+
+struct Moments {         // of the first channel
+    double energy = 0;   // sum over pixels
+    glm::dvec2 mean{0};  // px from the top left corner
+    glm::dvec2 variance{0};
+};
+
+inline Moments momentsOf(const Image& image) {
+    Moments moments;
+    glm::dvec2 square(0);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const double value = *image.at(x, y);
+            const glm::dvec2 place(x + 0.5, y + 0.5);
+            moments.energy += value;
+            moments.mean += value * place;
+            square += value * place * place;
+        }
+    }
+    moments.mean /= moments.energy;
+    moments.variance = square / moments.energy - moments.mean * moments.mean;
+    return moments;
+}
+
+// The (circum)radius in px of the blur that an image of a quad of `quad` px shows, by its second moment.
+inline double radiusBySecondMoment(const Moments& moments, int bladeCount, double quad) {
+    const double spread = moments.variance.x + moments.variance.y - 2 * (quad * quad + 1) / 12;
+    const double corners = bladeCount == 0 ? 1.0 : std::cos(2 * std::numbers::pi / bladeCount);
+    return std::sqrt(spread * 6 / (2 + corners));
+}
+
+}  // namespace defocus

@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <atomic>
+#include <cstring>
+#include <filesystem>
+#include <numeric>
+#include <string>
+
+#include "core/bounds.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "core/parallel.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string pattern = (fs::temp_directory_path() / "defocus-core-XXXXXX").string();
+        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+        folder_ = pattern;
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    fs::path folder_;
+};
+
+std::string messageOf(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST_F(Files, writtenBytesAreReadBack) {
+    const fs::path path = folder_ / "ünï code.bin";
+    writeFile(path, std::string_view("first"));
+    writeFile(path, std::string_view("second, longer"));
+    const std::vector<std::byte> bytes = readFile(path);
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), "second, longer");
+}
+
+TEST_F(Files, uncommittedFileLeavesTheTargetAndNothingElse) {
+    const fs::path path = folder_ / "kept.txt";
+    writeFile(path, std::string_view("good"));
+    {
+        const PendingFile pending(path);
+        writeFile(pending.temporaryPath(), std::string_view("half"));
+    }
+    EXPECT_EQ(readFile(path).size(), 4u);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(Files, errorsNameThePathAndTheReason) {
+    EXPECT_NE(messageOf([&] { readFile(folder_); }).find("is a directory"), std::string::npos);
+    const std::string missing = messageOf([&] { readFile(folder_ / "missing"); });
+    EXPECT_NE(missing.find("missing"), std::string::npos);
+    EXPECT_NE(missing.find("No such file"), std::string::npos);
+    EXPECT_NE(messageOf([&] { checkWritable(folder_ / "no" / "folder.png"); }).find("cannot be written"), std::string::npos);
+    EXPECT_EQ(messageOf([&] { checkWritable(folder_ / "fine.png"); }), "");
+    EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST(Hash, everyByteMattersAndPiecesChain) {
+    std::string text(37, 'a');
+    const auto hash = [](std::string_view s, std::uint64_t seed = hashSeed) {
+        return hashBytes(std::as_bytes(std::span(s)), seed);
+    };
+    const std::uint64_t original = hash(text);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        std::string changed = text;
+        changed[i] = 'b';
+        EXPECT_NE(hash(changed), original) << i;
+    }
+    EXPECT_EQ(hash("b", hash("a")), hash("b", hash("a")));
+    EXPECT_NE(hash("b", hash("a")), hash("a", hash("b")));
+}
+
+TEST(ParallelFor, visitsEachIndexOnce) {
+    std::vector<std::atomic<int>> visits(1000);
+    parallelFor(visits.size(), [&](std::size_t i) { ++visits[i]; });
+    for (const auto& count : visits) EXPECT_EQ(count, 1);
+}
+
+TEST(ParallelFor, passesOnTheFirstFailure) {
+    EXPECT_THROW(parallelFor(100, [](std::size_t i) { if (i == 17) fail("seventeen"); }), Error);
+}
+
+TEST(Bounds, emptyStaysEmptyAndTransformsKeepTheCorners) {
+    EXPECT_TRUE(transformed(Bounds{}, glm::dmat4(1)).empty());
+    Bounds box;
+    box.extend(glm::dvec3(0));
+    box.extend(glm::dvec3(1, 2, 3));
+    const Bounds turned = transformed(box, glm::rotate(glm::dmat4(1), glm::radians(90.0), glm::dvec3(0, 0, 1)));
+    EXPECT_NEAR(turned.minimum.x, -2, 1e-12);
+    EXPECT_NEAR(turned.maximum.y, 1, 1e-12);
+    EXPECT_NEAR(turned.maximum.z, 3, 1e-12);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,42 @@
+#pragma once
+// A folder of a test's own, removed at its end.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace defocus {
+
+class ScratchFolder {
+public:
+    ScratchFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "defocus-test-XXXXXX").string();
+        if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch folder");
+        path_ = pattern;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+// The message of the Error that `body` throws; empty when it throws none.
+template <typename ErrorType, typename Body>
+std::string messageOf(const Body& body) {
+    try {
+        body();
+    } catch (const ErrorType& error) {
+        return error.what();
+    }
+    return {};
+}
+
+}  // namespace defocus

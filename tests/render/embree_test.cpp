@@ -1,0 +1,326 @@
+// The ray tracer that serves as truth, itself checked against closed forms (no GPU, none of the rasteriser's code).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bokeh.h"
+#include "core/error.h"
+#include "embree/embree_renderer.h"
+#include "embree/lens_rays.h"
+
+namespace defocus {
+namespace {
+
+FramePlan planOf(const View& view, std::uint32_t samples) {
+    FramePlan plan;
+    plan.view = view;
+    plan.settings.sampleCount = samples;
+    return plan;
+}
+
+Image traced(const Scene& scene, const View& view, std::uint32_t samples,
+             const Environment& environment = blackBackground(), LensSharing sharing = LensSharing::perPixel) {
+    const World world = flatWorld(scene, environment);
+    return renderedImage(*makeEmbreeRenderer(world, sharing), planOf(view, samples));
+}
+
+Rectangle quadAt(const View& view, double depth) {
+    return {view.width / 2.0 - 1.5, view.height / 2.0 - 1.5, view.width / 2.0 + 1.5, view.height / 2.0 + 1.5, depth};
+}
+
+double largestDifference(const Image& a, const Image& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        largest = std::max(largest, std::abs(static_cast<double>(a.pixels[i]) - b.pixels[i]));
+    }
+    return largest;
+}
+
+TEST(EmbreePinhole, RectangleCoversItsPixelsAndNoOthers) {
+    View view = bokehView(64, 48);
+    view.lens.dofEnabled = false;
+    const Image image = traced(rectangleScene(view, {{10, 5, 31, 20, 3}}, glm::vec3(0.25f, 0.5f, 2)), view, 16);
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const bool inside = x >= 10 && x < 31 && y >= 5 && y < 20;
+            ASSERT_EQ(image.at(x, y)[2], inside ? 2.0f : 0.0f) << "pixel " << x << ", " << y;
+            ASSERT_EQ(image.at(x, y)[3], 1.0f);
+        }
+    }
+}
+
+TEST(EmbreePinhole, EdgeThroughAPixelGivesItsCoveredShare) {
+    View view = bokehView(64, 48);
+    view.lens.dofEnabled = false;
+    const Image image = traced(rectangleScene(view, {{10.25, 5, 31, 20.5, 3}}, glm::vec3(1)), view, 256);
+    // A (0, 2)-net of 256 points puts 192 of them in three quarters of the pixel and 128 in its half.
+    EXPECT_NEAR(*image.at(10, 10), 0.75, 1.0 / 256);
+    EXPECT_NEAR(*image.at(20, 20), 0.5, 1.0 / 256);
+    EXPECT_NEAR(*image.at(10, 20), 0.375, 2.0 / 256);
+}
+
+TEST(EmbreePinhole, EveryWayToCloseTheApertureGivesTheSameImage) {
+    View closed = bokehView(64, 48);
+    closed.lens.dofEnabled = false;
+    View unscaled = bokehView(64, 48);
+    unscaled.lens.blurScale = 0;
+    const Scene scene = rectangleScene(closed, {{10.3, 5.1, 31.7, 20.9, 3}}, glm::vec3(1));
+    EXPECT_EQ(traced(scene, closed, 8).pixels, traced(scene, unscaled, 8).pixels);
+}
+
+TEST(EmbreeFocus, PlaneOfFocusIsUnchangedByTheAperture) {
+    const View open = bokehView(64, 48);
+    View closed = open;
+    closed.lens.dofEnabled = false;
+    const Scene scene = rectangleScene(open, {{10.3, 5.1, 31.7, 20.9, open.lens.focusDistance}}, glm::vec3(1));
+    // Both images use the same pixel samples; a hit may differ only where float rounding meets the edge.
+    EXPECT_LE(largestDifference(traced(scene, open, 64), traced(scene, closed, 64)), 1.0 / 64);
+}
+
+TEST(EmbreeFocus, InfinityKeepsTheSkySharpAndBlursAQuadByTheFormula) {
+    View view = bokehView(96, 96);
+    view.lens.focusDistance = std::numeric_limits<double>::infinity();
+    view.lens.fStop = 0.4;
+    const double depth = 1;
+    const Moments moments = momentsOf(traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(1)), view, 1024));
+    EXPECT_NEAR(radiusBySecondMoment(moments, 0, 3), blurDiameter(view, depth) / 2, 0.1);
+
+    Environment sky;
+    sky.zenith = glm::vec3(1);
+    View closed = view;
+    closed.lens.dofEnabled = false;
+    EXPECT_EQ(largestDifference(traced(Scene{}, view, 16, sky), traced(Scene{}, closed, 16, sky)), 0);
+}
+
+TEST(EmbreeFocus, BreathingNarrowsTheViewAsAThinLensDoes) {
+    View view = bokehView(64, 48);
+    view.lens.focusDistance = 1;
+    const double still = lensCamera(view).tanHalfHorizontal;
+    view.lens.focusBreathing = true;
+    // The sensor lies at 1/(1/f − 1/s) instead of at f: 1/(1/0.05 − 1) = 0.0526 m.
+    EXPECT_NEAR(lensCamera(view).tanHalfHorizontal, still * 0.05 * (1 / 0.05 - 1), 1e-12);
+}
+
+struct BokehCase {
+    const char* name;
+    double depth;
+    int bladeCount;
+};
+
+class EmbreeBokeh : public testing::TestWithParam<BokehCase> {};
+
+TEST_P(EmbreeBokeh, SmallQuadHasTheRadiusAndTheEnergyOfTheFormula) {
+    View view = bokehView(48, 48);
+    view.lens.bladeCount = GetParam().bladeCount;
+    view.lens.bladeRotation = 0.3;
+    const Scene scene = rectangleScene(view, {quadAt(view, GetParam().depth)}, glm::vec3(100));
+    const Moments moments = momentsOf(traced(scene, view, 4096));
+    EXPECT_NEAR(radiusBySecondMoment(moments, view.lens.bladeCount, 3), blurDiameter(view, GetParam().depth) / 2, 0.1);
+    EXPECT_NEAR(moments.energy, 900, 900 * 0.005);
+    EXPECT_NEAR(moments.mean.x, 24, 0.1);
+    EXPECT_NEAR(moments.mean.y, 24, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeBokeh,
+                         testing::Values(BokehCase{"DiskInFront", 1.2, 0}, BokehCase{"DiskBehind", 6, 0},
+                                         BokehCase{"HexagonInFront", 1.2, 6}, BokehCase{"HexagonBehind", 6, 6}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(EmbreeBokehShape, TriangleStandsUprightBehindFocusAndUpsideDownInFront) {
+    View view = bokehView(64, 64);
+    view.lens.bladeCount = 3;
+    view.lens.bladeRotation = std::numbers::pi / 2;  // first corner up
+    // Behind focus the image of a point moves with the lens point (C > 0): a corner up, so most light lies below the
+    // far corner.
+    for (const double depth : {1.2, 6.0}) {
+        const Image image = traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(100)), view, 1024);
+        const double radius = blurDiameter(view, depth) / 2;
+        const int away = static_cast<int>(0.8 * radius);
+        const float above = *image.at(32, 31 - away);
+        const float below = *image.at(32, 32 + away);
+        if (depth > view.lens.focusDistance) {
+            EXPECT_GT(above, 0.5f * *image.at(32, 32));
+            EXPECT_EQ(below, 0);
+        } else {
+            EXPECT_GT(below, 0.5f * *image.at(32, 32));
+            EXPECT_EQ(above, 0);
+        }
+    }
+}
+
+TEST(EmbreeBokehShape, AnamorphicRatioMakesTallOvals) {
+    View view = bokehView(64, 64);
+    view.lens.anamorphicRatio = 2;
+    const Moments moments = momentsOf(traced(rectangleScene(view, {quadAt(view, 6)}, glm::vec3(100)), view, 1024));
+    const double radius = blurDiameter(view, 6) / 2;
+    EXPECT_NEAR(2 * std::sqrt(moments.variance.y - 10.0 / 12), radius, 0.1);
+    EXPECT_NEAR(2 * std::sqrt(moments.variance.x - 10.0 / 12), radius / 2, 0.1);
+}
+
+// Share of a disk of radius 1 that lies left of the chord at `x`.
+double diskShareLeftOf(double x) {
+    const double inside = std::clamp(x, -1.0, 1.0);
+    return 0.5 + (inside * std::sqrt(1 - inside * inside) + std::asin(inside)) / std::numbers::pi;
+}
+
+TEST(EmbreeHalfPlane, EdgeIsBlurredByTheProfileOfADisk) {
+    const View view = bokehView(128, 32);
+    const double depth = 6;
+    const double radius = blurDiameter(view, depth) / 2;
+    const double edge = 64.3;
+    const Image image = traced(rectangleScene(view, {{edge, -200, 500, 232, depth}}, glm::vec3(1)), view, 256);
+    for (int x = 0; x < view.width; ++x) {
+        double mean = 0;
+        for (int y = 0; y < view.height; ++y) mean += *image.at(x, y) / static_cast<double>(view.height);
+        double expected = 0;
+        for (int i = 0; i < 64; ++i) expected += diskShareLeftOf((x + (i + 0.5) / 64 - edge) / radius) / 64;
+        ASSERT_NEAR(mean, expected, 0.005) << "column " << x;
+    }
+}
+
+TEST(EmbreeCulling, SingleSidedSurfacesAreSeenFromTheirFrontOnly) {
+    View view = bokehView(32, 32);
+    view.lens.dofEnabled = false;
+    Scene scene = rectangleScene(view, {{0, 0, 32, 32, 3}}, glm::vec3(1));
+    EXPECT_EQ(*traced(scene, view, 1).at(16, 16), 1);
+    std::swap(scene.meshes[0].primitives[0].indices[1],
+              scene.meshes[0].primitives[0].indices[2]);  // lower right triangle
+    EXPECT_EQ(*traced(scene, view, 1).at(24, 20), 0);
+    EXPECT_EQ(*traced(scene, view, 1).at(7, 12), 1);  // upper left triangle
+    // A mirrored object's outside stays its outside, though its winding turns.
+    scene.nodes[0].matrix = glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1));
+    EXPECT_EQ(*traced(scene, view, 1).at(7, 20), 0);
+    EXPECT_EQ(*traced(scene, view, 1).at(24, 12), 1);
+    scene.materials[0].doubleSided = true;
+    EXPECT_EQ(*traced(scene, view, 1).at(7, 20), 1);
+}
+
+TEST(EmbreeCulling, NothingNearerThanTheNearPlaneIsSeen) {
+    View view = bokehView(32, 32);
+    view.lens.dofEnabled = false;
+    view.nearPlane = 1;
+    const Scene scene = rectangleScene(view, {{0, 0, 16, 32, 0.99}, {16, 0, 32, 32, 1.01}}, glm::vec3(1));
+    const Image image = traced(scene, view, 1);
+    EXPECT_EQ(*image.at(8, 16), 0);
+    EXPECT_EQ(*image.at(24, 16), 1);
+}
+
+TEST(EmbreeBackground, GradientFollowsTheDirectionOfTheRay) {
+    View view = bokehView(64, 48);
+    view.lens.dofEnabled = false;
+    const double pitch = 0.4;  // looking up
+    view.worldFromCamera = glm::rotate(glm::dmat4(1), pitch, glm::dvec3(1, 0, 0));
+    Environment sky;
+    sky.zenith = glm::vec3(1, 0, 0);
+    sky.horizon = glm::vec3(0, 1, 0);
+    sky.nadir = glm::vec3(0, 0, 1);
+    const Image image = traced(Scene{}, view, 64, sky);
+    for (const int row : {0, 23, 47}) {
+        const double slope = (24 - row - 0.5) * 2 * tanHalf(view) / 64;
+        const double height = std::sin(pitch + std::atan(slope));  // the middle column's direction · up
+        EXPECT_NEAR(image.at(32, row)[0], std::max(0.0, height), 2e-3);
+        EXPECT_NEAR(image.at(32, row)[1], 1 - std::abs(height), 2e-3);
+        EXPECT_NEAR(image.at(32, row)[2], std::max(0.0, -height), 2e-3);
+    }
+}
+
+TEST(EmbreeBackground, NoneIsTransparentAndKeepsCoverageInAlpha) {
+    View view = bokehView(32, 32);
+    view.lens.dofEnabled = false;
+    Environment none;
+    none.type = EnvironmentType::none;
+    const Image image = traced(rectangleScene(view, {{8.5, 0, 32, 32, 3}}, glm::vec3(0.5f)), view, 256, none);
+    EXPECT_EQ(image.at(2, 16)[3], 0);
+    EXPECT_NEAR(image.at(8, 16)[3], 0.5, 1.0 / 256);
+    EXPECT_NEAR(image.at(8, 16)[0], 0.25, 1.0 / 256);  // premultiplied
+    EXPECT_EQ(image.at(20, 16)[3], 1);
+}
+
+TEST(EmbreeConstantScene, StaysConstantAtAnySampleCount) {
+    const View view = bokehView(40, 24);
+    Environment grey;
+    grey.type = EnvironmentType::uniform;
+    grey.zenith = glm::vec3(0.3f);
+    const Scene scene = rectangleScene(view, {{5, 5, 20, 20, 1}, {10, 3, 30, 22, 5}}, glm::vec3(0.3f));
+    for (const std::uint32_t samples : {1u, 7u, 33u}) {
+        for (const LensSharing sharing : {LensSharing::perPixel, LensSharing::shared}) {
+            const Image image = traced(scene, view, samples, grey, sharing);
+            for (std::size_t i = 0; i < image.pixels.size(); i += 4) ASSERT_FLOAT_EQ(image.pixels[i], 0.3f);
+        }
+    }
+}
+
+TEST(EmbreeSharing, SharedLensSamplesConvergeToTheSameImage) {
+    const View view = bokehView(64, 64);
+    const Scene scene = rectangleScene(view, {{20, 20, 44, 44, 6}}, glm::vec3(1));
+    const Image own = traced(scene, view, 1024);
+    const Image shared = traced(scene, view, 1024, blackBackground(), LensSharing::shared);
+    EXPECT_LE(largestDifference(own, shared), 0.03);
+    EXPECT_GT(largestDifference(own, shared), 0);
+}
+
+TEST(EmbreeLambert, RadianceIsAlbedoTimesIlluminanceOverPi) {
+    View view = bokehView(32, 32);
+    view.lens.dofEnabled = false;
+    Scene scene = rectangleScene(view, {{0, 0, 32, 32, 3}}, glm::vec3(0.5f));
+    scene.materials[0].unlit = false;
+    scene.materials[0].metallicFactor = 0;
+    World world = flatWorld(scene, blackBackground());
+    PlacedLight sun;
+    sun.light.intensity = 4;
+    sun.direction = glm::normalize(glm::dvec3(std::sqrt(3.0), 0, -1));  // 60° from the surface's normal
+    world.lights.push_back(sun);
+    const Image image = renderedImage(*makeEmbreeRenderer(world), planOf(view, 1));
+    EXPECT_NEAR(*image.at(16, 16), 0.5 * 4 * 0.5 / std::numbers::pi, 1e-6);
+}
+
+TEST(EmbreeTexture, TexelsLieWhereGltfPutsThem) {
+    View view = bokehView(32, 32);
+    view.lens.dofEnabled = false;
+    Scene scene = rectangleScene(view, {{0, 0, 32, 32, 3}}, glm::vec3(1));
+    scene.meshes[0].vertices.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};  // v = 0 is the texture's top row
+    scene.images.push_back({2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 188, 188, 188, 255}});
+    Texture texture;
+    texture.image = 0;
+    texture.magnification = Filter::nearest;
+    scene.textures.push_back(texture);
+    scene.materials[0].baseColor.texture = 0;
+    const Image image = traced(scene, view, 1);
+    EXPECT_EQ(image.at(8, 8)[0], 1);
+    EXPECT_EQ(image.at(24, 8)[1], 1);
+    EXPECT_EQ(image.at(8, 24)[2], 1);
+    EXPECT_NEAR(image.at(24, 24)[0], 0.5029, 1e-3);  // sRGB 188/255
+    // Bilinear, a quarter of the way from the red to the green texel's centre along the top row's centres (decoded
+    // first).
+    scene.textures[0].magnification = Filter::linear;
+    const Image smooth = traced(scene, view, 256);
+    EXPECT_NEAR(smooth.at(12, 8)[0], 1 - (12.5 / 32 - 0.25) * 2, 0.05);
+}
+
+TEST(EmbreeSampling, EveryPrefixOfPowersOfTwoIsStratified) {
+    for (const SamplePair pair : {SamplePair::lens, SamplePair::pixel}) {
+        std::array<int, 16> columns{};
+        std::array<int, 16> cells{};
+        for (std::uint32_t i = 0; i < 16; ++i) {
+            const glm::dvec2 point = scrambledPoint(i, 77, pair, 3);
+            ++columns[static_cast<std::size_t>(point.x * 16)];
+            ++cells[static_cast<std::size_t>(point.x * 4) * 4 + static_cast<std::size_t>(point.y * 4)];
+        }
+        for (std::size_t i = 0; i < 16; ++i) {
+            EXPECT_EQ(columns[i], 1);
+            EXPECT_EQ(cells[i], 1);
+        }
+    }
+}
+
+TEST(EmbreeBadInput, EnvironmentMapIsAClearError) {
+    Environment map;
+    map.type = EnvironmentType::map;
+    EXPECT_THROW(traced(Scene{}, bokehView(8, 8), 1, map), Error);
+}
+
+}  // namespace
+}  // namespace defocus

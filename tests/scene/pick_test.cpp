@@ -1,0 +1,103 @@
+// Rays against a few triangles with known answers.
+
+#include "scene/pick.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+namespace defocus {
+namespace {
+
+// The unit cube from −1 to 1, twelve triangles.
+Mesh cube() {
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i)
+        mesh.vertices.positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    mesh.primitives = {{-1, {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                             2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5}}};
+    return mesh;
+}
+
+Scene cubes(const std::vector<glm::dmat4>& places) {
+    Scene scene;
+    scene.meshes = {cube()};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        Node node;
+        node.mesh = 0;
+        node.matrix = places[i];
+        scene.nodes.push_back(node);
+        scene.roots.push_back(static_cast<int>(i));
+    }
+    return scene;
+}
+
+std::optional<Hit> cast(const Scene& scene, const glm::dvec3& origin, const glm::dvec3& direction) {
+    return firstHit(scene, poseAt(scene, 0), origin, direction);
+}
+
+TEST(Pick, nearestOfSeveralObjects) {
+    const Scene scene = cubes({glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -20)),
+                               glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -10)), glm::dmat4(1)});
+    const auto hit = cast(scene, {0.25, 0.5, 30}, {0, 0, -7});  // any length
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->object, 2);
+    EXPECT_NEAR(hit->distance, 29, 1e-12);
+    const auto behind = cast(scene, {0.25, 0.5, -5}, {0, 0, -1});
+    ASSERT_TRUE(behind);
+    EXPECT_EQ(behind->object, 1);
+    EXPECT_NEAR(behind->distance, 4, 1e-12);
+}
+
+TEST(Pick, missesBesideAndBehind) {
+    const Scene scene = cubes({glm::dmat4(1)});
+    EXPECT_FALSE(cast(scene, {1.001, 0, 5}, {0, 0, -1}));
+    EXPECT_FALSE(cast(scene, {0, 0, 5}, {0, 0, 1}));
+    EXPECT_TRUE(cast(scene, {0, 0, 0}, {0, 0, 1})) << "from inside, the back of the far face";
+}
+
+TEST(Pick, distancesAreInTheWorldForScaledAndFarObjects) {
+    const glm::dmat4 place =
+        glm::scale(glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(1e7, 0, 0)), 0.7, glm::dvec3(0, 0, 1)), glm::dvec3(3, 3, -5));
+    const auto hit = cast(cubes({place}), {1e7, 0, 40}, {0, 0, -1});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->distance, 35, 1e-6);
+}
+
+TEST(Pick, flattenedObjectsAreSeen) {
+    const auto hit = cast(cubes({glm::scale(glm::dmat4(1), glm::dvec3(1, 1, 0))}), {0.1, 0.2, 4}, {0, 0, -1});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->distance, 4, 1e-12);
+}
+
+TEST(Pick, agreesWithTheBoxItself) {
+    // A cube is its own box: the slab formula gives the exact answer for random rays.
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(-3, 3);
+    const Scene scene = cubes({glm::dmat4(1)});
+    const Pose pose = poseAt(scene, 0);
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 origin(any(random), any(random), any(random) + 6);
+        const glm::dvec3 direction = glm::normalize(glm::dvec3(any(random), any(random), -6) * 0.5);
+        double enter = -1e300, leave = 1e300;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double a = (-1 - origin[axis]) / direction[axis];
+            const double b = (1 - origin[axis]) / direction[axis];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        const auto hit = firstHit(scene, pose, origin, direction);
+        ASSERT_EQ(hit.has_value(), enter <= leave) << i;
+        if (hit) {
+            EXPECT_NEAR(hit->distance, enter, 1e-9);
+            ++hits;
+        }
+    }
+    EXPECT_GT(hits, 200);
+}
+
+}  // namespace
+}  // namespace defocus

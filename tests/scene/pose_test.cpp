@@ -1,0 +1,174 @@
+// Hierarchies and key frames against hand-made mathematics.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "core/error.h"
+#include "scene/animation.h"
+#include "scene/pose.h"
+
+namespace defocus {
+namespace {
+
+Mesh triangleMesh() {
+    Mesh mesh;
+    mesh.vertices.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {100, 100, 100}};
+    mesh.primitives = {{-1, {0, 1, 2}}};
+    return mesh;
+}
+
+// A parent at (10, 0, 0), turned a quarter about z and doubled, with a child at (1, 0, 0) that draws a triangle.
+Scene parentAndChild() {
+    Scene scene;
+    scene.meshes = {triangleMesh()};
+    scene.nodes.resize(2);
+    scene.nodes[0].name = "parent";
+    scene.nodes[0].children = {1};
+    scene.nodes[0].translation = {10, 0, 0};
+    scene.nodes[0].rotation = glm::angleAxis(std::numbers::pi / 2, glm::dvec3(0, 0, 1));
+    scene.nodes[0].scale = glm::dvec3(2);
+    scene.nodes[1].name = "child";
+    scene.nodes[1].parent = 0;
+    scene.nodes[1].mesh = 0;
+    scene.nodes[1].translation = {1, 0, 0};
+    scene.roots = {0};
+    return scene;
+}
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {
+    EXPECT_LT(glm::length(a - b), tolerance) << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
+}
+
+TEST(Pose, childrenFollowTheirParents) {
+    const Scene scene = parentAndChild();
+    const Pose pose = poseAt(scene, 0);
+    // (1, 0, 0) doubled is (2, 0, 0), turned (0, 2, 0), moved (10, 2, 0).
+    expectNear(glm::dvec3(pose.worldFromNode[1][3]), {10, 2, 0});
+    ASSERT_EQ(pose.objects.size(), 1u);
+    EXPECT_EQ(pose.objects[0].name, "child");
+    // The triangle's corners are at (10, 2), (10, 4) and (8, 2); the unused vertex counts nowhere.
+    expectNear(pose.bounds.minimum, {8, 2, 0});
+    expectNear(pose.bounds.maximum, {10, 4, 0});
+    expectNear(nodeCentre(scene, pose, 1), {9, 3, 0});
+    expectNear(nodeCentre(scene, pose, 0), {10, 0, 0});
+}
+
+TEST(Pose, nodesOutsideTheSceneDrawNothing) {
+    Scene scene = parentAndChild();
+    scene.roots = {};
+    const Pose pose = poseAt(scene, 0);
+    EXPECT_TRUE(pose.objects.empty());
+    EXPECT_TRUE(pose.bounds.empty());
+    expectNear(glm::dvec3(pose.worldFromNode[1][3]), {10, 2, 0});  // joints may need it all the same
+}
+
+TEST(Pose, matricesReplaceTheThreeParts) {
+    Scene scene = parentAndChild();
+    scene.nodes[0].matrix = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, 7));
+    expectNear(glm::dvec3(poseAt(scene, 0).worldFromNode[1][3]), {1, 0, 7});
+}
+
+TEST(Pose, skinsArePlacedByTheirJointsNotByTheirNode) {
+    Scene scene = parentAndChild();
+    scene.nodes[1].skin = 0;
+    scene.nodes.push_back({});
+    scene.nodes[2].translation = {0, 0, 5};
+    scene.roots = {0, 2};
+    scene.skins = {{"", {2}, {glm::translate(glm::mat4(1), glm::vec3(0, 0, -2))}}};
+    expectNear(glm::dvec3(poseAt(scene, 0).objects.at(0).worldFromObject[3]), {0, 0, 3});
+}
+
+TEST(Pose, unknownNamesListTheKnownOnes) {
+    const Scene scene = parentAndChild();
+    EXPECT_EQ(nodeNamed(scene, "child"), 1);
+    try {
+        (void)nodeNamed(scene, "uncle");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "there is no node 'uncle'; the scene has: parent, child");
+    }
+}
+
+// ---- key frames --------------------------------------------------------------------------------------------------------
+
+AnimationChannel channelOf(Interpolation interpolation, ChannelPath path, std::vector<float> times, std::vector<float> values) {
+    return {0, path, interpolation, std::move(times), std::move(values)};
+}
+
+double valueAt(const AnimationChannel& channel, double time) { return sampleValues(channel, 1, time).at(0); }
+
+TEST(Animation, stepHoldsItsKey) {
+    const AnimationChannel channel = channelOf(Interpolation::step, ChannelPath::weights, {1, 2, 4}, {10, 20, 30});
+    EXPECT_EQ(valueAt(channel, 0), 10);
+    EXPECT_EQ(valueAt(channel, 1), 10);
+    EXPECT_EQ(valueAt(channel, 1.999), 10);
+    EXPECT_EQ(valueAt(channel, 2), 20);
+    EXPECT_EQ(valueAt(channel, 3.9), 20);
+    EXPECT_EQ(valueAt(channel, 4), 30);
+    EXPECT_EQ(valueAt(channel, 100), 30);
+}
+
+TEST(Animation, linearMeetsItsKeysAndHalves) {
+    const AnimationChannel channel = channelOf(Interpolation::linear, ChannelPath::weights, {1, 2, 4}, {10, 20, 30});
+    EXPECT_EQ(valueAt(channel, -5), 10);
+    EXPECT_EQ(valueAt(channel, 1.5), 15);
+    EXPECT_EQ(valueAt(channel, 2), 20);
+    EXPECT_EQ(valueAt(channel, 3), 25);
+    EXPECT_EQ(valueAt(channel, 9), 30);
+}
+
+TEST(Animation, cubicSplineReproducesACubic) {
+    // x(t) = t³ − 2t² + 3 with derivative 3t² − 4t at t = 0, 1 and 3: a Hermite spline is exact for cubics.
+    const auto x = [](double t) { return t * t * t - 2 * t * t + 3; };
+    const auto slope = [](double t) { return static_cast<float>(3 * t * t - 4 * t); };
+    std::vector<float> values;
+    for (const double t : {0.0, 1.0, 3.0}) values.insert(values.end(), {slope(t), static_cast<float>(x(t)), slope(t)});
+    const AnimationChannel channel = channelOf(Interpolation::cubicSpline, ChannelPath::weights, {0, 1, 3}, values);
+    for (double t = 0; t <= 3; t += 0.125) EXPECT_NEAR(valueAt(channel, t), x(t), 1e-5) << t;
+    EXPECT_EQ(valueAt(channel, -1), 3);
+    EXPECT_EQ(valueAt(channel, 8), 12);
+}
+
+TEST(Animation, rotationsTurnEvenlyAlongTheShorterArc) {
+    const auto turn = [](double degrees, float sign) {
+        const glm::dquat q = glm::angleAxis(glm::radians(degrees), glm::dvec3(0, 1, 0));
+        return std::array<float, 4>{sign * static_cast<float>(q.x), sign * static_cast<float>(q.y),
+                                    sign * static_cast<float>(q.z), sign * static_cast<float>(q.w)};
+    };
+    // The second key is the negative of the quaternion for 80°: the same rotation, the longer way round if taken as it is.
+    std::vector<float> values;
+    for (const auto& key : {turn(0, 1), turn(80, -1)}) values.insert(values.end(), key.begin(), key.end());
+    const AnimationChannel channel = channelOf(Interpolation::linear, ChannelPath::rotation, {0, 1}, values);
+    for (const double t : {0.25, 0.5, 0.75}) {
+        const glm::dvec3 turned = sampleRotation(channel, t) * glm::dvec3(0, 0, 1);
+        const double angle = glm::radians(80 * t);
+        expectNear(turned, {std::sin(angle), 0, std::cos(angle)}, 1e-6);
+    }
+}
+
+TEST(Animation, cubicRotationsAreNormalised) {
+    const AnimationChannel channel = channelOf(Interpolation::cubicSpline, ChannelPath::rotation, {0, 1},
+                                               {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
+    EXPECT_NEAR(glm::length(sampleRotation(channel, 0.5)), 1.0, 1e-12);
+    // Half way both keys weigh the same: a quarter turn about x.
+    expectNear(sampleRotation(channel, 0.5) * glm::dvec3(0, 1, 0), {0, 0, 1}, 1e-6);
+}
+
+TEST(Animation, clipsMoveTheirNodes) {
+    Scene scene = parentAndChild();
+    AnimationClip clip;
+    clip.duration = 2;
+    clip.channels = {channelOf(Interpolation::linear, ChannelPath::translation, {0, 2}, {0, 0, 0, 4, 6, 8}),
+                     channelOf(Interpolation::step, ChannelPath::scale, {0}, {1, 1, 3})};
+    scene.clips = {clip};
+    expectNear(glm::dvec3(poseAt(scene, 1).worldFromNode[0][3]), {2, 3, 4});
+    EXPECT_NEAR(glm::length(glm::dvec3(poseAt(scene, 1).worldFromNode[0][2])), 3, 1e-12);
+    expectNear(glm::dvec3(poseAt(scene, 1, -1).worldFromNode[0][3]), {10, 0, 0});
+    EXPECT_THROW((void)poseAt(scene, 1, 1), Error);
+}
+
+}  // namespace
+}  // namespace defocus

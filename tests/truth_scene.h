@@ -1,0 +1,165 @@
+#pragma once
+// The scenes on which the rasteriser is held against the ray tracer, baked to unlit, each with a view through a wide
+// lens; and the ways in which two images are compared beyond a single number.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "baked_scene.h"
+#include "bokeh.h"
+#include "image/image.h"
+#include "plan/frame_plan.h"
+#include "render/renderer.h"
+#include "scene/fish_school.h"
+#include "scene/gltf.h"
+
+namespace defocus {
+
+// World keeps a pointer to the scene: not to be copied or moved.
+struct TruthScene {
+    TruthScene() = default;
+    TruthScene(const TruthScene&) = delete;
+    TruthScene& operator=(const TruthScene&) = delete;
+
+    Scene scene;
+    World world;
+    View view;
+};
+
+namespace truth_detail {
+
+// Focus a third into the scene's depth; the f-number that blurs its nearest or farthest point by `blur` px.
+inline void setLens(TruthScene& truth, const Camera& camera, double blur) {
+    View& view = truth.view;
+    const double tanHalf = std::tan(camera.yfov / 2) * view.width / view.height;
+    view.lens.focalLength = view.lens.horizontalAperture / (2 * tanHalf);
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = 0;
+    for (const glm::dvec3& corner : truth.world.pose.bounds.corners()) {
+        const double depth = -(glm::inverse(view.worldFromCamera) * glm::dvec4(corner, 1)).z;
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    nearest = std::max(nearest, 0.05 * farthest);
+    const double focus = nearest + (farthest - nearest) / 3;
+    const double defocus = std::max(1 / nearest - 1 / focus, 1 / focus - 1 / farthest);
+    const double aperture = blur * 2 * tanHalf / (view.width * defocus);  // m
+    view.lens.focusDistance = camera.focusDistance.value_or(focus);
+    view.lens.fStop = camera.fStop.value_or(view.lens.focalLength / (1000 * aperture));
+}
+
+}  // namespace truth_detail
+
+// A scene at full detail, `width` × `height` px; the camera's own lens where it has one, else blur up to 24 px at 512
+// px.
+inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height) {
+    auto truth = std::make_unique<TruthScene>();
+    truth->scene = bakedUnlit(std::move(scene));
+    truth->world.scene = &truth->scene;
+    truth->world.pose = poseAt(truth->scene, 0, -1);
+    truth->world.environment = environmentOrDefault(truth->scene);
+    for (const Mesh& mesh : truth->scene.meshes) truth->world.pyramids.push_back(fullDetail(mesh));
+
+    const double aspect = static_cast<double>(width) / height;
+    const PlacedCamera placed = chooseCamera(truth->scene, truth->world.pose, "", aspect);
+    truth->view.worldFromCamera = placed.worldFromCamera;
+    truth->view.nearPlane = placed.camera.znear;
+    truth->view.width = width;
+    truth->view.height = height;
+    truth_detail::setLens(*truth, placed.camera, 24.0 * width / 512);
+    return truth;
+}
+
+inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t seed = 0) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.seed = seed;
+    settings.lod = LodMode::off;
+    return settings;
+}
+
+// Mean signed difference b − a over blocks of 32×32 px and three colours.
+struct BlockDifference {
+    double mean = 0;     // over the image
+    double rms = 0;      // of the blocks' means
+    double largest = 0;  // greatest absolute mean of a block
+};
+
+inline BlockDifference blockDifference(const Image& a, const Image& b) {
+    constexpr int size = 32;
+    BlockDifference result;
+    int blocks = 0;
+    for (int top = 0; top + size <= a.height; top += size) {
+        for (int left = 0; left + size <= a.width; left += size, ++blocks) {
+            double sum = 0;
+            for (int y = top; y < top + size; ++y) {
+                for (int x = left; x < left + size; ++x) {
+                    for (int c = 0; c < 3; ++c) sum += static_cast<double>(b.at(x, y)[c]) - a.at(x, y)[c];
+                }
+            }
+            const double mean = sum / (3.0 * size * size);
+            result.mean += mean;
+            result.rms += mean * mean;
+            result.largest = std::max(result.largest, std::abs(mean));
+        }
+    }
+    result.mean /= blocks;
+    result.rms = std::sqrt(result.rms / blocks);
+    return result;
+}
+
+// By how many px (right, down) and by which share of growth about the centre `b` differs from `a`, by least squares on
+// the first-order change b − a ≈ −∇a·(shift + growth·(p − centre)) (Lucas and Kanade 1981).
+struct Misplacement {
+    double right = 0;
+    double down = 0;
+    double growth = 0;
+};
+
+inline Misplacement misplacement(const Image& a, const Image& b) {
+    glm::dmat3 normal(0);
+    glm::dvec3 right(0);
+    for (int y = 1; y + 1 < a.height; ++y) {
+        for (int x = 1; x + 1 < a.width; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                const double dx = 0.5 * (static_cast<double>(a.at(x + 1, y)[c]) - a.at(x - 1, y)[c]);
+                const double dy = 0.5 * (static_cast<double>(a.at(x, y + 1)[c]) - a.at(x, y - 1)[c]);
+                const double out = dx * (x + 0.5 - a.width / 2.0) + dy * (y + 0.5 - a.height / 2.0);
+                const glm::dvec3 row(-dx, -dy, -out);
+                normal += glm::outerProduct(row, row);
+                right += row * (static_cast<double>(b.at(x, y)[c]) - a.at(x, y)[c]);
+            }
+        }
+    }
+    const glm::dvec3 solved = glm::inverse(normal) * right;
+    return {solved.x, solved.y, solved.z};
+}
+
+// How much of the change `from` → `to` there is in a → b: the factor of the least-squares fit.
+inline double shareOfChange(const Image& a, const Image& b, const Image& from, const Image& to) {
+    double along = 0;
+    double square = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const double change = static_cast<double>(to.pixels[i]) - from.pixels[i];
+        along += change * (static_cast<double>(b.pixels[i]) - a.pixels[i]);
+        square += change * change;
+    }
+    return along / square;
+}
+
+// The signed difference b − a times `gain` around middle grey, for people to look at.
+inline Image differenceImage(const Image& a, const Image& b, float gain) {
+    Image result(a.width, a.height, 3);
+    for (int y = 0; y < a.height; ++y) {
+        for (int x = 0; x < a.width; ++x) {
+            for (int c = 0; c < 3; ++c) result.at(x, y)[c] = 0.214f + gain * (b.at(x, y)[c] - a.at(x, y)[c]);
+        }
+    }
+    return result;
+}
+
+}  // namespace defocus
