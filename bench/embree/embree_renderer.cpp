@@ -27,7 +27,7 @@ double millisecondsSince(Clock::time_point start) {
 
 class EmbreeRenderer final : public Renderer {
 public:
-    EmbreeRenderer(const World& world, LensSharing sharing) : world_(world), sharing_(sharing) {}
+    EmbreeRenderer(const World& world, EmbreeSampling sampling) : world_(world), sampling_(sampling) {}
 
     void start(const FramePlan& plan) override;
     bool advance() override;
@@ -36,14 +36,23 @@ public:
     [[nodiscard]] RenderStats stats() const override;
 
 private:
-    [[nodiscard]] RTCRayHit cameraRay(int x, int y, std::uint32_t index) const;
+    // The image point ([-1, 1]², right and up) and the lens point of a pixel's sample.
+    struct SamplePoints {
+        glm::dvec2 image{0};
+        glm::dvec2 lens{0};
+    };
+
+    [[nodiscard]] std::uint32_t sampleCount() const;
+    [[nodiscard]] SamplePoints samplePoints(int x, int y, std::uint32_t sample) const;
+    [[nodiscard]] RTCRayHit cameraRay(int x, int y, std::uint32_t sample) const;
     [[nodiscard]] glm::vec4 radiance(const RTCRayHit& ray) const;
-    void traceTile(int tile, std::uint32_t index);
+    void traceTile(int tile, std::uint32_t sample);
 
     const World& world_;
-    LensSharing sharing_;
+    EmbreeSampling sampling_;
     View view_;
     RenderSettings settings_;
+    std::vector<LensSample> planned_;  // EmbreeSampling::planned only
     LensCamera camera_;
     glm::dmat3 worldFromCamera_{1.0};
     std::unique_ptr<TracedScene> scene_;
@@ -58,6 +67,7 @@ void EmbreeRenderer::start(const FramePlan& plan) {
     if (world_.environment.type == EnvironmentType::map) fail("method embree: environment maps are not traced");
     view_ = plan.view;
     settings_ = plan.settings;
+    if (sampling_ == EmbreeSampling::planned) planned_ = plan.samples;
     camera_ = lensCamera(view_);
     worldFromCamera_ = glm::dmat3(view_.worldFromCamera);
     if (!scene_ || tracedFrom_ != view_.worldFromCamera) {
@@ -72,15 +82,31 @@ void EmbreeRenderer::start(const FramePlan& plan) {
     renderMilliseconds_ = 0;
 }
 
-RTCRayHit EmbreeRenderer::cameraRay(int x, int y, std::uint32_t index) const {
-    const std::uint32_t stream =
-        sharing_ == LensSharing::shared
-            ? 0
-            : static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(view_.width) + static_cast<std::uint32_t>(x);
-    const glm::dvec2 inPixel = scrambledPoint(index, stream, SamplePair::pixel, settings_.seed);
-    const glm::dvec2 lens = aperturePoint(view_.lens, scrambledPoint(index, stream, SamplePair::lens, settings_.seed));
-    const glm::dvec2 image(2 * (x + inPixel.x) / view_.width - 1, 1 - 2 * (y + inPixel.y) / view_.height);
-    const LensRay ray = lensRay(camera_, image, lens);
+std::uint32_t EmbreeRenderer::sampleCount() const {
+    return sampling_ == EmbreeSampling::planned ? static_cast<std::uint32_t>(planned_.size()) : settings_.sampleCount;
+}
+
+EmbreeRenderer::SamplePoints EmbreeRenderer::samplePoints(int x, int y, std::uint32_t sample) const {
+    glm::dvec2 place(x, y);  // px from the image's top left corner
+    SamplePoints points;
+    if (sampling_ == EmbreeSampling::planned) {
+        const LensSample& planned = planned_[sample];
+        place += glm::dvec2(0.5 + planned.pixel.x, 0.5 - planned.pixel.y);
+        points.lens = glm::dvec2(planned.lens);
+    } else {
+        const auto pixel = static_cast<std::uint32_t>(y * view_.width + x);
+        const std::uint32_t stream = sampling_ == EmbreeSampling::shared ? 0 : pixel;
+        const std::uint32_t index = settings_.firstSample + sample;
+        place += scrambledPoint(index, stream, SamplePair::pixel, settings_.seed);
+        points.lens = aperturePoint(view_.lens, scrambledPoint(index, stream, SamplePair::lens, settings_.seed));
+    }
+    points.image = {2 * place.x / view_.width - 1, 1 - 2 * place.y / view_.height};
+    return points;
+}
+
+RTCRayHit EmbreeRenderer::cameraRay(int x, int y, std::uint32_t sample) const {
+    const SamplePoints points = samplePoints(x, y, sample);
+    const LensRay ray = lensRay(camera_, points.image, points.lens);
 
     RTCRayHit traced{};
     traced.ray.org_x = ray.origin.x;
@@ -103,7 +129,7 @@ glm::vec4 EmbreeRenderer::radiance(const RTCRayHit& ray) const {
     return {backgroundRadiance(world_.environment, worldFromCamera_ * direction), 1};
 }
 
-void EmbreeRenderer::traceTile(int tile, std::uint32_t index) {
+void EmbreeRenderer::traceTile(int tile, std::uint32_t sample) {
     const int columns = (view_.width + tileSize - 1) / tileSize;
     const int left = tile % columns * tileSize;
     const int top = tile / columns * tileSize;
@@ -113,7 +139,7 @@ void EmbreeRenderer::traceTile(int tile, std::uint32_t index) {
     std::array<RTCRayHit, tileSize * tileSize> rays;
     std::size_t count = 0;
     for (int y = top; y < bottom; ++y) {
-        for (int x = left; x < right; ++x) rays[count++] = cameraRay(x, y, index);
+        for (int x = left; x < right; ++x) rays[count++] = cameraRay(x, y, sample);
     }
     scene_->trace(std::span(rays).first(count));
     const RTCRayHit* ray = rays.data();
@@ -124,16 +150,15 @@ void EmbreeRenderer::traceTile(int tile, std::uint32_t index) {
 }
 
 bool EmbreeRenderer::advance() {
-    if (samples_ >= settings_.sampleCount) return false;
+    if (samples_ >= sampleCount()) return false;
     const Clock::time_point begin = Clock::now();
     const int columns = (view_.width + tileSize - 1) / tileSize;
     const int rows = (view_.height + tileSize - 1) / tileSize;
-    const std::uint32_t index = settings_.firstSample + samples_;
     parallelFor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
-                [&](std::size_t tile) { traceTile(static_cast<int>(tile), index); });
+                [&](std::size_t tile) { traceTile(static_cast<int>(tile), samples_); });
     ++samples_;
     renderMilliseconds_ += millisecondsSince(begin);
-    return samples_ < settings_.sampleCount;
+    return samples_ < sampleCount();
 }
 
 Image EmbreeRenderer::image() {
@@ -161,20 +186,21 @@ RenderStats EmbreeRenderer::stats() const {
 
 }  // namespace
 
-std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, LensSharing sharing) {
-    return std::make_unique<EmbreeRenderer>(world, sharing);
+std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, EmbreeSampling sampling) {
+    return std::make_unique<EmbreeRenderer>(world, sampling);
 }
 
 void registerEmbree() {
     static const bool registered = [] {
-        const auto add = [](const char* name, const char* description, LensSharing sharing) {
-            registerMethod({name, description, false, [sharing](const World& world, const RendererOptions&) {
-                                return makeEmbreeRenderer(world, sharing);
+        const auto add = [](const char* name, const char* description, EmbreeSampling sampling) {
+            registerMethod({name, description, false, [sampling](const World& world, const RendererOptions&) {
+                                return makeEmbreeRenderer(world, sampling);
                             }});
         };
-        add("embree", "Embree thin-lens ray tracer, own lens samples in every pixel", LensSharing::perPixel);
+        add("embree", "Embree thin-lens ray tracer, own lens samples in every pixel", EmbreeSampling::perPixel);
         add("embree-shared", "Embree thin-lens ray tracer, one lens sample for all pixels at a time",
-            LensSharing::shared);
+            EmbreeSampling::shared);
+        add("embree-planned", "Embree thin-lens ray tracer, at the lens samples of the plan", EmbreeSampling::planned);
         return true;
     }();
     static_cast<void>(registered);

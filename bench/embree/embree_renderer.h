@@ -12,15 +12,16 @@
 
 namespace defocus {
 
-enum class LensSharing {
+enum class EmbreeSampling {
     perPixel,  // every pixel has its own scrambled lens and pixel samples: error is noise
     shared,    // all pixels share each sample's lens and pixel point, as accumulation does: error is banding
+    planned,   // as `shared`, at the points of FramePlan::samples: leaves nothing but geometry and visibility to differ
 };
 
 // One sample of every pixel an advance(), on all cores.
-std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, LensSharing sharing = LensSharing::perPixel);
+std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, EmbreeSampling sampling = EmbreeSampling::perPixel);
 
-// Adds "embree" and "embree-shared" to the table of methods, once however often it is called.
+// Adds "embree", "embree-shared" and "embree-planned" to the table of methods, once however often it is called.
 void registerEmbree();
 
 }  // namespace defocus

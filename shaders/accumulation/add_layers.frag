@@ -22,13 +22,11 @@ layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
 
 #if ENVIRONMENT == 2
-// The gradient sky of a sample: environmentRadiance(), arranged so that little is done a sample.
+// The sky that a sample sees through this pixel.
 vec3 behind(vec2 imagePlane, int layer) {
     vec2 p = imagePlane + sampleShifts[firstInBlock + layer].xy;
     vec3 up = vec3(frame.worldFromView[0].y, frame.worldFromView[1].y, frame.worldFromView[2].y);
-    float height = (dot(up.xy, p) - up.z) * inversesqrt(dot(p, p) + 1.0);
-    vec3 pole = height > 0.0 ? frame.environment[0].rgb : frame.environment[2].rgb;
-    return mix(frame.environment[1].rgb, pole, abs(height));
+    return gradientRadiance((dot(up.xy, p) - up.z) * inversesqrt(dot(p, p) + 1.0));
 }
 #elif ENVIRONMENT == 1
 vec3 behind(vec2 imagePlane, int layer) { return frame.environment[0].rgb; }

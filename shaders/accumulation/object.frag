@@ -79,14 +79,22 @@ vec3 shaded(vec3 baseColor) {
     point.roughness = roughness;
     point.normal = shadingNormal();
     point.toEye = normalize(surface.toEye);
-    vec3 light = environmentLight(point, occlusion);
-    for (int i = 0; i < LIGHT_COUNT; ++i)
+    float nv = max(dot(point.normal, point.toEye), 1e-4);
+    float alpha = max(roughness * roughness, 1e-3);
+    LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
+    for (int i = 0; i < LIGHT_COUNT; ++i) {
 #ifdef LOCAL_LIGHTS
-        light += punctualLight(point, frame.lights[i], surface.position);
+        vec3 toLight = -frame.lights[i].directionType.xyz;
+        vec3 illuminance = frame.lights[i].colorScale.rgb;
+        if (frame.lights[i].directionType.w != 0.0) illuminance = localLight(frame.lights[i], surface.position, toLight);
+        addLight(sums, point, nv, alpha, toLight, illuminance);
 #else
-        light += reflectedLight(point, -frame.lights[i].directionType.xyz, frame.lights[i].colorScale.rgb);
+        addLight(sums, point, nv, alpha, -frame.lights[i].directionType.xyz, frame.lights[i].colorScale.rgb);
 #endif
-    return light;
+    }
+    vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
+    vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
+    return diffuse + specular + environmentLight(point, nv, occlusion);
 }
 #endif
 

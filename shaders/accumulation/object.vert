@@ -40,6 +40,7 @@ void main() {
     STAGE_OUT.color = material.baseColor;
 #endif
 #ifndef UNLIT
+    STAGE_OUT.color.rgb *= length(normalIn);   // shorter where a coarse level stands for a relief
     STAGE_OUT.normal = mat3(object.normalMatrix) * normalIn;
     STAGE_OUT.toEye = vec3(eyeAndDitherIn.xy, 0.0) - viewPosition;
 #endif

@@ -9,30 +9,30 @@ vec2 equirectangular(vec3 d) {
 }
 #endif
 
-// `level` is a mipmap level of the map, for rough reflections.
-vec3 environmentRadiance(vec3 worldDirection, float level) {
-#if ENVIRONMENT == 1
-    return frame.environment[0].rgb;
-#elif ENVIRONMENT == 2
-    vec3 pole = worldDirection.y > 0.0 ? frame.environment[0].rgb : frame.environment[2].rgb;
-    return mix(frame.environment[1].rgb, pole, abs(worldDirection.y));
-#elif ENVIRONMENT == 3
-    return textureLod(environmentMap, equirectangular(worldDirection), level).rgb;
-#else
-    return vec3(0.0);
+#if ENVIRONMENT == 2
+// By the height (y) of a unit direction.
+vec3 gradientRadiance(float height) {
+    vec3 pole = height > 0.0 ? frame.environment[0].rgb : frame.environment[2].rgb;
+    return mix(frame.environment[1].rgb, pole, abs(height));
+}
+
+// Irradiance over π: a zonal polynomial.
+vec3 gradientDiffuse(float height) {
+    return frame.irradiance[0].rgb + height * (frame.irradiance[1].rgb + height * frame.irradiance[2].rgb);
+}
 #endif
+
+#if ENVIRONMENT == 3
+// `level` is a mipmap level, for rough reflections.
+vec3 environmentRadiance(vec3 worldDirection, float level) {
+    return textureLod(environmentMap, equirectangular(worldDirection), level).rgb;
 }
 
 // Irradiance over π for a normal, from second-order spherical harmonics (Ramamoorthi and Hanrahan 2001).
 vec3 environmentDiffuse(vec3 n) {
-#if ENVIRONMENT == 3
     return max(frame.irradiance[0].rgb + frame.irradiance[1].rgb * n.y + frame.irradiance[2].rgb * n.z +
                frame.irradiance[3].rgb * n.x + frame.irradiance[4].rgb * (n.x * n.y) + frame.irradiance[5].rgb * (n.y * n.z) +
                frame.irradiance[6].rgb * (3.0 * n.z * n.z - 1.0) + frame.irradiance[7].rgb * (n.x * n.z) +
                frame.irradiance[8].rgb * (n.x * n.x - n.y * n.y), vec3(0.0));
-#elif ENVIRONMENT == 2
-    return frame.irradiance[0].rgb + n.y * (frame.irradiance[1].rgb + n.y * frame.irradiance[2].rgb);  // a zonal polynomial
-#else
-    return frame.environment[0].rgb;
-#endif
 }
+#endif

@@ -3,7 +3,7 @@
 struct LightData {
     vec4 positionRange;   // view space, m; w: range, 0 is unlimited
     vec4 directionType;   // view space, the way the light shines; w: 0 directional, 1 point, 2 spot
-    vec4 colorScale;      // colour · intensity; w: spot cone scale
+    vec4 colorScale;      // colour · intensity / π; w: spot cone scale
     vec4 cone;            // x: spot cone offset
 };
 

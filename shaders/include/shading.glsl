@@ -1,39 +1,50 @@
-// glTF 2.0 metallic-roughness: Lambert and GGX (Walter et al. 2007) with height-correlated Smith masking (Heitz 2014) and Schlick's
-// Fresnel; the environment's specular part by Karis's fit (2014, Physically Based Shading on Mobile).
+// glTF 2.0 metallic-roughness: Lambert and GGX (Walter et al. 2007) with Hammon's fit (2017, PBR Diffuse Lighting for GGX+Smith
+// Microsurfaces) of the height-correlated Smith masking and Schlick's Fresnel; the environment's specular part by Karis's fit
+// (2014, Physically Based Shading on Mobile).
+//
+// Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵, so the lights can be summed before F0 and the albedo are known: three sums,
+// and few operations a light (software rasterisers feel each one).
 
 struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
-    vec3 specular;        // reflectance at normal incidence
+    vec3 specular;        // reflectance at normal incidence, F0
     float roughness;      // perceptual
     vec3 normal;          // unit, view space
     vec3 toEye;           // unit, view space
 };
 
-vec3 reflectedLight(SurfacePoint point, vec3 toLight, vec3 illuminance) {
-    float nl = dot(point.normal, toLight);
-    if (nl <= 0.0) return vec3(0.0);
-    vec3 halfway = normalize(toLight + point.toEye);
-    float nv = max(dot(point.normal, point.toEye), 1e-4);
-    float nh = clamp(dot(point.normal, halfway), 0.0, 1.0);
-    float vh = clamp(dot(point.toEye, halfway), 0.0, 1.0);
-    float alpha = max(point.roughness * point.roughness, 1e-3);
-    float alpha2 = alpha * alpha;
-    float base = nh * nh * (alpha2 - 1.0) + 1.0;
-    float distribution = alpha2 / (base * base);                       // times 1/π below
-    float masking = 0.5 / (nl * sqrt(nv * nv * (1.0 - alpha2) + alpha2) + nv * sqrt(nl * nl * (1.0 - alpha2) + alpha2));
-    float grazing = 1.0 - vh;
-    float grazing2 = grazing * grazing;
-    vec3 fresnel = point.specular + (1.0 - point.specular) * (grazing2 * grazing2 * grazing);
-    return (point.diffuse * (1.0 - fresnel) + fresnel * (distribution * masking)) * illuminance * (nl * 0.31830988618);
+struct LightSums {
+    vec3 diffuse;         // Σ E·(n·l)·(1 − g) / π
+    vec3 specular;        // Σ E·(n·l)·D·V
+    vec3 grazing;         // Σ E·(n·l)·D·V·g
+};
+
+// One light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is known through its cosines
+// only: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
+void addLight(inout LightSums sums, SurfacePoint point, float nv, float alpha, vec3 toLight, vec3 illuminance) {
+    float nl = max(dot(point.normal, toLight), 0.0);
+    float sum2 = max(2.0 + 2.0 * dot(toLight, point.toEye), 1e-6);
+    float cosines = nl + nv;
+    float base = max(cosines * cosines * (alpha * alpha - 1.0) + sum2, 1e-7 * sum2);
+    float lobe = alpha * sum2;
+    float specular = 0.5 * lobe * lobe / (base * base * mix(2.0 * nl * nv, cosines, alpha));
+    float g = 1.0 - 0.5 * sqrt(sum2);
+    float g2 = g * g;
+    g = g2 * g2 * g;
+    vec3 received = illuminance * nl;
+    sums.diffuse += received * (1.0 - g);
+    received *= specular;
+    sums.specular += received;
+    sums.grazing += received * g;
 }
 
-vec3 punctualLight(SurfacePoint point, LightData light, vec3 viewPosition) {
-    if (light.directionType.w == 0.0) return reflectedLight(point, -light.directionType.xyz, light.colorScale.rgb);
+// Falloff and direction of a point or spot light (KHR_lights_punctual).
+vec3 localLight(LightData light, vec3 viewPosition, out vec3 toLight) {
     vec3 offset = light.positionRange.xyz - viewPosition;
     float distance2 = max(dot(offset, offset), 1e-8);
-    vec3 toLight = offset * inversesqrt(distance2);
+    toLight = offset * inversesqrt(distance2);
     float falloff = 1.0 / distance2;
-    if (light.positionRange.w > 0.0) {                                 // KHR_lights_punctual's recommended window
+    if (light.positionRange.w > 0.0) {                                 // the extension's recommended window
         float ratio2 = distance2 / (light.positionRange.w * light.positionRange.w);
         falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
     }
@@ -41,30 +52,32 @@ vec3 punctualLight(SurfacePoint point, LightData light, vec3 viewPosition) {
         float cone = clamp(dot(light.directionType.xyz, -toLight) * light.colorScale.w + light.cone.x, 0.0, 1.0);
         falloff *= cone * cone;
     }
-    return reflectedLight(point, toLight, light.colorScale.rgb * falloff);
+    return light.colorScale.rgb * falloff;
 }
 
-vec3 environmentLight(SurfacePoint point, float occlusion) {
+// The environment's light on the point, `occlusion` of it.
+vec3 environmentLight(SurfacePoint point, float nv, float occlusion) {
 #if ENVIRONMENT == 0
     return vec3(0.0);
 #else
-    mat3 worldFromView = mat3(frame.worldFromView);
-    vec3 normal = worldFromView * point.normal;
-    vec3 mirrored = worldFromView * reflect(-point.toEye, point.normal);
-    vec3 diffuse = environmentDiffuse(normal);
-    float rough = point.roughness;
 #if ENVIRONMENT == 3
-    vec3 reflection = environmentRadiance(mirrored, rough * ENVIRONMENT_LEVELS);
+    mat3 worldFromView = mat3(frame.worldFromView);
+    vec3 diffuse = environmentDiffuse(worldFromView * point.normal);
+    vec3 reflection = environmentRadiance(worldFromView * reflect(-point.toEye, point.normal), point.roughness * ENVIRONMENT_LEVELS);
 #elif ENVIRONMENT == 2
-    vec3 reflection = mix(environmentRadiance(mirrored, 0.0), environmentDiffuse(mirrored), rough);
+    // Only heights count: that of the mirrored direction 2 (n·v) n − v too.
+    vec3 up = vec3(frame.worldFromView[0].y, frame.worldFromView[1].y, frame.worldFromView[2].y);
+    float normalHeight = dot(up, point.normal);
+    float mirroredHeight = 2.0 * nv * normalHeight - dot(up, point.toEye);
+    vec3 diffuse = gradientDiffuse(normalHeight);
+    vec3 reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), point.roughness);
 #else
+    vec3 diffuse = frame.environment[0].rgb;
     vec3 reflection = diffuse;
 #endif
-    float nv = clamp(dot(point.normal, point.toEye), 0.0, 1.0);
-    vec4 r = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
     vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
-    return (point.diffuse * diffuse + (point.specular * fit.x + fit.y) * reflection) *
-           (occlusion * ENVIRONMENT_LIGHTING);
+    return (point.diffuse * diffuse + (point.specular * fit.x + fit.y) * reflection) * (occlusion * ENVIRONMENT_LIGHTING);
 #endif
 }

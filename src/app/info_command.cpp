@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include "app/command.h"
-#include "core/error.h"
+#include "app/option_text.h"
 #include "scene/fish_school.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
@@ -19,7 +22,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
-    std::string scene;  // empty: the built-in fish school
+    std::string scene;         // empty: the built-in fish school
+    FishSchoolOptions school;  // without a scene
     bool json = false;
 };
 
@@ -30,7 +34,7 @@ constexpr double degrees = 57.295779513082321;
 std::string grouped(std::uint64_t number) {
     std::string digits = std::to_string(number);
     for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
-        digits.insert(static_cast<std::size_t>(i), ",");
+        digits.insert(static_cast<std::size_t>(i), 1, ',');
     return digits;
 }
 
@@ -81,7 +85,7 @@ Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {
     return totals;
 }
 
-// ---- for programs ------------------------------------------------------------------------------------------------------
+// ---- for programs -------------------------------------------------------------------------------
 
 Json meshJson(const Mesh& mesh, std::size_t objects) {
     return {{"name", mesh.name},
@@ -110,20 +114,19 @@ Json cameraJson(const Camera& camera) {
 Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose) {
     const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
     const Totals totals = totalsOf(scene, objects);
-    Json json = {{"file", options.scene},
-                 {"name", scene.name},
-                 {"triangles", totals.triangles},
-                 {"trianglesInScene", totals.trianglesInScene},
-                 {"vertices", totals.vertices},
-                 {"objects", pose.objects.size()},
+    Json json = {{"file", options.scene},         {"name", scene.name},
+                 {"triangles", totals.triangles}, {"trianglesInScene", totals.trianglesInScene},
+                 {"vertices", totals.vertices},   {"objects", pose.objects.size()},
                  {"nodes", scene.nodes.size()}};
     if (!pose.bounds.empty()) {
         const auto vector = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
         json["bounds"] = {{"minimum", vector(pose.bounds.minimum)}, {"maximum", vector(pose.bounds.maximum)}};
     }
-    for (const char* list : {"meshes", "materials", "textures", "cameras", "lights", "clips", "skins", "extensions", "ignored"})
+    for (const char* list :
+         {"meshes", "materials", "textures", "cameras", "lights", "clips", "skins", "extensions", "ignored"})
         json[list] = Json::array();
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) json["meshes"].push_back(meshJson(scene.meshes[i], objects[i]));
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        json["meshes"].push_back(meshJson(scene.meshes[i], objects[i]));
     for (const Material& material : scene.materials)
         json["materials"].push_back({{"name", material.name},
                                      {"alphaMode", alphaName(material.alphaMode)},
@@ -138,7 +141,8 @@ Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose)
     }
     for (const Camera& camera : scene.cameras) json["cameras"].push_back(cameraJson(camera));
     for (const Light& light : scene.lights)
-        json["lights"].push_back({{"name", light.name}, {"type", typeName(light.type)}, {"intensity", light.intensity}});
+        json["lights"].push_back(
+            {{"name", light.name}, {"type", typeName(light.type)}, {"intensity", light.intensity}});
     for (const AnimationClip& clip : scene.clips)
         json["clips"].push_back({{"name", clip.name}, {"duration", clip.duration}, {"channels", clip.channels.size()}});
     for (const Skin& skin : scene.skins) json["skins"].push_back({{"name", skin.name}, {"joints", skin.joints.size()}});
@@ -148,9 +152,11 @@ Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose)
     return json;
 }
 
-// ---- for people --------------------------------------------------------------------------------------------------------
+// ---- for people ---------------------------------------------------------------------------------
 
-void line(const char* label, const std::string& text) { fmt::print("{:<12}{}\n", label, text); }
+void line(const char* label, const std::string& text) {
+    fmt::print("{:<12}{}\n", label, text);
+}
 
 // One line an entry, the label only before the first; `none` when there are none.
 void lines(const char* label, const std::vector<std::string>& entries, const char* none) {
@@ -172,12 +178,15 @@ void printMeshes(const Scene& scene, const std::vector<std::size_t>& objects) {
                    grouped(objects[order[i]]), nameOr(mesh.name, "mesh", order[i]),
                    fmt::join(attributesOf(mesh.vertices), " "));
     }
-    if (order.size() > meshesListed) fmt::print("{:>36}… and {} smaller (--json lists all)\n", "", order.size() - meshesListed);
+    if (order.size() > meshesListed)
+        fmt::print("{:>36}… and {} more (--json lists all)\n", "", order.size() - meshesListed);
 }
 
 std::string materialSummary(const Scene& scene) {
     if (scene.materials.empty()) return "none (glTF's default: white)";
-    const auto count = [&](auto matches) { return std::count_if(scene.materials.begin(), scene.materials.end(), matches); };
+    const auto count = [&](auto matches) {
+        return std::count_if(scene.materials.begin(), scene.materials.end(), matches);
+    };
     std::string text = grouped(scene.materials.size());
     const auto mention = [&](std::ptrdiff_t number, const char* what) {
         if (number > 0) text += fmt::format(", {} {}", number, what);
@@ -197,8 +206,8 @@ std::string textureSummary(const Scene& scene) {
         pixels += static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
         largest = std::max({largest, image.width, image.height});
     }
-    return fmt::format("{} of {} images, up to {} px wide, {:.1f} megapixels", scene.textures.size(), scene.images.size(),
-                       largest, static_cast<double>(pixels) * 1e-6);
+    return fmt::format("{} of {} images, up to {} px wide, {:.1f} megapixels", scene.textures.size(),
+                       scene.images.size(), largest, static_cast<double>(pixels) * 1e-6);
 }
 
 std::vector<std::string> cameraLines(const Scene& scene) {
@@ -226,7 +235,8 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     line("size", fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x, size.y, size.z));
     line("triangles", fmt::format("{}, {} in the scene", grouped(totals.triangles), grouped(totals.trianglesInScene)));
     line("vertices", grouped(totals.vertices));
-    line("meshes", fmt::format("{}, drawn as {} objects", grouped(scene.meshes.size()), grouped(pose.objects.size())));
+    line("meshes", fmt::format("{}, drawn as {} object{}", grouped(scene.meshes.size()), grouped(pose.objects.size()),
+                               pose.objects.size() == 1 ? "" : "s"));
     line("materials", materialSummary(scene));
     line("textures", textureSummary(scene));
     lines("cameras", cameraLines(scene), "none (one that frames the scene is used)");
@@ -245,7 +255,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     for (const Ignored& entry : scene.ignored)
         ignored.push_back(entry.count > 1 ? fmt::format("{} × {}: {}", grouped(entry.count), entry.what, entry.reason)
                                           : fmt::format("{}: {}", entry.what, entry.reason));
-    lines("lights", lights, "none");
+    lines("lights", lights, "none (a three-light set-up is used, unless everything is unlit)");
     lines("clips", clips, "none");
     lines("skins", skins, "none");
     line("extensions", scene.extensions.empty() ? "none" : fmt::format("{}", fmt::join(scene.extensions, ", ")));
@@ -255,7 +265,8 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
 
 void runInfo(const InfoOptions& options, const GlobalOptions& global) {
     const Progress progress = terminalProgress(global);
-    const Scene scene = options.scene.empty() ? fishSchool({}, progress) : loadGltf(options.scene, progress);
+    const Scene scene =
+        options.scene.empty() ? fishSchool(options.school, progress) : loadGltf(options.scene, progress);
     const Pose pose = poseAt(scene, 0, -1);
     if (options.json)
         fmt::print("{}\n", sceneJson(options, scene, pose).dump(2, ' ', false, Json::error_handler_t::replace));
@@ -269,9 +280,16 @@ void runInfo(const InfoOptions& options, const GlobalOptions& global) {
 void addInfoCommand(CLI::App& program, const GlobalOptions& global) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command = program.add_subcommand("info", "Say what a scene holds, and what of it is ignored and why");
-    command->add_option("scene", options->scene, "glTF file, .gltf or .glb (none: the built-in fish school)");
-    command->add_flag("--json", options->json, "Print everything as JSON");
-    command->footer("Example: defocus info FlightHelmet.gltf --json");
+    CLI::Option* scene =
+        command
+            ->add_option("SCENE", options->scene, "glTF file (.gltf, .glb); without one, the built-in school of fish")
+            ->type_name("FILE");
+    addWhole(*command, "--fish", options->school.fishCount, 1, 10'000, "Number of fish in the built-in school")
+        ->excludes(scene);
+    addWhole(*command, "--fish-triangles", options->school.trianglesPerFish, 200, 10'000'000, "Triangles a fish, about")
+        ->excludes(scene);
+    command->add_flag("--json", options->json, "JSON for programs, with every mesh, instead of text");
+    command->footer("Example:\n  defocus info scene.glb --json");
     command->callback([options, &global] { runInfo(*options, global); });
 }
 

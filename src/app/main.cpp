@@ -8,11 +8,13 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
+#include "app/help_format.h"
 #include "app/suggestion.h"
 
 namespace defocus {
@@ -102,7 +104,7 @@ int run(int argc, char** argv) {
     GlobalOptions global;
     program.fallthrough();
     program.require_subcommand(1);
-    program.get_formatter()->column_width(34);
+    program.formatter(std::make_shared<HelpFormat>());
     addGlobalOptions(program, global);
     addRenderCommand(program, global);
     addPlanCommand(program, global);

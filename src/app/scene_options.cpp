@@ -162,7 +162,7 @@ void addMethod(CLI::App& command, SceneOptions& options) {
     const char* group = "Method";
     std::vector<std::string> names;
     for (const Method& method : methods()) names.push_back(method.name);
-    addParsed(command, "--method", fmt::format("{}", fmt::join(names, "|")), "How the image is made",
+    addParsed(command, "--method", "NAME", fmt::format("How the image is made: {}", fmt::join(names, ", ")),
               [&options, names](const std::string& text) { options.method = names[parseChoice(text, names)]; })
         ->default_str(options.method)
         ->group(group);

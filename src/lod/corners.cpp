@@ -51,20 +51,22 @@ Choice chooseWedge(const Corners& corners, const WedgeQuestion& question, std::u
     const auto& attributes = corners.attributes;
     const auto inPrimitive = [&](std::uint32_t face, std::uint32_t) { return corners.primitive[face] == primitive; };
 
-    // The survivor's wedges across the edge in the same chart, and whether they are in one chart themselves.
+    // The survivor's wedges across the edge in the corner's chart. `exact` is on the same side of every crease as well.
     std::uint32_t across = EdgeSide::none;
-    bool tornAcross = false;
+    std::uint32_t exact = EdgeSide::none;
+    bool torn = false;     // a seam lies across the edge at the survivor
+    bool creased = false;  // a crease does
     for (const EdgeSide& side : question.sides) {
         if (side.face == EdgeSide::none || corners.primitive[side.face] != primitive) continue;
         if (!sameChart(attributes[side.from], attributes[wedge])) continue;
-        tornAcross = tornAcross || (across != EdgeSide::none && !sameChart(attributes[across], attributes[side.to]));
-        if (across == EdgeSide::none || side.from == wedge) across = side.to;
+        torn = torn || (across != EdgeSide::none && !sameChart(attributes[across], attributes[side.to]));
+        across = side.to;
+        if (side.from != wedge) continue;
+        creased = creased || (exact != EdgeSide::none && exact != side.to);
+        exact = side.to;
     }
-    if (across != EdgeSide::none && !tornAcross) {
-        const bool sameSide = (question.sides[0].from == wedge && question.sides[0].to == across) ||
-                              (question.sides[1].from == wedge && question.sides[1].to == across);
-        const bool oneWedge = question.sides[0].to == question.sides[1].to;
-        if (sameSide && (oneWedge || question.sides[0].from != question.sides[1].from)) return {across, Fit::good};
+    if (across != EdgeSide::none && !torn) {
+        if (exact != EdgeSide::none && !creased) return {exact, Fit::good};
         const auto inChart = [&](std::uint32_t face, std::uint32_t candidate) {
             return inPrimitive(face, candidate) && sameChart(attributes[candidate], attributes[across]);
         };
@@ -77,7 +79,7 @@ Choice chooseWedge(const Corners& corners, const WedgeQuestion& question, std::u
     if (nearest != EdgeSide::none) {
         bool leaves = jumps(corners, question, wedge, nearest);
         for (const EdgeSide& side : question.sides)
-            leaves = leaves || (tornAcross && side.face != EdgeSide::none && jumps(corners, question, wedge, side.to));
+            leaves = leaves || (torn && side.face != EdgeSide::none && jumps(corners, question, wedge, side.to));
         return {nearest, leaves ? Fit::poor : Fit::good};
     }
     return {nearestWedge(corners, question, wedge, [](std::uint32_t, std::uint32_t) { return true; }), Fit::bad};

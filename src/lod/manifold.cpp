@@ -122,6 +122,8 @@ void orient(Surface& surface, const EdgeGroups& groups) {
         if (groups.starts[g + 1] - groups.starts[g] != 2) continue;
         const std::uint32_t a = groups.order[groups.starts[g]];
         const std::uint32_t b = groups.order[groups.starts[g] + 1];
+        const bool sameFace = surface.at[previousCorner(a)] == surface.at[previousCorner(b)];
+        if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // once more in another primitive
         across[a] = b;
         across[b] = a;
     }

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "lod/level_normals.h"
+#include "lod/level_attributes.h"
 #include "lod/level_order.h"
 #include "lod/simplify.h"
 #include "lod/weld.h"
@@ -18,6 +18,7 @@ namespace defocus {
 namespace {
 
 constexpr double leastEdgeGrowth = 1.05;   // from level to level
+constexpr double leastEdgeToError = 2;     // a level can't be as fine as its edges say where its error outgrew them
 constexpr double leastErrorGrowth = 1.25;  // from level to level, from level 1 on
 constexpr double errorFloor = 1e-6;        // of the box's diagonal
 
@@ -94,8 +95,9 @@ PyramidLevel appendLevel(Pyramid& pyramid, const LevelTriangles& triangles, std:
 // Strictly growing, so that a level can be found for any target.
 void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     for (std::size_t l = 1; l < levels.size(); ++l) {
-        levels[l].meanEdge = std::max(levels[l].meanEdge, leastEdgeGrowth * levels[l - 1].meanEdge);
         levels[l].error = std::max({levels[l].error, leastErrorGrowth * levels[l - 1].error, errorFloor * diagonal});
+        levels[l].meanEdge = std::max(
+            {levels[l].meanEdge, leastEdgeGrowth * levels[l - 1].meanEdge, leastEdgeToError * levels[l].error});
     }
 }
 
@@ -127,15 +129,16 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
     pyramid.source = gathered(unique.first, order.vertices);
     pyramid.bounds = boundsOf(pyramid.vertices.positions);
 
-    // Describe each level: ranges, sizes and its own normals.
-    const std::vector<std::uint32_t> groups =
-        smoothingGroups(pyramid.vertices.normals, gathered(positions.id, order.vertices));
+    // Describe each level: ranges, sizes and its own normals and colours.
     for (std::size_t l = 0; l < triangles.size(); ++l) {
         PyramidLevel level = appendLevel(pyramid, triangles[l], order.vertexCounts[l]);
         level.error = errors[l];
-        level.normals = l == 0 ? pyramid.vertices.normals
-                               : levelNormals(pyramid.vertices.positions, pyramid.vertices.normals, groups,
-                                              triangles[l].indices, level.vertexCount);
+        const LevelAttributes attributes =
+            l == 0 ? LevelAttributes{vertices.normals, vertices.colors}
+                   : fitAttributes(vertices, positions.id, simplification.levels[l - 1].anchors);
+        const std::vector<std::uint32_t> prefix(order.vertices.begin(), order.vertices.begin() + level.vertexCount);
+        level.normals = gathered(attributes.normals, prefix);
+        level.colors = gathered(attributes.colors, prefix);
         pyramid.levels.push_back(std::move(level));
     }
     separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));

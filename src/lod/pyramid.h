@@ -1,6 +1,5 @@
 #pragma once
-// Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh
-// itself).
+// Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
 //
 // All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
 // together), so level l uses the prefix [0, vertexCount[l]). Only normals may differ between levels: level l has its
@@ -24,9 +23,18 @@ struct PyramidLevel {
     std::vector<IndexRange> primitives;  // one a primitive of the mesh, in its order
     std::uint32_t vertexCount = 0;       // the prefix of the vertex buffer that the level uses
     std::uint32_t triangleCount = 0;
-    std::vector<glm::vec3> normals;  // vertexCount unit normals
-    double meanEdge = 0;             // mean of all faces' edge lengths, object units; grows by 5 % a level or more
-    double error = 0;  // distance to level 0, object units; e[0] = 0, e[l+1] ≥ 1.25·e[l] and above a floor
+    // Fitted to the triangles of this level (level 0: the mesh's own). Normals have a length of at most 1: the shorter,
+    // the more the normals that they stand for differ, and the less light a matt surface throws back.
+    std::vector<glm::vec3> normals;   // vertexCount
+    std::vector<glm::u8vec4> colors;  // vertexCount; empty without colours
+
+    // Object units. Mean of all faces' edge lengths (an edge counts once a face), raised where needed so that it grows
+    // by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew them.
+    double meanEdge = 0;
+
+    // Object units. Estimated distance to level 0 (99th percentile over its vertices), raised where needed so that
+    // e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0.
+    double error = 0;
 };
 
 struct Pyramid {
@@ -51,8 +59,7 @@ Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {});
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},
                                    const Progress& progress = {});
 
-// Only level 0, for renders that use no other (nothing is simplified; vertex and index order are optimised all the
-// same).
+// Only level 0, for renders that use no other; vertex and index order are optimised all the same.
 Pyramid fullDetail(const Mesh& mesh);
 
 }  // namespace defocus

@@ -20,8 +20,8 @@ using OpenMesh::VertexHandle;
 constexpr double poorPenalty = 10;
 // A further level must save a quarter of the triangles …
 constexpr double largestShare = 0.75;
-// … but leave this share of those that can still go: where many components are as small as they get, halving all would be at
-// the cost of the few large ones.
+// … but leave this share of those that can still go: where many components are as small as they get, halving all would
+// be at the cost of the few large ones.
 constexpr double leastShareOfMovable = 0.25;
 
 void enqueue(Simplifier& s, std::uint32_t v, HalfedgeHandle edge, double cost, Fit fit) {
@@ -144,7 +144,18 @@ SimplifiedLevel snapshot(Simplifier& s, std::size_t primitiveCount) {
         level.triangles.primitiveIndexCounts[s.corners.primitive[face]] += 3;
     }
     level.error = deviation(s);
+    level.anchors = anchors(s);
     return level;
+}
+
+// Which surface vertex each mesh vertex is, before corners are handed over.
+void rememberCorners(Simplifier& s, std::size_t vertexCount) {
+    s.firstCorner.assign(vertexCount, EdgeSide::none);
+    s.firstVertex.assign(vertexCount, 0);
+    for (std::size_t corner = s.corners.wedge.size(); corner-- > 0;) {
+        s.firstCorner[s.corners.wedge[corner]] = static_cast<std::uint32_t>(corner);
+        s.firstVertex[s.corners.wedge[corner]] = s.corners.vertex[corner];
+    }
 }
 
 // Faces of whose vertices none can go: of tetrahedra, single triangles and the like.
@@ -158,11 +169,14 @@ std::size_t stuckFaces(const Simplifier& s) {
     return count;
 }
 
-// How many faces the next level should have.
+// How many faces the next level should have: half, or the least at once where half would come so near to it that no
+// level fits between.
 std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
     const std::size_t stuck = stuckFaces(s);
     const auto kept = static_cast<std::size_t>(leastShareOfMovable * static_cast<double>(s.liveFaces - stuck));
-    return std::max({s.liveFaces / 2, leastTriangles, stuck + kept});
+    const std::size_t half = s.liveFaces / 2;
+    const bool nearLeast = largestShare * static_cast<double>(half) < static_cast<double>(leastTriangles);
+    return std::max(nearLeast ? leastTriangles : half, stuck + kept);
 }
 
 }  // namespace
@@ -172,6 +186,7 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, const
     Simplification result;
     Simplifier s = prepareSimplifier(vertices, positions, triangles);
     result.repairedFaces = s.repairedFaces;
+    rememberCorners(s, vertices.count());
 
     // Collapse, and take a picture whenever half of the triangles are gone.
     s.candidates.resize(s.points.size());

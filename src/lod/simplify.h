@@ -1,19 +1,19 @@
 #pragma once
-// Half-edge collapse with quadrics: from a mesh, a sequence of ever coarser ones whose vertices are a subset of the
-// mesh's.
+// Half-edge collapse with quadrics: from a mesh, a sequence of ever coarser ones whose vertices are among the mesh's.
 //
 // The surface is joined by position over all primitives, so that seams and material borders stay shut; see manifold.h
 // for what becomes of surfaces that aren't manifold and corners.h for the attributes. A collapse is
-//   good:  nothing speaks against it,
-//   poor:  it leaves a seam or an open border, or makes a sliver; it costs ten times as much,
-//   bad:   it turns a face's normal by more than 75° or draws a vertex of another primitive; it is made only when no
-//   other is
-//          left anywhere. The topology never changes (link condition), so a
-// closed surface is closed at every level, and a component ends as a tetrahedron or its like.
+//   good:  nothing speaks against it;
+//   poor:  it leaves a seam or an open border, or makes a sliver: it costs ten times as much;
+//   bad:   it turns a face's normal by more than 75° or draws a vertex of another primitive: it is made only when no
+//          other is left anywhere.
+// The topology never changes (link condition): a closed surface is closed at every level, and a component ends as a
+// tetrahedron or its like.
 
 #include <cstdint>
 #include <vector>
 
+#include "lod/level_attributes.h"
 #include "lod/level_order.h"
 #include "lod/weld.h"
 #include "scene/mesh.h"
@@ -27,7 +27,8 @@ struct SimplifyOptions {
 
 struct SimplifiedLevel {
     LevelTriangles triangles;
-    double error = 0;  // estimated distance to the mesh (99th percentile), object units
+    double error = 0;             // estimated distance to the mesh (99th percentile), object units
+    std::vector<Anchor> anchors;  // one a mesh vertex
 };
 
 struct Simplification {

@@ -46,6 +46,8 @@ struct Simplifier {
     std::vector<QueueEntry> queue;
     std::size_t liveFaces = 0;
     std::uint32_t repairedFaces = 0;
+    std::vector<std::uint32_t> firstCorner;  // of each mesh vertex, as the mesh was; EdgeSide::none if it has no face
+    std::vector<std::uint32_t> firstVertex;  // of each mesh vertex's first corner, as the mesh was
 
     std::vector<std::uint32_t> facesFrom, facesTo;  // scratch of judgeCollapse
     std::vector<Retarget> retargets;                // the wedges that the collapse judged last hands over
@@ -84,5 +86,7 @@ Fit judgeCollapse(Simplifier& s, OpenMesh::HalfedgeHandle edge);
 
 // simplify_deviation.cpp: estimated distance between the mesh and what is left of it, object units.
 double deviation(Simplifier& s);
+// simplify_deviation.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive.
+std::vector<Anchor> anchors(Simplifier& s);
 
 }  // namespace defocus

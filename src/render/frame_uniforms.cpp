@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.h"
 #include "render/environment_light.h"
@@ -21,7 +22,7 @@ GpuLight gpuLight(const PlacedLight& placed, const glm::dmat4& viewFromWorld) {
     const float outer = std::cos(light.outerConeAngle);
     const float scale = 1.0f / std::max(inner - outer, 1e-4f);
     const float type = light.type == LightType::directional ? 0.0f : light.type == LightType::point ? 1.0f : 2.0f;
-    return {glm::vec4(position, light.range), glm::vec4(direction, type), glm::vec4(light.color * light.intensity, scale),
+    return {glm::vec4(position, light.range), glm::vec4(direction, type), glm::vec4(light.color * (light.intensity / std::numbers::pi_v<float>), scale),
             glm::vec4(-outer * scale, 0, 0, 0)};
 }
 

@@ -62,6 +62,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     // Level l uses a prefix of the vertices: the finest wanted level says how many are needed.
     std::size_t vertexCount = 0;
     std::vector<glm::vec3> normals;
+    std::vector<glm::u8vec4> colors;
     std::vector<std::uint32_t> indices;
     for (std::size_t level = 0; level < levels.size(); ++level) {
         if (!levels[level]) continue;
@@ -71,6 +72,8 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
         target.uploaded = true;
         target.normalOffset = normals.size() * sizeof(glm::vec3);
         normals.insert(normals.end(), source.normals.begin(), source.normals.end());
+        target.colorOffset = colors.size() * sizeof(glm::u8vec4);
+        colors.insert(colors.end(), source.colors.begin(), source.colors.end());
         for (const IndexRange& range : source.primitives) {
             target.indexOffsets.push_back(indices.size() * sizeof(std::uint32_t));
             const auto first = pyramid.indices.begin() + range.first;
@@ -80,7 +83,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     const Vertices& vertices = pyramid.vertices;
     result.positions = prefixBuffer(vertices.positions, vertexCount);
     result.normals = prefixBuffer(normals, normals.size());
-    result.colors = prefixBuffer(vertices.colors, vertexCount);
+    result.colors = prefixBuffer(colors, colors.size());
     result.uv0 = prefixBuffer(vertices.uv0, vertexCount);
     result.uv1 = prefixBuffer(vertices.uv1, vertexCount);
     result.tangents = prefixBuffer(vertices.tangents, vertexCount);

@@ -17,6 +17,7 @@ namespace defocus {
 struct GpuLevel {
     bool uploaded = false;
     std::size_t normalOffset = 0;              // bytes into the normals buffer
+    std::size_t colorOffset = 0;               // bytes into the colours buffer
     std::vector<std::size_t> indexOffsets;     // bytes into the index buffer, one a primitive
 };
 

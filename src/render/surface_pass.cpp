@@ -155,6 +155,7 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     for (GLuint i = 0; i < 5; ++i)
         if (textures.slots[i] != nullptr) textures.slots[i]->attach(i);
     mesh.vertexArray.bind(normalLocation, mesh.normals, level.normalOffset, sizeof(glm::vec3));
+    if (mesh.colors) mesh.vertexArray.bind(colorLocation, mesh.colors, level.colorOffset, sizeof(glm::u8vec4));
     glBindVertexArray(mesh.vertexArray.name());
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     glDrawElementsInstancedBaseInstance(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT,

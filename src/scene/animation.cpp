@@ -23,8 +23,8 @@ Segment segmentAt(const std::vector<float>& times, double time) {
     return {key, (time - static_cast<double>(times[key])) / span, span};
 }
 
-// glTF 2.0 C.5: Hermite spline through v_k and v_(k+1) with the out-tangent b_k and the in-tangent a_(k+1), scaled by the
-// time between the keys. A key holds in-tangent, value, out-tangent.
+// glTF 2.0 C.5: Hermite spline through v_k and v_(k+1) with the out-tangent b_k and the in-tangent a_(k+1), scaled by
+// the time between the keys. A key holds in-tangent, value, out-tangent.
 double cubicSpline(const float* key, const float* next, std::size_t count, const Segment& segment) {
     const double t = segment.fraction;
     const double t2 = t * t;

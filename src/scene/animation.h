@@ -8,8 +8,8 @@
 
 namespace defocus {
 
-// `count` floats of the channel at `time` (3 for translation and scale, one a target for weights). Times outside the keys
-// hold the first or last value.
+// `count` floats of the channel at `time` (3 for translation and scale, one a target for weights). Times outside the
+// keys hold the first or last value.
 std::vector<double> sampleValues(const AnimationChannel& channel, std::size_t count, double time);
 
 // A rotation channel (x, y, z, w a key) at `time`: spherical interpolation along the shorter arc, unit length.

@@ -1,13 +1,12 @@
-// The fit of the camera: each of the four side planes of the view is moved until it touches the box, which gives the depth and
-// the sideways shift in closed form. The lights follow the photographer's key, fill and rim.
+// The fit of the camera: each of the four side planes of the view is moved until it touches the box, which gives the
+// depth and the sideways shift in closed form. The lights follow the photographer's key, fill and rim.
 #include "scene/defaults.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <numbers>
 
 #include "core/error.h"
@@ -18,11 +17,11 @@ namespace {
 
 constexpr double framingTangent = 18.0 / 50.0;  // half the image's longer side: a 50 mm lens before a 36 mm sensor
 constexpr double framingFill = 0.94;            // share of the image that the box may fill
-constexpr double framingAzimuth = glm::radians(30.0);    // to the right of +z, the side that glTF models face
+constexpr double framingAzimuth = glm::radians(30.0);  // to the right of +z, the side that glTF models face
 constexpr double framingElevation = glm::radians(18.0);
 constexpr std::string_view framingName = "auto";
 
-// ---- cameras -----------------------------------------------------------------------------------------------------------
+// ---- cameras ------------------------------------------------------------------------------------
 
 struct CameraNode {
     const Node* node;
@@ -39,7 +38,8 @@ std::vector<CameraNode> cameraNodes(const Scene& scene) {
     return result;
 }
 
-// Rotation and position of a node's matrix. The way it looks is kept, then its up; scale, shear and mirroring are dropped.
+// Rotation and position of a node's matrix. The way it looks is kept, then its up; scale, shear and mirroring are
+// dropped.
 glm::dmat4 withoutScale(const glm::dmat4& world) {
     const auto unit = [](const glm::dvec3& vector, const glm::dvec3& otherwise) {
         const double length = glm::length(vector);
@@ -89,8 +89,7 @@ PlacedCamera framingCamera(const Bounds& sceneBounds, double aspect) {
     placed.camera.aspectRatio = aspect;
     placed.camera.znear = std::max(0.1 * (distance - front), 1e-3 * radius);
     placed.camera.focusDistance = distance;
-    const glm::dvec3 position =
-        bounds.centre() + 0.5 * (right - left) * x + 0.5 * (top - bottom) * y + distance * z;
+    const glm::dvec3 position = bounds.centre() + 0.5 * (right - left) * x + 0.5 * (top - bottom) * y + distance * z;
     placed.worldFromCamera = {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
     return placed;
 }
@@ -102,6 +101,7 @@ std::string labelOf(const CameraNode& place) {
 
 [[noreturn]] void failForCamera(const std::vector<CameraNode>& places, const std::string& name) {
     std::vector<std::string> names;
+    names.reserve(places.size());
     for (const CameraNode& place : places) names.push_back(labelOf(place));
     if (names.empty())
         fail("there is no camera '{}': the scene has none (name no camera for one that frames the scene)", name);
@@ -109,7 +109,7 @@ std::string labelOf(const CameraNode& place) {
          framingName);
 }
 
-// ---- lights ------------------------------------------------------------------------------------------------------------
+// ---- lights -------------------------------------------------------------------------------------
 
 // A material that looks the same under any light.
 bool selfLit(const Material& material) {
@@ -148,15 +148,15 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::strin
     // By name; without one, the first that can be used.
     const CameraNode* chosen = nullptr;
     for (const CameraNode& place : places) {
-        const bool matches = name.empty() ? !place.camera->orthographic
-                                          : place.camera->name == name || place.node->name == name;
+        const bool matches =
+            name.empty() ? !place.camera->orthographic : place.camera->name == name || place.node->name == name;
         if (matches && chosen == nullptr) chosen = &place;
     }
     if (chosen == nullptr && name.empty() && !places.empty()) chosen = &places.front();
     if (chosen != nullptr) {
         if (chosen->camera->orthographic)
-            fail("camera '{}' cannot be used: {}; name another, or '{}' for one that frames the scene", labelOf(*chosen),
-                 *chosen->camera->orthographic, framingName);
+            fail("camera '{}' cannot be used: {}; name another, or '{}' for one that frames the scene",
+                 labelOf(*chosen), *chosen->camera->orthographic, framingName);
         return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index])};
     }
 
@@ -167,7 +167,8 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::strin
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera) {
     if (!pose.lights.empty()) return pose.lights;
     if (everythingSelfLit(scene, pose)) return {};
-    // Illuminances are chosen together with the sky below: a diffuse ball of 18 % reflectance averages 18 % of display white.
+    // Illuminances are chosen together with the sky below: a diffuse ball of 18 % reflectance averages 18 % of display
+    // white.
     const glm::dvec3 centre = pose.bounds.empty() ? glm::dvec3(0) : pose.bounds.centre();
     return {
         studioLight(camera, "key", glm::radians(-42.0), glm::radians(38.0), {1.0f, 0.96f, 0.90f}, 2.6f, centre),

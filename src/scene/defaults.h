@@ -12,13 +12,15 @@ struct PlacedCamera {
     glm::dmat4 worldFromCamera{1.0};  // no scale
 };
 
-// The camera called `name` (camera's or its node's name; empty: the file's first), or one that frames `pose.bounds` from a
-// three-quarter view at the given image aspect (width / height). Throws Error for an unknown name (listing those that exist)
-// and for orthographic cameras.
+// The camera called `name` (camera's or its node's name; empty: the file's first that can be used). Without cameras, or
+// for the name "auto", one that frames `pose.bounds` from a three-quarter view at the given image aspect (width /
+// height), with focusDistance and znear to suit. Throws Error for an unknown name (listing those that exist) and for
+// orthographic cameras.
 PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::string& name, double aspect);
 
-// The scene's own lights, or key, fill and rim lights around `pose.bounds` when neither lights nor emissive or unlit materials
-// light it; and its environment, or a soft sky.
+// The scene's own lights. Without any: directional key, fill and rim lights as seen from the camera, unless all that is
+// drawn is unlit or glows evenly. And its environment, or a soft sky; the two together show a grey card of 18 % at 18 %
+// of white.
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera);
 Environment environmentOrDefault(const Scene& scene);
 

@@ -24,10 +24,10 @@ constexpr int minimumTriangles = 200;
 constexpr int maximumTriangles = 10'000'000;
 constexpr std::int64_t maximumTotal = 400'000'000;  // about 10 GB of meshes
 
-// A 50 mm lens at f/1 on a 36 mm sensor, focused at 2 m: the CoC at 1024 px is 71.1 px · |1/2 − 1/z|, z in m: 36 px at
-// 1 m, under 2 px from 1.89 to 2.12 m, and never more than 36 px behind the focus.
+// A 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m: the CoC at 1024 px is 74.9 px · |1/2 − 1/z|, z in m: 37 px at
+// 1 m, under 2 px from 1.90 to 2.11 m, and never more than 37 px behind the focus.
 constexpr double horizontalAperture = 36.0;
-constexpr double fStop = 1.0;
+constexpr double fStop = 0.95;
 constexpr double focusDistance = 2.0;
 constexpr double tanHalfWidth = 0.36;   // 36 mm / (2 · 50 mm)
 constexpr double tanHalfHeight = 0.27;  // at 4:3
@@ -45,28 +45,28 @@ struct Placement {
 using enum FishSpecies;
 constexpr std::array<Placement, 20> composition{{
     // In focus.
-    {angelfish, 0, 0.18, 0.06, 2.00, 0.40f, 22, 4},
-    {clownfish, 0, -0.42, -0.40, 1.97, 0.32f, 26, 8},
-    {butterflyfish, 0, 0.71, -0.28, 2.03, 0.30f, 16, -6},
-    {anthias, 0, -0.50, 0.44, 2.04, 0.32f, 24, 6},
-    {tang, 0, 0.66, 0.62, 2.05, 0.32f, 18, -2},
-    {anthias, 1, 0.06, -0.70, 1.94, 0.28f, 30, 8},
-    // Before the focus plane, at the image's edges.
-    {goldfish, 0, -0.86, -0.90, 1.18, 0.24f, 22, 12},
-    {tang, 1, 0.76, -0.97, 1.26, 0.23f, 26, 8},
-    {anthias, 2, -0.98, 0.90, 1.36, 0.26f, 14, 0},
+    {angelfish, 0, 0.18, 0.06, 2.00, 0.27f, 22, 4},
+    {butterflyfish, 0, 0.71, -0.28, 2.02, 0.25f, 16, -6},
+    {anthias, 0, -0.48, 0.46, 2.03, 0.26f, 24, 6},
+    {tang, 0, 0.62, 0.62, 2.03, 0.26f, 18, -2},
+    // Before the focus plane.
+    {clownfish, 0, -0.42, -0.38, 1.62, 0.22f, 26, 8},
+    {goldfish, 0, -0.82, -0.84, 1.10, 0.175f, 22, 12},
+    {tang, 1, 0.72, -0.86, 1.16, 0.17f, 26, 8},
+    {anthias, 2, -0.90, 0.84, 1.26, 0.19f, 14, 0},
     // Behind it.
-    {parrotfish, 0, -0.90, 0.06, 2.70, 0.48f, 18, 5},
-    {butterflyfish, 1, -0.06, 0.70, 2.75, 0.40f, 24, 2},
-    {goldfish, 1, 0.36, 0.44, 3.20, 0.42f, 18, 4},
-    {idol, 0, -0.37, 0.0, 3.20, 0.40f, 16, 2},
-    {fusilier, 0, 0.74, 0.17, 3.30, 0.50f, 20, 2},
-    {angelfish, 1, 0.42, -0.68, 3.00, 0.42f, 26, 6},
-    {fusilier, 1, -0.62, -0.74, 3.70, 0.56f, 20, 8},
-    {fusilier, 0, -0.16, -0.46, 4.80, 0.56f, 18, 6},
-    {clownfish, 1, 0.34, 0.88, 4.20, 0.52f, 14, 0},
-    {parrotfish, 1, 0.44, -0.30, 4.60, 0.60f, 20, 2},
-    {tang, 0, -0.76, 0.72, 6.40, 0.62f, 12, 6},
+    {anthias, 1, 0.06, -0.66, 2.45, 0.30f, 30, 8},
+    {parrotfish, 0, -0.86, 0.06, 2.90, 0.42f, 18, 5},
+    {butterflyfish, 1, -0.06, 0.66, 3.00, 0.36f, 24, 2},
+    {goldfish, 1, 0.36, 0.42, 3.40, 0.40f, 18, 4},
+    {idol, 0, -0.33, 0.03, 3.50, 0.42f, 16, 2},
+    {fusilier, 0, 0.74, 0.17, 3.60, 0.50f, 20, 2},
+    {angelfish, 1, 0.40, -0.70, 3.30, 0.38f, 26, 6},
+    {fusilier, 1, -0.44, -0.76, 4.20, 0.56f, 20, 8},
+    {fusilier, 0, -0.13, -0.36, 5.20, 0.66f, 18, 6},
+    {clownfish, 1, 0.28, 0.86, 4.80, 0.60f, 14, 0},
+    {parrotfish, 1, 0.40, -0.30, 5.20, 0.66f, 20, 2},
+    {tang, 0, -0.68, 0.80, 6.60, 0.78f, 12, 6},
 }};
 
 glm::dquat cameraRotation() {
@@ -82,6 +82,7 @@ glm::dvec3 worldPosition(const Placement& fish) {
 // view deepens with their number, and with every try that finds no room.
 void scatter(std::size_t count, std::uint32_t seed, std::vector<Placement>& school) {
     std::vector<glm::dvec3> centres;
+    centres.reserve(count);
     for (const Placement& fish : school) centres.push_back(worldPosition(fish));
     double deepest = 8.0;
     FishRandom random(seed, 0xf15cu);
@@ -166,7 +167,7 @@ void addMaterials(Scene& scene) {
     skin.roughnessFactor = 0.37f;
     Material eye = skin;
     eye.name = "Fish eye";
-    eye.roughnessFactor = 0.14f;
+    eye.roughnessFactor = 0.28f;
     scene.materials = {skin, eye};
 }
 

@@ -9,6 +9,11 @@ void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<std
     indices.insert(indices.end(), {a, b, c});
 }
 
+// Vertex i (0 … count) of a ring; the last is the first again.
+std::uint32_t onRing(const VertexRow& ring, std::uint32_t i) {
+    return ring.first + (i == ring.count ? 0u : i);
+}
+
 // The front side between two open rows: the shorter diagonal is taken each time, so that rows that are shifted along
 // each other (leaning rays) make no sheared triangles.
 void stitchRows(const VertexRow& a, const VertexRow& b, const std::vector<glm::vec3>& positions,
@@ -50,18 +55,17 @@ std::vector<std::uint32_t> outline(const std::vector<VertexRow>& rows) {
 void stitchRings(const VertexRow& a, const VertexRow& b, std::vector<std::uint32_t>& indices) {
     std::uint32_t i = 0;
     std::uint32_t j = 0;
-    const float stepA = 1.0f / static_cast<float>(a.count);
-    const float stepB = 1.0f / static_cast<float>(b.count);
+    const auto countA = static_cast<float>(a.count);
+    const auto countB = static_cast<float>(b.count);
     while (i < a.count || j < b.count) {
-        const float nextA = (static_cast<float>(i) + 0.5f + a.offset) * stepA;
-        const float nextB = (static_cast<float>(j) + 0.5f + b.offset) * stepB;
-        const std::uint32_t vertexA = a.first + i % a.count;
-        const std::uint32_t vertexB = b.first + j % b.count;
+        // The middles of the next edges, as (i + ½ + offset) / count around the ring, both times countA · countB.
+        const float nextA = (static_cast<float>(i) + 0.5f + a.offset) * countB;
+        const float nextB = (static_cast<float>(j) + 0.5f + b.offset) * countA;
         if (j >= b.count || (i < a.count && nextA <= nextB)) {
-            triangle(vertexA, vertexB, a.first + (i + 1) % a.count, indices);
+            triangle(onRing(a, i), onRing(b, j), onRing(a, i + 1), indices);
             ++i;
         } else {
-            triangle(vertexA, vertexB, b.first + (j + 1) % b.count, indices);
+            triangle(onRing(a, i), onRing(b, j), onRing(b, j + 1), indices);
             ++j;
         }
     }
@@ -69,8 +73,8 @@ void stitchRings(const VertexRow& a, const VertexRow& b, std::vector<std::uint32
 
 void capRing(const VertexRow& a, std::uint32_t apex, bool apexBelow, std::vector<std::uint32_t>& indices) {
     for (std::uint32_t i = 0; i < a.count; ++i) {
-        const std::uint32_t here = a.first + i;
-        const std::uint32_t next = a.first + (i + 1) % a.count;
+        const std::uint32_t here = onRing(a, i);
+        const std::uint32_t next = onRing(a, i + 1);
         if (apexBelow) {
             triangle(here, apex, next, indices);
         } else {

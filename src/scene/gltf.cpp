@@ -34,9 +34,11 @@ void checkPlacement(const gltf::Source& source, const Scene& scene) {
 
 // Data that is kept but not drawn.
 void noteUndrawn(gltf::Source& source, const Scene& scene) {
-    const auto skinned = std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.skin >= 0; });
+    const auto skinned =
+        std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.skin >= 0; });
     if (skinned > 0)
-        gltf::ignore(source, "skin", "skinning is not applied; drawn in its bind pose", static_cast<std::uint64_t>(skinned));
+        gltf::ignore(source, "skin", "skinning is not applied; drawn in its bind pose",
+                     static_cast<std::uint64_t>(skinned));
     for (const Mesh& mesh : scene.meshes)
         if (!mesh.morphTargets.empty())
             gltf::ignore(source, "morph targets", "not applied; drawn in its basic shape", mesh.morphTargets.size());

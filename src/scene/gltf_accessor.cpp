@@ -1,4 +1,5 @@
-// glTF 2.0 specification, 3.6.2 (accessors): component types, data alignment, sparse accessors, normalised integers (3.11).
+// glTF 2.0 specification, 3.6.2 (accessors): component types, data alignment, sparse accessors, normalised integers
+// (3.11).
 #include "scene/gltf_accessor.h"
 
 #include <algorithm>
@@ -85,7 +86,8 @@ std::uint64_t strideOf(const Source& source, const tinygltf::Accessor& accessor,
     return stride != 0 ? stride : layout.elementBytes();
 }
 
-void checkSparse(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout, const std::string& what) {
+void checkSparse(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout,
+                 const std::string& what) {
     const int type = accessor.sparse.indices.componentType;
     if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
@@ -127,7 +129,8 @@ double loadComponent(const std::byte* bytes, int componentType) {
     }
 }
 
-// Calls store(element, component, value) for everything in the accessor: its view first, then the sparse elements over it.
+// Calls store(element, component, value) for everything in the accessor: its view first, then the sparse elements over
+// it.
 template <typename Store>
 void forEachComponent(const Source& source, int index, const std::string& what, const Store& store) {
     const tinygltf::Accessor& accessor = accessorAt(source, index);
@@ -151,7 +154,8 @@ void forEachComponent(const Source& source, int index, const std::string& what, 
     const std::byte* values = viewBytes(source, accessor.sparse.values.bufferView).data() +
                               static_cast<std::size_t>(accessor.sparse.values.byteOffset);
     for (std::size_t i = 0; i < static_cast<std::size_t>(accessor.sparse.count); ++i) {
-        const auto element = static_cast<std::size_t>(loadComponent(indices + i * componentBytes(indexType), indexType));
+        const auto element =
+            static_cast<std::size_t>(loadComponent(indices + i * componentBytes(indexType), indexType));
         if (element >= accessor.count)
             fault(source.document, "{}: sparse index {} is beyond its {} elements", what, element, accessor.count);
         storeElement(element, values + i * layout.elementBytes());
@@ -181,7 +185,9 @@ void checkAccessors(const Source& source) {
     }
 }
 
-std::size_t elementCount(const Source& source, int accessor) { return accessorAt(source, accessor).count; }
+std::size_t elementCount(const Source& source, int accessor) {
+    return accessorAt(source, accessor).count;
+}
 
 int componentCount(const Source& source, int accessor) {
     const tinygltf::Accessor& found = accessorAt(source, accessor);
@@ -216,8 +222,7 @@ std::vector<float> readFloats(Source& source, int accessor, int components, cons
     // −128/127 and −32768/32767 are clamped to −1 (3.11).
     const bool clamps = scale != 1.0;
     forEachComponent(source, accessor, what, [&](std::size_t element, std::size_t component, double value) {
-        result[element * perElement + component] =
-            static_cast<float>(clamps ? std::max(value / scale, -1.0) : value);
+        result[element * perElement + component] = static_cast<float>(clamps ? std::max(value / scale, -1.0) : value);
     });
     return result;
 }
@@ -225,7 +230,8 @@ std::vector<float> readFloats(Source& source, int accessor, int components, cons
 std::vector<std::uint32_t> readIntegers(Source& source, int accessor, int components, const std::string& what) {
     checkComponents(source, accessor, components, what);
     const int type = accessorAt(source, accessor).componentType;
-    if (type == TINYGLTF_COMPONENT_TYPE_FLOAT || type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT)
+    if (type == TINYGLTF_COMPONENT_TYPE_FLOAT || type == TINYGLTF_COMPONENT_TYPE_BYTE ||
+        type == TINYGLTF_COMPONENT_TYPE_SHORT)
         fault(source.document, "{}: accessor {} must hold unsigned integers", what, accessor);
     const auto perElement = static_cast<std::size_t>(components);
     takeBudget(source, elementCount(source, accessor), perElement * sizeof(std::uint32_t), what);

@@ -1,12 +1,11 @@
 #pragma once
-// Typed reading of accessors: every component type, normalised integers, interleaving, matrices, sparse substitution, and
-// accessors without data (zeros). Internal to the loader.
+// Typed reading of accessors: every component type, normalised integers, interleaving, matrices, sparse substitution,
+// and accessors without data (zeros). Internal to the loader.
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,8 @@ int componentCount(const Source& source, int accessor);  // 1 (SCALAR), 2 … 4 
 // What the accessor's integers are divided by: 1 unless it is normalised.
 double normalisationScale(const Source& source, int accessor);
 
-// All elements as floats, componentCount each; normalised integers become [0, 1] or [−1, 1]. Throws Error naming `what` unless
-// an element has `components` of them.
+// All elements as floats, componentCount each; normalised integers become [0, 1] or [−1, 1]. Throws Error naming `what`
+// unless an element has `components` of them.
 std::vector<float> readFloats(Source& source, int accessor, int components, const std::string& what);
 
 // The same for integers (indices, joints), unscaled. Throws Error for floats and negative values.

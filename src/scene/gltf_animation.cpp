@@ -1,10 +1,9 @@
 // glTF 2.0 specification, 3.7.3 (skins) and 3.11 (animations).
 #include "scene/gltf_animation.h"
 
-#include <glm/gtc/type_ptr.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "scene/gltf_accessor.h"
 
@@ -146,8 +145,8 @@ void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const 
         const auto mesh = static_cast<std::size_t>(node.mesh);
         const std::size_t joints = skins[static_cast<std::size_t>(node.skin)].joints.size();
         if (largest[mesh] >= joints)
-            fault(source.document, "{} uses joint {} of skin {}, which has {}", labelOf("mesh", mesh, meshes[mesh].name),
-                  largest[mesh], node.skin, joints);
+            fault(source.document, "{} uses joint {} of skin {}, which has {}",
+                  labelOf("mesh", mesh, meshes[mesh].name), largest[mesh], node.skin, joints);
     }
 }
 

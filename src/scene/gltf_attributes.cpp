@@ -1,10 +1,9 @@
 // glTF 2.0 specification, 3.7.2 (meshes).
 #include "scene/gltf_attributes.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "scene/gltf_accessor.h"
 
@@ -16,7 +15,8 @@ class AttributeReader {
 public:
     AttributeReader(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco, std::string what)
         : source_(source), primitive_(primitive), draco_(draco), what_(std::move(what)) {
-        count_ = draco_ != nullptr ? draco_->vertexCount() : elementCount(source_, primitive_.attributes.at("POSITION"));
+        count_ =
+            draco_ != nullptr ? draco_->vertexCount() : elementCount(source_, primitive_.attributes.at("POSITION"));
     }
 
     void checkCounts() const {
@@ -50,8 +50,8 @@ public:
     std::vector<MorphTarget> readTargets() const {
         std::vector<MorphTarget> result;
         for (const auto& target : primitive_.targets)
-            result.push_back({displacements(target, "POSITION"), displacements(target, "NORMAL"),
-                              displacements(target, "TANGENT")});
+            result.push_back(
+                {displacements(target, "POSITION"), displacements(target, "NORMAL"), displacements(target, "TANGENT")});
         return result;
     }
 
@@ -65,7 +65,8 @@ private:
                   count_);
     }
 
-    [[nodiscard]] std::vector<glm::vec3> displacements(const std::map<std::string, int>& target, const char* name) const {
+    [[nodiscard]] std::vector<glm::vec3> displacements(const std::map<std::string, int>& target,
+                                                       const char* name) const {
         const auto found = target.find(name);
         if (found == target.end()) return {};
         std::vector<glm::vec3> result = readVectors<glm::vec3>(source_, found->second, label("morph target"));
@@ -102,7 +103,8 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     std::vector<glm::u16vec4> result;
     for (const glm::vec4& joints : reader.read<glm::vec4>("JOINTS_0")) {
         for (int i = 0; i < 4; ++i)
-            if (!(joints[i] >= 0 && joints[i] <= 65535)) fault(source.document, "{}: JOINTS_0 holds no joint indices", what);
+            if (!(joints[i] >= 0 && joints[i] <= 65535))
+                fault(source.document, "{}: JOINTS_0 holds no joint indices", what);
         result.emplace_back(joints);
     }
     return result;

@@ -18,7 +18,8 @@ constexpr std::uint32_t jsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t binChunk = 0x004E4942;   // "BIN"
 constexpr std::size_t headerBytes = 12;
 constexpr std::size_t chunkHeaderBytes = 8;
-constexpr int deepestNesting = 64;  // glTF itself needs ten levels; deeper JSON would only cost stack
+constexpr std::size_t longestMessage = 400;  // bytes
+constexpr int deepestNesting = 64;           // glTF itself needs ten levels; deeper JSON would only cost stack
 
 using Bytes = std::span<const std::byte>;
 
@@ -29,9 +30,9 @@ std::uint32_t littleEndian32(Bytes bytes, std::size_t offset) {
 }
 
 bool endsWithIgnoringCase(const std::string& text, const std::string& ending) {
-    return text.size() >= ending.size() && std::equal(ending.rbegin(), ending.rend(), text.rbegin(), [](char a, char b) {
-               return a == std::tolower(static_cast<unsigned char>(b));
-           });
+    return text.size() >= ending.size() &&
+           std::equal(ending.rbegin(), ending.rend(), text.rbegin(),
+                      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
 }
 
 struct Container {
@@ -68,8 +69,8 @@ Container splitGlb(const Document& document, Bytes bytes) {
     return result;
 }
 
-// How deep the text's arrays and objects nest, whether or not it is valid. Looked at before parsing, since everything after it
-// may recurse. (A parser's own callback could count too, but makes long arrays quadratic in this library.)
+// How deep the text's arrays and objects nest, whether or not it is valid. Looked at before parsing, since everything
+// after it may recurse. (A parser's own callback could count too, but makes long arrays quadratic in this library.)
 int nestingDepth(std::string_view text) {
     int depth = 0;
     int deepest = 0;
@@ -122,7 +123,8 @@ int hexDigit(char c) {
 std::string percentDecoded(std::string_view text) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool coded = text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
+        const bool coded =
+            text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
         result += coded ? static_cast<char>(16 * hexDigit(text[i + 1]) + hexDigit(text[i + 2])) : text[i];
         if (coded) i += 2;
     }
@@ -135,7 +137,8 @@ std::optional<std::vector<std::byte>> base64Decoded(std::string_view text) {
         std::array<int, 256> table{};
         table.fill(-1);
         constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-        for (std::size_t i = 0; i < alphabet.size(); ++i) table[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
+        for (std::size_t i = 0; i < alphabet.size(); ++i)
+            table[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
         return table;
     }();
     while (text.ends_with('=')) text.remove_suffix(1);
@@ -175,9 +178,8 @@ std::vector<std::byte> readDataUri(const Document& document, std::string_view ur
 bool hasScheme(std::string_view uri) {
     const std::size_t colon = uri.find(':');
     return colon != std::string_view::npos && colon > 1 &&
-           std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](unsigned char c) {
-               return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.';
-           });
+           std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon),
+                       [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.'; });
 }
 
 }  // namespace
@@ -185,7 +187,10 @@ bool hasScheme(std::string_view uri) {
 std::string oneLine(std::string text) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-    return text;
+    if (text.size() <= longestMessage) return text;
+    std::size_t end = longestMessage;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not inside a UTF-8 character
+    return text.substr(0, end) + "…";
 }
 
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what) {
@@ -212,8 +217,8 @@ Document readDocument(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = readFile(path);
     document.fileBytes = bytes.size();
     if (bytes.empty()) fault(document, "the file is empty: not valid JSON");
-    const bool glb = (bytes.size() >= 4 && littleEndian32(bytes, 0) == glbMagic) ||
-                     endsWithIgnoringCase(document.file, ".glb");
+    const bool glb =
+        (bytes.size() >= 4 && littleEndian32(bytes, 0) == glbMagic) || endsWithIgnoringCase(document.file, ".glb");
     const Container container = glb ? splitGlb(document, bytes) : Container{bytes, std::nullopt};
 
     document.json = parseJson(document, container.json);

@@ -1,12 +1,11 @@
 #pragma once
-// A glTF file split into its parts, before anything in it is interpreted: the JSON, a .glb's binary chunk, and the way to what
-// lies in other files. Internal to the loader.
-
-#include <nlohmann/json.hpp>
+// A glTF file split into its parts, before anything in it is interpreted: the JSON, a .glb's binary chunk, and the way
+// to what lies in other files. Internal to the loader.
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,20 +22,22 @@ struct Document {
     std::uint64_t fileBytes = 0;
 };
 
-// Reads `path`; a container or JSON that breaks the standard (length, magic, version, byte order mark, nesting) is an Error.
+// Reads `path`; a container or JSON that breaks the standard (length, magic, version, byte order mark, nesting) is an
+// Error.
 Document readDocument(const std::filesystem::path& path);
 
-// The bytes behind a URI: data: of any media type (base64 or percent-coded), or a regular file relative to the document.
-// `what` names the user in messages.
+// The bytes behind a URI: data: of any media type (base64 or percent-coded), or a regular file relative to the
+// document. `what` names the user in messages.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
-// `text` with control characters as spaces: names from a file must not break an error into lines.
+// `text` with control characters as spaces and cut after a few hundred bytes: names from a file must not break an error
+// into lines or bury it.
 std::string oneLine(std::string text);
 
 // Throws Error "file: …", one line.
 template <typename... Args>
 [[noreturn]] void fault(const Document& document, fmt::format_string<Args...> format, Args&&... args) {
-    throw Error(oneLine(document.file + ": " + fmt::format(format, std::forward<Args>(args)...)));
+    throw Error(document.file + ": " + oneLine(fmt::format(format, std::forward<Args>(args)...)));
 }
 
 }  // namespace defocus::gltf

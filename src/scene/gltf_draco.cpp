@@ -23,7 +23,8 @@ bool convert(const draco::PointAttribute& attribute, draco::AttributeValueIndex 
     if (attribute.data_type() == draco::DT_FLOAT32)
         return attribute.ConvertValue<float>(index, static_cast<std::int8_t>(components), result);
     std::array<std::int32_t, 4> integers{};
-    if (!attribute.ConvertValue<std::int32_t>(index, static_cast<std::int8_t>(components), integers.data())) return false;
+    if (!attribute.ConvertValue<std::int32_t>(index, static_cast<std::int8_t>(components), integers.data()))
+        return false;
     for (int i = 0; i < components; ++i) {
         const double value = integers[static_cast<std::size_t>(i)];
         result[i] = static_cast<float>(scale != 1.0 ? std::max(value / scale, -1.0) : value);
@@ -43,7 +44,8 @@ DracoPrimitive::DracoPrimitive(Source& source, const nlohmann::json& json, const
     try {
         draco::Decoder decoder;
         auto result = decoder.DecodeMeshFromBuffer(&buffer);
-        if (!result.ok()) fault(source.document, "{}: the data is damaged ({})", what_, result.status().error_msg_string());
+        if (!result.ok())
+            fault(source.document, "{}: the data is damaged ({})", what_, result.status().error_msg_string());
         decoded_->mesh = std::move(result).value();
     } catch (const std::bad_alloc&) {
         fault(source.document, "{}: the data is damaged (it asks for more memory than there is)", what_);
@@ -58,7 +60,9 @@ DracoPrimitive::~DracoPrimitive() = default;
 DracoPrimitive::DracoPrimitive(DracoPrimitive&&) noexcept = default;
 DracoPrimitive& DracoPrimitive::operator=(DracoPrimitive&&) noexcept = default;
 
-std::size_t DracoPrimitive::vertexCount() const { return decoded_->mesh->num_points(); }
+std::size_t DracoPrimitive::vertexCount() const {
+    return decoded_->mesh->num_points();
+}
 
 std::vector<std::uint32_t> DracoPrimitive::triangles() const {
     std::vector<std::uint32_t> result;
@@ -68,14 +72,18 @@ std::vector<std::uint32_t> DracoPrimitive::triangles() const {
     return result;
 }
 
-bool DracoPrimitive::has(const std::string& attribute) const { return ids_.contains(attribute); }
+bool DracoPrimitive::has(const std::string& attribute) const {
+    return ids_.contains(attribute);
+}
 
 std::vector<float> DracoPrimitive::floats(const Source& source, const std::string& attribute, int components,
                                           double scale) const {
     const draco::PointAttribute* data = decoded_->mesh->GetAttributeByUniqueId(ids_.at(attribute));
-    if (data == nullptr) fault(source.document, "{}: there is no attribute {} for {}", what_, ids_.at(attribute), attribute);
+    if (data == nullptr)
+        fault(source.document, "{}: there is no attribute {} for {}", what_, ids_.at(attribute), attribute);
     if (data->num_components() != components)
-        fault(source.document, "{}: {} has {} components, not {}", what_, attribute, data->num_components(), components);
+        fault(source.document, "{}: {} has {} components, not {}", what_, attribute, data->num_components(),
+              components);
     const auto perVertex = static_cast<std::size_t>(components);
     std::vector<float> result(vertexCount() * perVertex);
     for (std::size_t i = 0; i < vertexCount(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
-// KHR_draco_mesh_compression: a primitive's triangles and attributes out of one compressed buffer view. Internal to the loader.
+// KHR_draco_mesh_compression: a primitive's triangles and attributes out of one compressed buffer view. Internal to the
+// loader.
 
 #include <map>
 #include <memory>

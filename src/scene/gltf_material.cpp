@@ -12,7 +12,7 @@ namespace defocus::gltf {
 
 namespace {
 
-// ---- materials ---------------------------------------------------------------------------------------------------------
+// ---- materials ----------------------------------------------------------------------------------
 
 float numberOf(const nlohmann::json& json, const char* name, double otherwise) {
     return toFloat(json.value(name, otherwise));
@@ -25,9 +25,8 @@ glm::mat3 textureTransform(const nlohmann::json& json) {
     const double rotation = json.value("rotation", 0.0);
     const double c = std::cos(rotation);
     const double s = std::sin(rotation);
-    return {toFloat(c * scale[0]),  toFloat(-s * scale[0]), 0.0f,  // columns
-            toFloat(s * scale[1]),  toFloat(c * scale[1]),  0.0f,
-            toFloat(offset[0]),     toFloat(offset[1]),     1.0f};
+    return {toFloat(c * scale[0]), toFloat(-s * scale[0]), 0.0f,  // columns
+            toFloat(s * scale[1]), toFloat(c * scale[1]),  0.0f, toFloat(offset[0]), toFloat(offset[1]), 1.0f};
 }
 
 // The texture that `owner` names as `name`; none when it can't be drawn, which is noted.
@@ -92,15 +91,15 @@ Material readMaterial(Source& source, std::size_t index) {
             material.emissiveFactor[i] =
                 toFloat(strength * json["emissiveFactor"][static_cast<std::size_t>(i)].get<double>());
 
-    material.alphaMode = alphaModeOf(source, json.value("alphaMode", std::string("OPAQUE")),
-                                     labelOf("material", index, material.name));
+    material.alphaMode =
+        alphaModeOf(source, json.value("alphaMode", std::string("OPAQUE")), labelOf("material", index, material.name));
     material.alphaCutoff = numberOf(json, "alphaCutoff", 0.5);
     material.doubleSided = json.value("doubleSided", false);
     material.unlit = findExtension(json, "KHR_materials_unlit") != nullptr;
     return material;
 }
 
-// ---- textures ----------------------------------------------------------------------------------------------------------
+// ---- textures -----------------------------------------------------------------------------------
 
 Wrap wrapOf(int mode) {
     if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clampToEdge;
@@ -121,17 +120,16 @@ Texture readTexture(const tinygltf::Model& model, const tinygltf::Texture& from)
                          minification == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
                          minification == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
     if (nearest) texture.minification = Filter::nearest;
-    texture.mipmaps =
-        minification != TINYGLTF_TEXTURE_FILTER_NEAREST && minification != TINYGLTF_TEXTURE_FILTER_LINEAR;
+    texture.mipmaps = minification != TINYGLTF_TEXTURE_FILTER_NEAREST && minification != TINYGLTF_TEXTURE_FILTER_LINEAR;
     return texture;
 }
 
-// ---- images ------------------------------------------------------------------------------------------------------------
+// ---- images -------------------------------------------------------------------------------------
 
 std::string imageName(const nlohmann::json& json, std::size_t index) {
-    const std::string name = json.value("name", std::string());
+    std::string name = json.value("name", std::string());
     if (!name.empty()) return name;
-    const std::string uri = json.value("uri", std::string());
+    std::string uri = json.value("uri", std::string());
     return uri.empty() || uri.starts_with("data:") ? fmt::format("image {}", index) : uri;
 }
 
@@ -152,7 +150,8 @@ std::vector<Material> readMaterials(Source& source) {
 
 std::vector<Texture> readTextures(Source& source) {
     std::vector<Texture> textures;
-    for (const tinygltf::Texture& texture : source.model.textures) textures.push_back(readTexture(source.model, texture));
+    for (const tinygltf::Texture& texture : source.model.textures)
+        textures.push_back(readTexture(source.model, texture));
     return textures;
 }
 

@@ -33,7 +33,8 @@ struct LastBlock {
 };
 
 std::vector<std::uint32_t> triangleList(int mode, const std::vector<std::uint32_t>& indices) {
-    if (mode == TINYGLTF_MODE_TRIANGLES) return {indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(indices.size() % 3)};
+    if (mode == TINYGLTF_MODE_TRIANGLES)
+        return {indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(indices.size() % 3)};
     std::vector<std::uint32_t> result;
     for (std::size_t i = 0; i + 2 < indices.size(); ++i) {
         const bool fan = mode == TINYGLTF_MODE_TRIANGLE_FAN;
@@ -121,7 +122,8 @@ public:
         std::vector<std::pair<std::size_t, Primitive>> primitives;
         for (const Group& group : groupPrimitives(source_, from, json, label)) {
             std::vector<Primitive> members = readGroup(mesh, from, json, group, label);
-            for (std::size_t i = 0; i < members.size(); ++i) primitives.emplace_back(group.members[i], std::move(members[i]));
+            for (std::size_t i = 0; i < members.size(); ++i)
+                primitives.emplace_back(group.members[i], std::move(members[i]));
         }
         std::sort(primitives.begin(), primitives.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         for (auto& [order, primitive] : primitives) mesh.primitives.push_back(std::move(primitive));
@@ -131,23 +133,25 @@ public:
 
 private:
     // Reads the group's triangles and vertices and appends them to the mesh.
-    std::vector<Primitive> readGroup(Mesh& mesh, const tinygltf::Mesh& from, const nlohmann::json& json, const Group& group,
-                                     const std::string& label) {
+    std::vector<Primitive> readGroup(Mesh& mesh, const tinygltf::Mesh& from, const nlohmann::json& json,
+                                     const Group& group, const std::string& label) {
         const std::string what = fmt::format("{}, primitive {}", label, group.members.front());
         std::optional<DracoPrimitive> draco;
         if (group.compressed)
-            draco.emplace(source_, *findExtension(json["primitives"][group.members.front()], "KHR_draco_mesh_compression"),
-                          what);
-        const VertexBlock& all = readBlock(from.primitives[group.members.front()], group, draco ? &*draco : nullptr, what);
+            draco.emplace(
+                source_, *findExtension(json["primitives"][group.members.front()], "KHR_draco_mesh_compression"), what);
+        const VertexBlock& all =
+            readBlock(from.primitives[group.members.front()], group, draco ? &*draco : nullptr, what);
 
         std::vector<Primitive> primitives;
         std::vector<std::vector<std::uint32_t>*> lists;
         for (const std::size_t member : group.members) {
             const tinygltf::Primitive& primitive = from.primitives[member];
-            primitives.push_back({primitive.material,
-                                  readTriangles(source_, primitive, all.vertices.count(), draco ? &*draco : nullptr,
-                                                fmt::format("{}, primitive {}", label, member))});
+            primitives.push_back(
+                {primitive.material, readTriangles(source_, primitive, all.vertices.count(), draco ? &*draco : nullptr,
+                                                   fmt::format("{}, primitive {}", label, member))});
         }
+        lists.reserve(primitives.size());
         for (Primitive& primitive : primitives) lists.push_back(&primitive.indices);
 
         VertexBlock block = finish(compacted(all, lists), lists, normalMapUvSet(primitives, materials_), what);

@@ -42,16 +42,17 @@ void checkLimits(const Source& source, const CompressedView& view) {
         fault(source.document, "{}: unknown mode '{}'", view.what, view.mode);
     const bool strideFits = attributes ? view.stride % 4 == 0 && view.stride > 0 && view.stride <= 256
                                        : view.stride == 2 || view.stride == 4;
-    if (!strideFits) fault(source.document, "{}: {} data cannot have a stride of {}", view.what, view.mode, view.stride);
+    if (!strideFits)
+        fault(source.document, "{}: {} data cannot have a stride of {}", view.what, view.mode, view.stride);
     if (view.mode == "TRIANGLES" && view.count % 3 != 0)
         fault(source.document, "{}: {} indices are no whole triangles", view.what, view.count);
-    const bool filterFits = view.filter == "NONE" ||
-                            (attributes && ((view.filter == "OCTAHEDRAL" && (view.stride == 4 || view.stride == 8)) ||
-                                            (view.filter == "QUATERNION" && view.stride == 8) ||
-                                            view.filter == "EXPONENTIAL"));
+    const bool filterFits =
+        view.filter == "NONE" ||
+        (attributes && ((view.filter == "OCTAHEDRAL" && (view.stride == 4 || view.stride == 8)) ||
+                        (view.filter == "QUATERNION" && view.stride == 8) || view.filter == "EXPONENTIAL"));
     if (!filterFits)
-        fault(source.document, "{}: filter '{}' does not go with {} data of stride {}", view.what, view.filter, view.mode,
-              view.stride);
+        fault(source.document, "{}: filter '{}' does not go with {} data of stride {}", view.what, view.filter,
+              view.mode, view.stride);
 }
 
 std::vector<std::byte> unpack(Source& source, const CompressedView& view) {

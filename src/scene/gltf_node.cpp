@@ -1,11 +1,10 @@
 // glTF 2.0 specification, 3.5 (scenes, nodes) and 3.10 (cameras); EXT_mesh_gpu_instancing; KHR_lights_punctual.
 #include "scene/gltf_node.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/type_ptr.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <numbers>
 
 #include "scene/gltf_accessor.h"
@@ -14,7 +13,7 @@ namespace defocus::gltf {
 
 namespace {
 
-// ---- which nodes -------------------------------------------------------------------------------------------------------
+// ---- which nodes --------------------------------------------------------------------------------
 
 // Each node's parent or −1. A tree has one parent a node and no loop.
 std::vector<int> parentsOf(const Source& source) {
@@ -77,12 +76,13 @@ std::vector<bool> neededNodes(const Source& source, const std::vector<int>& pare
     }
     for (const tinygltf::Skin& skin : source.model.skins)
         for (int joint : skin.joints)
-            for (; joint >= 0 && !needed[static_cast<std::size_t>(joint)]; joint = parents[static_cast<std::size_t>(joint)])
+            for (; joint >= 0 && !needed[static_cast<std::size_t>(joint)];
+                 joint = parents[static_cast<std::size_t>(joint)])
                 needed[static_cast<std::size_t>(joint)] = true;
     return needed;
 }
 
-// ---- one node ----------------------------------------------------------------------------------------------------------
+// ---- one node -----------------------------------------------------------------------------------
 
 glm::dvec3 vectorOf(const std::vector<double>& numbers, const glm::dvec3& otherwise) {
     return numbers.empty() ? otherwise : glm::dvec3(numbers[0], numbers[1], numbers[2]);
@@ -97,7 +97,9 @@ glm::dquat unitQuaternion(double x, double y, double z, double w) {
 std::vector<glm::dmat4> readInstances(Source& source, const nlohmann::json& json, const std::string& label) {
     const nlohmann::json& attributes = json["attributes"];
     const std::string what = label + ": EXT_mesh_gpu_instancing";
-    const auto accessor = [&](const char* name) { return attributes.contains(name) ? attributes[name].get<int>() : -1; };
+    const auto accessor = [&](const char* name) {
+        return attributes.contains(name) ? attributes[name].get<int>() : -1;
+    };
     std::optional<std::size_t> count;
     for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"}) {
         if (accessor(name) < 0) continue;
@@ -156,7 +158,7 @@ Node readNode(Source& source, std::size_t index) {
     return node;
 }
 
-// ---- cameras -----------------------------------------------------------------------------------------------------------
+// ---- cameras ------------------------------------------------------------------------------------
 
 // A number > 0 among a camera's extras; these three names are the ones of Blender's and USD's lens.
 std::optional<double> lensValue(const nlohmann::json& camera, const char* name) {

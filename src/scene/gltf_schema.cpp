@@ -31,9 +31,9 @@ enum class Kind {
 struct Property {
     std::string_view name;
     Kind kind;
-    std::string_view target = {};             // index, indices, indexMap, indexMaps
+    std::string_view target = {};               // index, indices, indexMap, indexMaps
     std::span<const Property> properties = {};  // object, objects
-    std::size_t length = 0;                   // numbers
+    std::size_t length = 0;                     // numbers
     bool required = false;
 };
 
@@ -41,7 +41,9 @@ constexpr Property required(Property property) {
     property.required = true;
     return property;
 }
-constexpr Property numbers(std::string_view name, std::size_t length) { return {name, Kind::numbers, {}, {}, length}; }
+constexpr Property numbers(std::string_view name, std::size_t length) {
+    return {name, Kind::numbers, {}, {}, length};
+}
 constexpr Property object(std::string_view name, std::span<const Property> properties) {
     return {name, Kind::object, {}, properties};
 }
@@ -50,10 +52,9 @@ constexpr Property objects(std::string_view name, std::span<const Property> prop
 }
 constexpr Property nameProperty{"name", Kind::string};
 
-// ---- buffers and accessors ---------------------------------------------------------------------------------------------
+// ---- buffers and accessors ----------------------------------------------------------------------
 
-constexpr Property bufferProperties[] = {
-    nameProperty, {"uri", Kind::string}, required({"byteLength", Kind::size})};
+constexpr Property bufferProperties[] = {nameProperty, {"uri", Kind::string}, required({"byteLength", Kind::size})};
 
 constexpr Property meshoptProperties[] = {required({"buffer", Kind::index, "buffers"}),
                                           {"byteOffset", Kind::size},
@@ -90,7 +91,7 @@ constexpr Property accessorProperties[] = {nameProperty,
                                            {"max", Kind::numbers},
                                            object("sparse", sparseProperties)};
 
-// ---- meshes ------------------------------------------------------------------------------------------------------------
+// ---- meshes -------------------------------------------------------------------------------------
 
 constexpr Property dracoProperties[] = {required({"bufferView", Kind::index, "bufferViews"}),
                                         required({"attributes", Kind::indexMap})};
@@ -101,10 +102,10 @@ constexpr Property primitiveProperties[] = {required({"attributes", Kind::indexM
                                             {"mode", Kind::size},
                                             {"targets", Kind::indexMaps, "accessors"},
                                             object("extensions", primitiveExtensions)};
-constexpr Property meshProperties[] = {nameProperty, required(objects("primitives", primitiveProperties)),
-                                       {"weights", Kind::numbers}};
+constexpr Property meshProperties[] = {
+    nameProperty, required(objects("primitives", primitiveProperties)), {"weights", Kind::numbers}};
 
-// ---- materials ---------------------------------------------------------------------------------------------------------
+// ---- materials ----------------------------------------------------------------------------------
 
 constexpr Property textureTransformProperties[] = {
     numbers("offset", 2), {"rotation", Kind::number}, numbers("scale", 2), {"texCoord", Kind::size}};
@@ -140,7 +141,7 @@ constexpr Property samplerProperties[] = {
 constexpr Property textureProperties[] = {
     nameProperty, {"sampler", Kind::index, "samplers"}, {"source", Kind::index, "images"}};
 
-// ---- hierarchy ---------------------------------------------------------------------------------------------------------
+// ---- hierarchy ----------------------------------------------------------------------------------
 
 constexpr Property instancingProperties[] = {required({"attributes", Kind::indexMap, "accessors"})};
 constexpr Property nodeLightProperties[] = {required({"light", Kind::size})};
@@ -182,7 +183,7 @@ constexpr Property lightProperties[] = {nameProperty,
                                         object("spot", spotProperties)};
 constexpr Property lightsProperties[] = {required(objects("lights", lightProperties))};
 
-// ---- animation ---------------------------------------------------------------------------------------------------------
+// ---- animation ----------------------------------------------------------------------------------
 
 constexpr Property animationTargetProperties[] = {{"node", Kind::index, "nodes"}, required({"path", Kind::string})};
 constexpr Property animationChannelProperties[] = {required({"sampler", Kind::size}),
@@ -193,28 +194,21 @@ constexpr Property animationSamplerProperties[] = {required({"input", Kind::inde
 constexpr Property animationProperties[] = {nameProperty, required(objects("channels", animationChannelProperties)),
                                             required(objects("samplers", animationSamplerProperties))};
 
-// ---- the whole file ----------------------------------------------------------------------------------------------------
+// ---- the whole file -----------------------------------------------------------------------------
 
 constexpr Property rootExtensions[] = {object("KHR_lights_punctual", lightsProperties)};
-constexpr Property rootProperties[] = {{"extensionsUsed", Kind::strings},
-                                       {"extensionsRequired", Kind::strings},
-                                       objects("accessors", accessorProperties),
-                                       objects("animations", animationProperties),
-                                       objects("buffers", bufferProperties),
-                                       objects("bufferViews", bufferViewProperties),
-                                       objects("cameras", cameraProperties),
-                                       objects("images", imageProperties),
-                                       objects("materials", materialProperties),
-                                       objects("meshes", meshProperties),
-                                       objects("nodes", nodeProperties),
-                                       objects("samplers", samplerProperties),
-                                       {"scene", Kind::index, "scenes"},
-                                       objects("scenes", sceneProperties),
-                                       objects("skins", skinProperties),
-                                       objects("textures", textureProperties),
-                                       object("extensions", rootExtensions)};
+constexpr Property rootProperties[] = {
+    {"extensionsUsed", Kind::strings},        {"extensionsRequired", Kind::strings},
+    objects("accessors", accessorProperties), objects("animations", animationProperties),
+    objects("buffers", bufferProperties),     objects("bufferViews", bufferViewProperties),
+    objects("cameras", cameraProperties),     objects("images", imageProperties),
+    objects("materials", materialProperties), objects("meshes", meshProperties),
+    objects("nodes", nodeProperties),         objects("samplers", samplerProperties),
+    {"scene", Kind::index, "scenes"},         objects("scenes", sceneProperties),
+    objects("skins", skinProperties),         objects("textures", textureProperties),
+    object("extensions", rootExtensions)};
 
-// ---- the walk ----------------------------------------------------------------------------------------------------------
+// ---- the walk -----------------------------------------------------------------------------------
 
 // Integers beyond 2^53 are not exact in JSON; indices must also fit an int.
 constexpr std::uint64_t largestSize = 1ull << 53;
@@ -227,7 +221,8 @@ public:
         if (!json.is_object()) fault(document_, "{} must be an object", place);
         for (const Property& property : properties) {
             const auto found = json.find(property.name);
-            const std::string inside = place.empty() ? std::string(property.name) : fmt::format("{}.{}", place, property.name);
+            const std::string inside =
+                place.empty() ? std::string(property.name) : fmt::format("{}.{}", place, property.name);
             if (found != json.end())
                 checkValue(*found, property, inside);
             else if (property.required)
@@ -279,7 +274,8 @@ private:
                 entry.kind = Kind::string;
                 break;
             case Kind::numbers:
-                if (std::all_of(json.begin(), json.end(), [](const Json& number) { return number.is_number(); })) return;
+                if (std::all_of(json.begin(), json.end(), [](const Json& number) { return number.is_number(); }))
+                    return;
                 fault(document_, "{} must hold numbers only", place);
             case Kind::indices:
                 entry.kind = Kind::index;
@@ -324,6 +320,8 @@ private:
 
 }  // namespace
 
-void checkSchema(const Document& document) { Checker(document).checkObject(document.json, rootProperties, ""); }
+void checkSchema(const Document& document) {
+    Checker(document).checkObject(document.json, rootProperties, "");
+}
 
 }  // namespace defocus::gltf

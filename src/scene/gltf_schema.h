@@ -1,6 +1,7 @@
 #pragma once
-// Checks a document's JSON against the part of the glTF 2.0 schema that is read here: the type of every property, the length of
-// arrays, and that every reference leads to something that exists. What comes after can rely on it. Internal to the loader.
+// Checks a document's JSON against the part of the glTF 2.0 schema that is read here: the type of every property, the
+// length of arrays, and that every reference leads to something that exists. What comes after can rely on it. Internal
+// to the loader.
 
 #include "scene/gltf_document.h"
 

@@ -15,7 +15,7 @@ namespace defocus::gltf {
 namespace {
 
 constexpr std::array<std::string_view, 8> supportedExtensions = {
-    "EXT_mesh_gpu_instancing",          "EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "EXT_mesh_gpu_instancing",         "EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual",
     "KHR_materials_emissive_strength", "KHR_materials_unlit",     "KHR_mesh_quantization",      "KHR_texture_transform",
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// A document with its buffers read and its JSON as tinygltf's structures: what all readers of the loader work on. tinygltf only
-// sees JSON that passed checkSchema, and never touches files, images or binary data. Internal to the loader.
+// A document with its buffers read and its JSON as tinygltf's structures: what all readers of the loader work on.
+// tinygltf only sees JSON that passed checkSchema, and never touches files, images or binary data. Internal to the
+// loader.
 
 #include <tiny_gltf.h>
 
@@ -17,8 +18,9 @@
 
 namespace defocus::gltf {
 
-// How much may still be unpacked from the file, so that a few bytes that claim billions of vertices are refused instead of
-// filling the memory. Sharing, compression and zero-filled accessors make real scenes larger than their files, but not this much.
+// How much may still be unpacked from the file, so that a few bytes that claim billions of vertices are refused instead
+// of filling the memory. Sharing, compression and zero-filled accessors make real scenes larger than their files, but
+// not this much.
 class UnpackBudget {
 public:
     explicit UnpackBudget(std::uint64_t fileBytes) : left_(floorBytes + perFileByte * fileBytes) {}
@@ -33,14 +35,15 @@ private:
 
 struct Source {
     Document document;
-    tinygltf::Model model;  // without buffers and images
+    tinygltf::Model model;                                             // without buffers and images
     std::vector<std::optional<std::vector<std::byte>>> buffers;        // empty: has no data of its own (fallbacks)
     std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // by buffer view: EXT_meshopt_compression
     UnpackBudget budget{0};
     std::vector<Ignored> ignored;
 };
 
-// Steps 1 to 4 of loading: container, schema, extensions, structure, buffers (compressed views unpacked), accessors in range.
+// Steps 1 to 4 of loading: container, schema, extensions, structure, buffers (compressed views unpacked), accessors in
+// range.
 Source openSource(const std::filesystem::path& path, const Progress& progress);
 
 // The bytes of a buffer view. Throws Error when it has none or leaves its buffer.

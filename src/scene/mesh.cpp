@@ -1,9 +1,8 @@
 #include "scene/mesh.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 namespace defocus {
@@ -63,8 +62,8 @@ std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const glm::dvec3 a = positions[indices[i]];
-        const glm::dvec3 cross = glm::cross(glm::dvec3(positions[indices[i + 1]]) - a,
-                                            glm::dvec3(positions[indices[i + 2]]) - a);
+        const glm::dvec3 cross =
+            glm::cross(glm::dvec3(positions[indices[i + 1]]) - a, glm::dvec3(positions[indices[i + 2]]) - a);
         for (std::size_t corner = 0; corner < 3; ++corner) sums[welded[indices[i + corner]]] += cross;
     }
 

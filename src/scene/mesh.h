@@ -1,12 +1,11 @@
 #pragma once
 // A mesh as all its primitives over ONE set of vertices, so that one pyramid can simplify it as a whole.
 
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,27 +15,27 @@ namespace defocus {
 
 // Vertex attributes, one array each; an array is empty (the mesh doesn't have it) or as long as `positions`.
 struct Vertices {
-    std::vector<glm::vec3> positions;   // object units
-    std::vector<glm::vec3> normals;     // unit length
-    std::vector<glm::vec4> tangents;    // xyz unit length, w = ±1 handedness (glTF)
+    std::vector<glm::vec3> positions;  // object units
+    std::vector<glm::vec3> normals;    // unit length
+    std::vector<glm::vec4> tangents;   // xyz unit length, w = ±1 handedness (glTF)
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
-    std::vector<glm::u8vec4> colors;    // linear, straight alpha, 255 is 1
-    std::vector<glm::u16vec4> joints;   // indices into the skin's joints (first four influences)
-    std::vector<glm::vec4> weights;     // sum to 1
+    std::vector<glm::u8vec4> colors;   // linear, straight alpha, 255 is 1
+    std::vector<glm::u16vec4> joints;  // indices into the skin's joints (first four influences)
+    std::vector<glm::vec4> weights;    // sum to 1
 
     [[nodiscard]] std::size_t count() const { return positions.size(); }
 };
 
-struct MorphTarget {                    // displacements, each empty or one a vertex
+struct MorphTarget {  // displacements, each empty or one a vertex
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec3> tangents;
 };
 
 struct Primitive {
-    int material = -1;                  // into Scene::materials; -1: glTF's default material
-    std::vector<std::uint32_t> indices; // triangles, into Mesh::vertices, front faces counter-clockwise
+    int material = -1;                   // into Scene::materials; -1: glTF's default material
+    std::vector<std::uint32_t> indices;  // triangles, into Mesh::vertices, front faces counter-clockwise
 };
 
 struct Mesh {
@@ -44,14 +43,15 @@ struct Mesh {
     Vertices vertices;
     std::vector<Primitive> primitives;
     std::vector<MorphTarget> morphTargets;
-    std::vector<float> morphWeights;    // defaults, one a target
+    std::vector<float> morphWeights;  // defaults, one a target
 
     [[nodiscard]] std::size_t triangleCount() const;
     [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles use; empty without triangles
 };
 
-// Area-weighted smooth normals (positions welded exactly) for triangles `indices` over `positions`; a vertex without any
-// proper triangle gets +y.
-std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices);
+// Area-weighted smooth normals (positions welded exactly) for triangles `indices` over `positions`; a vertex without
+// any proper triangle gets +y.
+std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
+                                     const std::vector<std::uint32_t>& indices);
 
 }  // namespace defocus

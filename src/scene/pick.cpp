@@ -1,12 +1,11 @@
-// Ray against triangle: Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Boxes by slabs: Kay and
-// Kajiya, "Ray Tracing Complex Scenes", 1986.
+// Ray against triangle: Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997. Boxes by slabs:
+// Kay and Kajiya, "Ray Tracing Complex Scenes", 1986.
 #include "scene/pick.h"
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <utility>
 
 namespace defocus {

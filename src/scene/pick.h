@@ -13,6 +13,7 @@ struct Hit {
     int object = -1;      // into Pose::objects
 };
 
-std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin, const glm::dvec3& direction);
+std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
+                            const glm::dvec3& direction);
 
 }  // namespace defocus

@@ -1,9 +1,8 @@
 #include "scene/pose.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-
-#include <algorithm>
 
 #include "core/error.h"
 #include "scene/animation.h"
@@ -54,7 +53,8 @@ std::vector<glm::dmat4> localMatrices(const Scene& scene, double time, int clip)
     return matrices;
 }
 
-// Walks down from `start` (without recursion: a hierarchy may be deeper than the stack) and calls `visit(node, parent)`.
+// Walks down from `start` (without recursion: a hierarchy may be deeper than the stack) and calls `visit(node,
+// parent)`.
 template <typename Visit>
 void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const Visit& visit) {
     struct Step {
@@ -73,12 +73,11 @@ void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const V
     }
 }
 
-// A skin's vertices are placed by its joints, not by the node that draws them; in the bind pose all joints agree, so the first
-// stands for all.
+// A skin's vertices are placed by its joints, not by the node that draws them; in the bind pose all joints agree, so
+// the first stands for all.
 glm::dmat4 worldFromSkin(const Skin& skin, const std::vector<glm::dmat4>& worldFromNode, const glm::dmat4& otherwise) {
     if (skin.joints.empty() || skin.inverseBindMatrices.empty()) return otherwise;
-    return worldFromNode[static_cast<std::size_t>(skin.joints.front())] *
-           glm::dmat4(skin.inverseBindMatrices.front());
+    return worldFromNode[static_cast<std::size_t>(skin.joints.front())] * glm::dmat4(skin.inverseBindMatrices.front());
 }
 
 void placeObjects(const Scene& scene, int nodeIndex, Pose& pose) {
@@ -93,7 +92,8 @@ void placeObjects(const Scene& scene, int nodeIndex, Pose& pose) {
         pose.objects.push_back({node.mesh, nodeIndex, name, world});
     }
     for (std::size_t i = 0; i < node.instances.size(); ++i)
-        pose.objects.push_back({node.mesh, nodeIndex, fmt::format("{}#{}", name, i), worldFromNode * node.instances[i]});
+        pose.objects.push_back(
+            {node.mesh, nodeIndex, fmt::format("{}#{}", name, i), worldFromNode * node.instances[i]});
 }
 
 void placeLight(const Scene& scene, int nodeIndex, Pose& pose) {

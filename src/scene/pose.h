@@ -1,9 +1,8 @@
 #pragma once
-// The node hierarchy at one moment, and what a renderer needs of it: objects (mesh instances), lights and cameras in world
-// space.
+// The node hierarchy at one moment, and what a renderer needs of it: objects (mesh instances), lights and cameras in
+// world space.
 
 #include <glm/mat4x4.hpp>
-
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,10 +11,10 @@
 
 namespace defocus {
 
-struct Object {                  // a mesh instance with all its primitives
+struct Object {  // a mesh instance with all its primitives
     int mesh = -1;
     int node = -1;
-    std::string name;            // the node's, else the mesh's name; instances carry "#i"
+    std::string name;  // the node's, else the mesh's name; instances carry "#i"
     glm::dmat4 worldFromObject{1.0};
 };
 
@@ -29,7 +28,7 @@ struct Pose {
     std::vector<glm::dmat4> worldFromNode;  // as many as Scene::nodes
     std::vector<Object> objects;
     std::vector<PlacedLight> lights;
-    Bounds bounds;                           // of all objects, world space
+    Bounds bounds;  // of all objects, world space
 };
 
 // The scene at `time` seconds into its clip `clip` (-1: no animation). Times outside the clip hold its ends.

@@ -2,15 +2,14 @@
 // A scene as read from a file or made by a generator: plain data, in glTF 2.0's terms. Nothing here knows of the GPU.
 // Units: metres, radians, linear Rec.709; right-handed, y up, cameras look along -z.
 
+#include <array>
+#include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,7 +21,7 @@
 
 namespace defocus {
 
-// ---- materials ---------------------------------------------------------------------------------------------------------
+// ---- materials ----------------------------------------------------------------------------------
 
 enum class Wrap { repeat, clampToEdge, mirroredRepeat };
 enum class Filter { nearest, linear };
@@ -37,9 +36,9 @@ struct Texture {
 };
 
 struct TextureUse {
-    int texture = -1;                  // into Scene::textures; -1: none
-    int uvSet = 0;                     // 0 or 1
-    glm::mat3 uvTransform{1.0f};       // KHR_texture_transform: uv' = (uvTransform · (u, v, 1)).xy
+    int texture = -1;             // into Scene::textures; -1: none
+    int uvSet = 0;                // 0 or 1
+    glm::mat3 uvTransform{1.0f};  // KHR_texture_transform: uv' = (uvTransform · (u, v, 1)).xy
     [[nodiscard]] bool used() const { return texture >= 0; }
 };
 
@@ -47,34 +46,34 @@ enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
     std::string name;
-    glm::vec4 baseColorFactor{1.0f};   // linear, straight alpha
+    glm::vec4 baseColorFactor{1.0f};  // linear, straight alpha
     float metallicFactor = 1.0f;
     float roughnessFactor = 1.0f;
-    glm::vec3 emissiveFactor{0.0f};    // KHR_materials_emissive_strength multiplied in
+    glm::vec3 emissiveFactor{0.0f};  // KHR_materials_emissive_strength multiplied in
     float normalScale = 1.0f;
     float occlusionStrength = 1.0f;
-    TextureUse baseColor;              // sRGB
-    TextureUse metallicRoughness;      // linear; G roughness, B metallic
-    TextureUse normal;                 // linear, tangent space, +y up
-    TextureUse occlusion;              // linear; R
-    TextureUse emissive;               // sRGB
+    TextureUse baseColor;          // sRGB
+    TextureUse metallicRoughness;  // linear; G roughness, B metallic
+    TextureUse normal;             // linear, tangent space, +y up
+    TextureUse occlusion;          // linear; R
+    TextureUse emissive;           // sRGB
     AlphaMode alphaMode = AlphaMode::opaque;
-    float alphaCutoff = 0.5f;          // AlphaMode::mask
+    float alphaCutoff = 0.5f;  // AlphaMode::mask
     bool doubleSided = false;
-    bool unlit = false;                // KHR_materials_unlit
+    bool unlit = false;  // KHR_materials_unlit
 };
 
-// ---- lights and surroundings -------------------------------------------------------------------------------------------
+// ---- lights and surroundings --------------------------------------------------------------------
 
 enum class LightType { directional, point, spot };
 
-struct Light {                         // KHR_lights_punctual
+struct Light {  // KHR_lights_punctual
     std::string name;
     LightType type = LightType::directional;
     glm::vec3 color{1.0f};
-    float intensity = 1.0f;            // lux (directional) or candela (point, spot)
-    float range = 0.0f;                // m; 0: unlimited
-    float innerConeAngle = 0.0f;       // rad
+    float intensity = 1.0f;       // lux (directional) or candela (point, spot)
+    float range = 0.0f;           // m; 0: unlimited
+    float innerConeAngle = 0.0f;  // rad
     float outerConeAngle = 0.785398163f;
 };
 
@@ -95,7 +94,7 @@ struct Environment {
     float lighting = 1.0f;             // scales the light it throws on surfaces (its own look stays)
 };
 
-// ---- hierarchy and animation -------------------------------------------------------------------------------------------
+// ---- hierarchy and animation --------------------------------------------------------------------
 
 struct Node {
     std::string name;
@@ -110,13 +109,13 @@ struct Node {
     int camera = -1;
     int light = -1;
     std::vector<float> morphWeights;
-    std::vector<glm::dmat4> instances; // EXT_mesh_gpu_instancing: the mesh is drawn once for each, in the node's space
+    std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: the mesh is drawn once for each, in the node's space
 };
 
 struct Skin {
     std::string name;
-    std::vector<int> joints;                       // node indices
-    std::vector<glm::mat4> inverseBindMatrices;    // as many as joints
+    std::vector<int> joints;                     // node indices
+    std::vector<glm::mat4> inverseBindMatrices;  // as many as joints
 };
 
 enum class Interpolation { step, linear, cubicSpline };
@@ -126,14 +125,14 @@ struct AnimationChannel {
     int node = -1;
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times;    // seconds, increasing
-    std::vector<float> values;   // 3, 4 or (targets) floats a key; cubicSpline: in-tangent, value, out-tangent
+    std::vector<float> times;   // seconds, increasing
+    std::vector<float> values;  // 3, 4 or (targets) floats a key; cubicSpline: in-tangent, value, out-tangent
 };
 
 struct AnimationClip {
     std::string name;
     std::vector<AnimationChannel> channels;
-    float duration = 0.0f;       // seconds, the last key
+    float duration = 0.0f;  // seconds, the last key
 };
 
 // Something in the file that is not drawn, and why; `count` equal things in one entry.
@@ -146,13 +145,13 @@ struct Ignored {
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;
-    std::vector<Material> materials;       // a primitive's material -1 is glTF's default material
+    std::vector<Material> materials;  // a primitive's material -1 is glTF's default material
     std::vector<Texture> textures;
     std::vector<TextureImage> images;
-    std::vector<std::string> imageNames;   // as many as images
+    std::vector<std::string> imageNames;  // as many as images
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    std::vector<Node> nodes;               // of the chosen glTF scene and everything joints need
+    std::vector<Node> nodes;  // of the chosen glTF scene and everything joints need
     std::vector<int> roots;
     std::vector<Skin> skins;
     std::vector<AnimationClip> clips;

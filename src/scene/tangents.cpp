@@ -1,9 +1,8 @@
 #include "scene/tangents.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 
@@ -73,7 +72,8 @@ VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::ui
     const std::vector<glm::vec2> zero(chosen.empty() ? vertices.count() : 0);
     const std::vector<glm::vec2>& uv = chosen.empty() ? zero : chosen;
 
-    // Every corner adds its triangle's tangent, projected and weighted, to its vertex; triangles change to split vertices.
+    // Every corner adds its triangle's tangent, projected and weighted, to its vertex; triangles change to split
+    // vertices.
     MirrorSplit split(vertices.count());
     std::vector<glm::dvec3> sums;
     for (std::vector<std::uint32_t>* list : indices)
@@ -95,8 +95,7 @@ VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::ui
     result.vertices.tangents.resize(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const glm::dvec3 unit = unitOrZero(sums[i]);
-        const glm::vec3 tangent =
-            unit == glm::dvec3(0) ? perpendicular(result.vertices.normals[i]) : glm::vec3(unit);
+        const glm::vec3 tangent = unit == glm::dvec3(0) ? perpendicular(result.vertices.normals[i]) : glm::vec3(unit);
         result.vertices.tangents[i] = glm::vec4(tangent, split.signs()[i]);
     }
     return result;

@@ -1,10 +1,9 @@
-// perpendicular(): Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012, with the branch
-// of Duff et al. 2017.
+// perpendicular(): Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization", 2012, with the
+// branch of Duff et al. 2017.
 #include "scene/vertex_block.h"
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 

@@ -20,12 +20,13 @@ VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> or
 // Keeps the vertices that `indices` use, in the order of their first use, and renumbers.
 VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Flat shading as glTF asks for without normals: every triangle gets vertices of its own with its face's normal. A triangle
-// without area gets +y.
+// Flat shading as glTF asks for without normals: every triangle gets vertices of its own with its face's normal. A
+// triangle without area gets +y.
 VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-// Appends `block` to the mesh's vertices and returns the index of its first. What only one side has is filled with neutral
-// values on the other: normal +y, a tangent perpendicular to the normal, uv 0, white, the first joint, no displacement.
+// Appends `block` to the mesh's vertices and returns the index of its first. What only one side has is filled with
+// neutral values on the other: normal +y, a tangent perpendicular to the normal, uv 0, white, the first joint, no
+// displacement.
 std::uint32_t append(Mesh& mesh, const VertexBlock& block);
 
 // Any unit vector perpendicular to the unit vector `normal`.

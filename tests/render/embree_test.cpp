@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "embree/embree_renderer.h"
 #include "embree/lens_rays.h"
+#include "render/methods.h"
 
 namespace defocus {
 namespace {
@@ -22,9 +23,9 @@ FramePlan planOf(const View& view, std::uint32_t samples) {
 }
 
 Image traced(const Scene& scene, const View& view, std::uint32_t samples,
-             const Environment& environment = blackBackground(), LensSharing sharing = LensSharing::perPixel) {
+             const Environment& environment = blackBackground(), EmbreeSampling sampling = EmbreeSampling::perPixel) {
     const World world = flatWorld(scene, environment);
-    return renderedImage(*makeEmbreeRenderer(world, sharing), planOf(view, samples));
+    return renderedImage(*makeEmbreeRenderer(world, sampling), planOf(view, samples));
 }
 
 Rectangle quadAt(const View& view, double depth) {
@@ -246,8 +247,8 @@ TEST(EmbreeConstantScene, StaysConstantAtAnySampleCount) {
     grey.zenith = glm::vec3(0.3f);
     const Scene scene = rectangleScene(view, {{5, 5, 20, 20, 1}, {10, 3, 30, 22, 5}}, glm::vec3(0.3f));
     for (const std::uint32_t samples : {1u, 7u, 33u}) {
-        for (const LensSharing sharing : {LensSharing::perPixel, LensSharing::shared}) {
-            const Image image = traced(scene, view, samples, grey, sharing);
+        for (const EmbreeSampling sampling : {EmbreeSampling::perPixel, EmbreeSampling::shared}) {
+            const Image image = traced(scene, view, samples, grey, sampling);
             for (std::size_t i = 0; i < image.pixels.size(); i += 4) ASSERT_FLOAT_EQ(image.pixels[i], 0.3f);
         }
     }
@@ -257,9 +258,37 @@ TEST(EmbreeSharing, SharedLensSamplesConvergeToTheSameImage) {
     const View view = bokehView(64, 64);
     const Scene scene = rectangleScene(view, {{20, 20, 44, 44, 6}}, glm::vec3(1));
     const Image own = traced(scene, view, 1024);
-    const Image shared = traced(scene, view, 1024, blackBackground(), LensSharing::shared);
+    const Image shared = traced(scene, view, 1024, blackBackground(), EmbreeSampling::shared);
     EXPECT_LE(largestDifference(own, shared), 0.03);
     EXPECT_GT(largestDifference(own, shared), 0);
+}
+
+TEST(EmbreePlanned, SamplePointsAreThoseOfThePlan) {
+    View view = bokehView(64, 64);
+    const double radius = blurDiameter(view, 6) / 2;
+    const Scene scene = rectangleScene(view, {{30, 20, 33, 23, 6}}, glm::vec3(1));
+    const World world = flatWorld(scene, blackBackground());
+    FramePlan plan = planOf(view, 1);
+    // Right and up on the lens moves what lies behind focus right and up; right and up in the pixel moves the image
+    // back.
+    LensSample sample;
+    sample.lens = glm::vec2(4 / radius, 6 / radius);
+    sample.pixel = glm::vec2(0.4f, -0.4f);
+    plan.samples = {sample};
+    const Moments moments = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
+    EXPECT_DOUBLE_EQ(moments.mean.x, 31.5 + 4);
+    EXPECT_DOUBLE_EQ(moments.mean.y, 21.5 - 6);
+    sample.pixel = glm::vec2(0.4f, 0.4f);
+    sample.lens = glm::vec2(4.2 / radius, 6.2 / radius);  // 0.2 px further: only with the pixel's 0.4 across an edge
+    plan.samples = {sample};
+    const Moments further = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
+    EXPECT_DOUBLE_EQ(further.mean.x, 31.5 + 4);
+    EXPECT_DOUBLE_EQ(further.mean.y, 21.5 - 6);
+    sample.pixel = glm::vec2(-0.4f, -0.4f);
+    plan.samples = {sample};
+    const Moments across = momentsOf(renderedImage(*makeEmbreeRenderer(world, EmbreeSampling::planned), plan));
+    EXPECT_DOUBLE_EQ(across.mean.x, 31.5 + 5);
+    EXPECT_DOUBLE_EQ(across.mean.y, 21.5 - 7);
 }
 
 TEST(EmbreeLambert, RadianceIsAlbedoTimesIlluminanceOverPi) {
@@ -313,6 +342,22 @@ TEST(EmbreeSampling, EveryPrefixOfPowersOfTwoIsStratified) {
             EXPECT_EQ(columns[i], 1);
             EXPECT_EQ(cells[i], 1);
         }
+    }
+}
+
+TEST(EmbreeMethods, AreInTheTableOnceRegistered) {
+    registerEmbree();
+    registerEmbree();
+    const View view = bokehView(8, 8);
+    const Scene scene = rectangleScene(view, {{0, 0, 8, 8, 2}}, glm::vec3(1));
+    const World world = flatWorld(scene, blackBackground());
+    for (const char* name : {"embree", "embree-shared", "embree-planned"}) {
+        FramePlan plan = planOf(view, 2);
+        plan.samples.resize(2);
+        EXPECT_FALSE(methodNamed(name).needsGl);
+        EXPECT_EQ(*renderedImage(*methodNamed(name).make(world, {}), plan).at(4, 4), 1) << name;
+        EXPECT_EQ(std::count_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; }),
+                  1);
     }
 }
 

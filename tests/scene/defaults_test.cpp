@@ -31,7 +31,8 @@ class Framing : public testing::TestWithParam<double> {};
 
 TEST_P(Framing, boxFitsCentredWithLittleToSpare) {
     const double aspect = GetParam();
-    for (const glm::vec3 size : {glm::vec3(1, 1, 1), glm::vec3(20, 0.1f, 5), glm::vec3(0.01f, 0.5f, 0.01f), glm::vec3(0, 3000, 4000)}) {
+    for (const glm::vec3 size :
+         {glm::vec3(1, 1, 1), glm::vec3(20, 0.1f, 5), glm::vec3(0.01f, 0.5f, 0.01f), glm::vec3(0, 3000, 4000)}) {
         const Scene scene = boxScene({7, -2, 3}, glm::vec3(7, -2, 3) + size);
         const Pose pose = poseAt(scene, 0);
         const PlacedCamera placed = chooseCamera(scene, pose, "", aspect);
@@ -48,7 +49,8 @@ TEST_P(Framing, boxFitsCentredWithLittleToSpare) {
         const double fill = std::max({-least.x, most.x, -least.y, most.y});
         EXPECT_LE(fill, 0.95);
         EXPECT_GE(fill, 0.85);
-        EXPECT_NEAR(placed.camera.focusDistance.value(), -(cameraFromWorld * glm::dvec4(pose.bounds.centre(), 1)).z, 1e-6 * 5000);
+        EXPECT_NEAR(placed.camera.focusDistance.value(), -(cameraFromWorld * glm::dvec4(pose.bounds.centre(), 1)).z,
+                    1e-6 * 5000);
     }
 }
 INSTANTIATE_TEST_SUITE_P(Aspects, Framing, testing::Values(1.0, 4.0 / 3, 2.39, 0.5));
@@ -108,7 +110,8 @@ TEST(ChooseCamera, unknownAndOrthographicOnesSaySo) {
         }
         return std::string();
     };
-    EXPECT_EQ(messageFor("drone"), "there is no camera 'drone'; the scene has: plan, shot, node2, auto (frames the scene)");
+    EXPECT_EQ(messageFor("drone"),
+              "there is no camera 'drone'; the scene has: plan, shot, node2, auto (frames the scene)");
     EXPECT_NE(messageFor("plan").find("orthographic cameras are not supported"), std::string::npos);
 }
 

@@ -6,10 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <limits>
-#include <unordered_map>
+#include <vector>
 
 #include "core/error.h"
 #include "scene/pose.h"
@@ -83,22 +84,22 @@ double blur(const Camera& camera, const View& view, double depth) {
 
 // Every directed edge once, and its opposite once: a closed surface of one orientation without branching edges.
 void expectClosed(const Mesh& mesh) {
-    std::unordered_map<std::uint64_t, int> edges;
+    std::vector<std::uint64_t> edges;
+    std::vector<std::uint64_t> opposites;
     for (const Primitive& primitive : mesh.primitives) {
         const auto& index = primitive.indices;
         ASSERT_EQ(index.size() % 3, 0u);
         for (std::size_t i = 0; i < index.size(); ++i) {
             ASSERT_LT(index[i], mesh.vertices.count());
-            const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-            ++edges[(std::uint64_t{index[i]} << 32u) | index[next]];
+            const std::uint64_t next = index[i % 3 == 2 ? i - 2 : i + 1];
+            edges.push_back((std::uint64_t{index[i]} << 32u) | next);
+            opposites.push_back((next << 32u) | index[i]);
         }
     }
-    std::size_t wrong = 0;
-    for (const auto& [edge, count] : edges) {
-        const auto opposite = edges.find((edge << 32u) | (edge >> 32u));
-        if (count != 1 || opposite == edges.end() || opposite->second != 1) ++wrong;
-    }
-    EXPECT_EQ(wrong, 0u) << mesh.name;
+    std::sort(edges.begin(), edges.end());
+    std::sort(opposites.begin(), opposites.end());
+    EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end()) << mesh.name << ": an edge twice";
+    EXPECT_TRUE(edges == opposites) << mesh.name << ": an open edge";
 }
 
 double signedVolume(const Mesh& mesh, const Primitive& primitive) {
@@ -311,7 +312,7 @@ TEST(FishSchool, moreFishKeepTheComposition) {
 }
 
 TEST(FishSchool, anyTriangleCountGivesClosedFish) {
-    for (const int triangles : {200, 350, 1'000, 8'000, 300'000}) {
+    for (const int triangles : {200, 350, 1'000, 8'000, 120'000}) {
         const Scene scene = fishSchool({.fishCount = 9, .trianglesPerFish = triangles});
         for (const Mesh& mesh : scene.meshes) {
             expectClosed(mesh);

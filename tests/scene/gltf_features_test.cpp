@@ -151,7 +151,8 @@ TEST(GltfAccessor, normalisedIntegersOfEveryType) {
 TEST(GltfAccessor, interleavedAttributesShareAView) {
     GltfBuilder builder;
     // position, normal, uv: 32 bytes a vertex
-    const int view = builder.view(std::vector<float>{0, 0, 0, 0, 0, 1, 7, 8, 1, 0, 0, 0, 0, 1, 9, 10, 0, 1, 0, 0, 0, 1, 11, 12}, 32);
+    const int view =
+        builder.view(std::vector<float>{0, 0, 0, 0, 0, 1, 7, 8, 1, 0, 0, 0, 0, 1, 9, 10, 0, 1, 0, 0, 0, 1, 11, 12}, 32);
     const int positions = builder.accessor(view, gltfFloat, "VEC3", 3);
     const int normals = builder.accessor(view, gltfFloat, "VEC3", 3, {{"byteOffset", 12}});
     const int uv = builder.accessor(view, gltfFloat, "VEC2", 3, {{"byteOffset", 24}});
@@ -170,7 +171,8 @@ TEST(GltfAccessor, sparseElementsOverABaseAndOverZeros) {
         const nlohmann::json sparse = {{"count", 2},
                                        {"indices", {{"bufferView", indices}, {"componentType", gltfUnsignedByte}}},
                                        {"values", {{"bufferView", values}}}};
-        builder.mesh({{{"attributes", {{"POSITION", builder.accessor(view, gltfFloat, "VEC3", 3, {{"sparse", sparse}})}}}}});
+        builder.mesh(
+            {{{"attributes", {{"POSITION", builder.accessor(view, gltfFloat, "VEC3", 3, {{"sparse", sparse}})}}}}});
         EXPECT_EQ(builder.load().meshes[0].vertices.positions,
                   (std::vector<glm::vec3>{{7, 7, 7}, {base ? 1 : 0, 0, 0}, {8, 8, 9}}));
     }
@@ -179,8 +181,8 @@ TEST(GltfAccessor, sparseElementsOverABaseAndOverZeros) {
 TEST(GltfAccessor, colorsOfSixteenBitsAreRounded) {
     GltfBuilder builder;
     const int colors = builder.accessor(
-        builder.view(std::vector<std::uint16_t>{0, 128, 129, 65535, 257, 386, 65535, 0, 32768, 0, 0, 32767}), gltfUnsignedShort,
-        "VEC4", 3, {{"normalized", true}});
+        builder.view(std::vector<std::uint16_t>{0, 128, 129, 65535, 257, 386, 65535, 0, 32768, 0, 0, 32767}),
+        gltfUnsignedShort, "VEC4", 3, {{"normalized", true}});
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}, {"COLOR_0", colors}}}}});
     EXPECT_EQ(builder.load().meshes[0].vertices.colors,
               (std::vector<glm::u8vec4>{{0, 0, 1, 255}, {1, 2, 255, 0}, {128, 0, 0, 127}}));
@@ -212,13 +214,15 @@ TEST(GltfMaterial, factorsAndModes) {
     GltfBuilder builder;
     builder.json["materials"] = {
         nlohmann::json::object(),
-        {{"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0}, {"roughnessFactor", 0.5}}},
+        {{"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0}, {"roughnessFactor", 0.5}}},
          {"emissiveFactor", {0.5, 0, 1}},
          {"alphaMode", "MASK"},
          {"alphaCutoff", 0.25},
          {"doubleSided", true},
          {"extensions",
-          {{"KHR_materials_unlit", nlohmann::json::object()}, {"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}}}}};
+          {{"KHR_materials_unlit", nlohmann::json::object()},
+           {"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}}}}};
     const Scene scene = builder.load();
     EXPECT_EQ(scene.materials.at(0).baseColorFactor, glm::vec4(1));
     EXPECT_EQ(scene.materials[0].metallicFactor, 1.0f);
@@ -254,11 +258,12 @@ TEST(GltfScene, theDefaultSceneIsTakenWithItsNodesOnly) {
 
 TEST(GltfScene, cameraExtrasAreLensValues) {
     GltfBuilder builder;
-    builder.json["cameras"] = {{{"type", "perspective"},
-                                {"name", "shot"},
-                                {"perspective", {{"yfov", 0.5}, {"znear", 0.2}, {"aspectRatio", 1.5}}},
-                                {"extras", {{"fStop", 1.4}, {"focusDistance", 2.5}, {"horizontalAperture", -1}}}},
-                               {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 9}}}}};
+    builder.json["cameras"] = {
+        {{"type", "perspective"},
+         {"name", "shot"},
+         {"perspective", {{"yfov", 0.5}, {"znear", 0.2}, {"aspectRatio", 1.5}}},
+         {"extras", {{"fStop", 1.4}, {"focusDistance", 2.5}, {"horizontalAperture", -1}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 9}}}}};
     const Scene scene = builder.load();
     EXPECT_EQ(scene.cameras.at(0).fStop, 1.4);
     EXPECT_EQ(scene.cameras[0].focusDistance, 2.5);
@@ -269,8 +274,11 @@ TEST(GltfScene, cameraExtrasAreLensValues) {
 
 TEST(GltfScene, lightsShineAlongTheirNodesMinusZ) {
     GltfBuilder builder;
-    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"type", "spot"}, {"color", {1, 0.5, 0}}, {"intensity", 20}, {"range", 7}, {"spot", {{"outerConeAngle", 0.6}}}}};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"},
+                                                                    {"color", {1, 0.5, 0}},
+                                                                    {"intensity", 20},
+                                                                    {"range", 7},
+                                                                    {"spot", {{"outerConeAngle", 0.6}}}}};
     const double half = std::sqrt(0.5);
     builder.json["nodes"] = {{{"rotation", {0, half, 0, half}},  // a quarter turn about y: −z becomes −x
                               {"translation", {1, 2, 3}},
@@ -301,8 +309,10 @@ TEST(GltfScene, instancesCombineTranslationRotationAndScale) {
     const Pose pose = poseAt(builder.load(), 0);
     ASSERT_EQ(pose.objects.size(), 2u);
     // (1, 0, 0) is doubled, turned to (0, 2, 0), moved to (1, 2, 0) and with the node to (1, 12, 0).
-    EXPECT_LT(glm::length(glm::dvec3(pose.objects[0].worldFromObject * glm::dvec4(1, 0, 0, 1)) - glm::dvec3(1, 12, 0)), 1e-4);
-    EXPECT_LT(glm::length(glm::dvec3(pose.objects[1].worldFromObject * glm::dvec4(1, 0, 0, 1)) - glm::dvec3(1, 10, 5)), 1e-4);
+    EXPECT_LT(glm::length(glm::dvec3(pose.objects[0].worldFromObject * glm::dvec4(1, 0, 0, 1)) - glm::dvec3(1, 12, 0)),
+              1e-4);
+    EXPECT_LT(glm::length(glm::dvec3(pose.objects[1].worldFromObject * glm::dvec4(1, 0, 0, 1)) - glm::dvec3(1, 10, 5)),
+              1e-4);
 }
 
 TEST(GltfFiles, dataUrisSpacesAndCodedNames) {

@@ -60,7 +60,9 @@ constexpr InvalidFile invalidFiles[] = {
     {"assimp_BoxWithInfinites-glTF-Binary_BoxWithInfinites.glb", "infinite"},
 };
 INSTANTIATE_TEST_SUITE_P(Corpus, Invalid, testing::ValuesIn(invalidFiles),
-                         [](const testing::TestParamInfo<InvalidFile>& tested) { return std::to_string(tested.index); });
+                         [](const testing::TestParamInfo<InvalidFile>& tested) {
+                             return std::to_string(tested.index);
+                         });
 
 TEST(InvalidGltf, missingFileAndDirectory) {
     const ScratchFolder folder;
@@ -74,7 +76,9 @@ GltfBuilder triangle() {
     return builder;
 }
 
-TEST(InvalidGltf, theTriangleThatTheseTestsBreakLoads) { EXPECT_EQ(errorOf(triangle()), ""); }
+TEST(InvalidGltf, theTriangleThatTheseTestsBreakLoads) {
+    EXPECT_EQ(errorOf(triangle()), "");
+}
 
 TEST(InvalidGltf, requiredExtensionIsNamed) {
     GltfBuilder builder = triangle();
@@ -161,6 +165,12 @@ TEST(InvalidGltf, namesCannotBreakTheLine) {
     EXPECT_TRUE(std::none_of(message.begin(), message.end(), [](unsigned char c) { return c < 0x20; }));
 }
 
+TEST(InvalidGltf, namesCannotBuryTheFault) {
+    GltfBuilder builder = triangle();
+    builder.json["extensionsRequired"] = {std::string(100'000, 'x')};
+    EXPECT_LT(errorOf(builder).size(), 1000u);
+}
+
 TEST(InvalidGltf, filesOutsideAreNotFetched) {
     for (const char* uri : {"http://example.org/a.bin", "/dev/zero", "file:///etc/passwd", "..", ""}) {
         GltfBuilder builder;
@@ -183,10 +193,10 @@ TEST(InvalidGltf, sparseIndicesBeyondTheAccessor) {
 TEST(InvalidGltf, jointsBeyondTheSkin) {
     GltfBuilder builder;
     const int positions = builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
-    const int joints =
-        builder.accessor(builder.view(std::vector<std::uint8_t>(12, 5)), gltfUnsignedByte, "VEC4", 3);
+    const int joints = builder.accessor(builder.view(std::vector<std::uint8_t>(12, 5)), gltfUnsignedByte, "VEC4", 3);
     const int weights = builder.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
-    builder.mesh({{{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}}}}, {{"skin", 0}});
+    builder.mesh({{{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}}}},
+                 {{"skin", 0}});
     builder.json["skins"] = {{{"joints", {0}}}};
     expectFault(errorOf(builder), "built.glb", "joint 5");
 }

@@ -143,7 +143,8 @@ TEST(Models, quantisedCubeEqualsThePlainOne) {
 
 TEST(Models, sparsePositionsReplaceTheBase) {
     DEFOCUS_MODEL_OR_SKIP(path, "SimpleSparseAccessor.gltf");
-    // From the model's description: vertices 8, 10 and 12 of a strip 6 wide and 1 high are lifted to heights 2, 3 and 4.
+    // From the model's description: vertices 8, 10 and 12 of a strip 6 wide and 1 high are lifted to heights 2, 3
+    // and 4.
     EXPECT_EQ(glm::vec3(loadGltf(path).meshes.at(0).bounds().maximum), glm::vec3(6, 4, 0));
 }
 

@@ -22,8 +22,8 @@ TEST(Mesh, boundsAreOfWhatTrianglesUse) {
 }
 
 TEST(SmoothNormals, weighByAreaAcrossEqualPositions) {
-    // Two triangles at a right angle along the edge from (0,0,0) to (0,0,1), each with its own copy of it (once as −0): one of
-    // area 1 facing y, one of area 2 facing x.
+    // Two triangles at a right angle along the edge from (0,0,0) to (0,0,1), each with its own copy of it (once as −0):
+    // one of area 1 facing y, one of area 2 facing x.
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {0, 0, 1}, {2, 0, 0}, {-0.0f, 0, 0}, {0, 4, 0}, {0, 0, 1}};
     const std::vector<std::uint32_t> indices = {0, 1, 2, 3, 4, 5};
     const std::vector<glm::vec3> normals = smoothNormals(positions, indices);
@@ -101,7 +101,8 @@ TEST(Tangents, agreeWithThoseOfARealModel) {
 }
 
 TEST(VertexBlock, perpendicularIsPerpendicular) {
-    for (const glm::vec3 axis : {glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::vec3(0, -1, 0), glm::vec3(0.6f, 0, -0.8f)}) {
+    for (const glm::vec3 axis :
+         {glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::vec3(0, -1, 0), glm::vec3(0.6f, 0, -0.8f)}) {
         EXPECT_NEAR(glm::dot(perpendicular(axis), axis), 0, 1e-6);
         EXPECT_NEAR(glm::length(perpendicular(axis)), 1, 1e-6);
     }

@@ -60,7 +60,8 @@ TEST(Pick, missesBesideAndBehind) {
 
 TEST(Pick, distancesAreInTheWorldForScaledAndFarObjects) {
     const glm::dmat4 place =
-        glm::scale(glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(1e7, 0, 0)), 0.7, glm::dvec3(0, 0, 1)), glm::dvec3(3, 3, -5));
+        glm::scale(glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(1e7, 0, 0)), 0.7, glm::dvec3(0, 0, 1)),
+                   glm::dvec3(3, 3, -5));
     const auto hit = cast(cubes({place}), {1e7, 0, 40}, {0, 0, -1});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->distance, 35, 1e-6);

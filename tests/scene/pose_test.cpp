@@ -1,5 +1,7 @@
 // Hierarchies and key frames against hand-made mathematics.
 
+#include "scene/pose.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 
 #include "core/error.h"
 #include "scene/animation.h"
-#include "scene/pose.h"
 
 namespace defocus {
 namespace {
@@ -39,7 +40,8 @@ Scene parentAndChild() {
 }
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {
-    EXPECT_LT(glm::length(a - b), tolerance) << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
+    EXPECT_LT(glm::length(a - b), tolerance)
+        << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
 }
 
 TEST(Pose, childrenFollowTheirParents) {
@@ -92,13 +94,16 @@ TEST(Pose, unknownNamesListTheKnownOnes) {
     }
 }
 
-// ---- key frames --------------------------------------------------------------------------------------------------------
+// ---- key frames ---------------------------------------------------------------------------------
 
-AnimationChannel channelOf(Interpolation interpolation, ChannelPath path, std::vector<float> times, std::vector<float> values) {
+AnimationChannel channelOf(Interpolation interpolation, ChannelPath path, std::vector<float> times,
+                           std::vector<float> values) {
     return {0, path, interpolation, std::move(times), std::move(values)};
 }
 
-double valueAt(const AnimationChannel& channel, double time) { return sampleValues(channel, 1, time).at(0); }
+double valueAt(const AnimationChannel& channel, double time) {
+    return sampleValues(channel, 1, time).at(0);
+}
 
 TEST(Animation, stepHoldsItsKey) {
     const AnimationChannel channel = channelOf(Interpolation::step, ChannelPath::weights, {1, 2, 4}, {10, 20, 30});
@@ -138,7 +143,8 @@ TEST(Animation, rotationsTurnEvenlyAlongTheShorterArc) {
         return std::array<float, 4>{sign * static_cast<float>(q.x), sign * static_cast<float>(q.y),
                                     sign * static_cast<float>(q.z), sign * static_cast<float>(q.w)};
     };
-    // The second key is the negative of the quaternion for 80°: the same rotation, the longer way round if taken as it is.
+    // The second key is the negative of the quaternion for 80°: the same rotation, the longer way round if taken as it
+    // is.
     std::vector<float> values;
     for (const auto& key : {turn(0, 1), turn(80, -1)}) values.insert(values.end(), key.begin(), key.end());
     const AnimationChannel channel = channelOf(Interpolation::linear, ChannelPath::rotation, {0, 1}, values);
@@ -150,8 +156,9 @@ TEST(Animation, rotationsTurnEvenlyAlongTheShorterArc) {
 }
 
 TEST(Animation, cubicRotationsAreNormalised) {
-    const AnimationChannel channel = channelOf(Interpolation::cubicSpline, ChannelPath::rotation, {0, 1},
-                                               {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
+    const AnimationChannel channel =
+        channelOf(Interpolation::cubicSpline, ChannelPath::rotation, {0, 1},
+                  {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0});
     EXPECT_NEAR(glm::length(sampleRotation(channel, 0.5)), 1.0, 1e-12);
     // Half way both keys weigh the same: a quarter turn about x.
     expectNear(sampleRotation(channel, 0.5) * glm::dvec3(0, 1, 0), {0, 0, 1}, 1e-6);

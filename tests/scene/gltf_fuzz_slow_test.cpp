@@ -1,4 +1,5 @@
-// Real files with pseudo-random damage: loading ends in a scene or an Error, never in anything else. Meant for the sanitizers.
+// Real files with pseudo-random damage: loading ends in a scene or an Error, never in anything else. Meant for the
+// sanitizers.
 
 #include <gtest/gtest.h>
 
@@ -20,13 +21,14 @@ class Damage {
 public:
     explicit Damage(std::uint32_t seed) : random_(seed) {}
 
-    // One of: flipped bits, other digits in the JSON, a stretch removed, the end cut off; GLB lengths are mended, so that the
-    // fault lies deeper than the container.
+    // One of: flipped bits, other digits in the JSON, a stretch removed, the end cut off; GLB lengths are mended, so
+    // that the fault lies deeper than the container.
     std::string apply(std::string file) {
         const bool glb = file.starts_with("glTF");
         switch (below(4)) {
             case 0:
-                for (std::size_t i = below(8) + 1; i > 0; --i) file[below(file.size())] ^= static_cast<char>(1 << below(8));
+                for (std::size_t i = below(8) + 1; i > 0; --i)
+                    file[below(file.size())] ^= static_cast<char>(1 << below(8));
                 break;
             case 1:
                 changeDigits(file, glb ? 20 + word(file, 12) : file.size());
@@ -97,7 +99,9 @@ INSTANTIATE_TEST_SUITE_P(Gltf, DamagedModel,
                                          "InterpolationTest.glb", "MultiUVTest.glb", "MeshPrimitiveModes.gltf",
                                          "SimpleSparseAccessor.gltf", "suzanne-high-poly-Draco.gltf",
                                          "japanese-bridge-garden-meshopt.glb"),
-                         [](const testing::TestParamInfo<const char*>& tested) { return std::to_string(tested.index); });
+                         [](const testing::TestParamInfo<const char*>& tested) {
+                             return std::to_string(tested.index);
+                         });
 
 }  // namespace
 }  // namespace defocus

@@ -1,0 +1,21 @@
+#pragma once
+// How --help looks: a column of options, and their descriptions wrapped beside it with the default at the end.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace defocus {
+
+class HelpFormat : public CLI::Formatter {
+public:
+    HelpFormat() {
+        column_width(32);
+        label("SUBCOMMAND", "COMMAND");
+    }
+    std::string make_option(const CLI::Option* option, bool isPositional) const override;
+    std::string make_option_opts(const CLI::Option* option) const override;
+    std::string make_option_desc(const CLI::Option* option) const override;
+    std::string make_subcommand(const CLI::App* command) const override;
+};
+
+}  // namespace defocus

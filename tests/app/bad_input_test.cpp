@@ -1,0 +1,162 @@
+// Whatever is wrong gives one line and an exit code, and leaves no file behind.
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "app/program.h"
+#include "app/two_quads.h"
+#include "models.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BadInput : public Program {
+protected:
+    void SetUp() override {
+        Program::SetUp();
+        writeTwoQuads(folder() / "quads.gltf");
+    }
+
+    // A render of the quads with more `arguments` fails with this line's part, before anything is written.
+    void expectFault(int exitCode, const std::string& part, std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {"render", "quads.gltf"});
+        const Outcome outcome = run(arguments);
+        SCOPED_TRACE(arguments.back());
+        expectOneLine(outcome, exitCode);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_EQ(fileCount(), 1u);
+    }
+};
+
+TEST_F(BadInput, valuesOutOfRange) {
+    expectFault(2, "1 to 65536", {"--samples", "0"});
+    expectFault(2, "1 to 65536", {"--samples", "10000000"});
+    expectFault(2, "1 to 65536", {"--samples", "-4"});
+    expectFault(2, "1 to 65536", {"--samples", "1.5"});
+    expectFault(2, "--fstop", {"--fstop", "0"});
+    expectFault(2, "--fstop", {"--fstop", "-1"});
+    expectFault(2, "--focus-distance", {"--focus-distance", "0"});
+    expectFault(2, "--focus-distance", {"--focus-distance", "-2"});
+    expectFault(2, "--focal-length", {"--focal-length", "0"});
+    expectFault(2, "--horizontal-aperture", {"--horizontal-aperture", "0"});
+    expectFault(2, "--anamorphic-ratio", {"--anamorphic-ratio", "0"});
+    expectFault(2, "--blur-scale", {"--blur-scale", "-1"});
+    expectFault(2, "--blades", {"--blades", "2"});
+    expectFault(2, "--wave", {"--wave", "65"});
+    expectFault(2, "--seed", {"--seed", "4294967296"});
+    expectFault(2, "--background", {"--background", "1,2"});
+    expectFault(2, "--background", {"--background", "1,-2,3"});
+}
+
+TEST_F(BadInput, numbersThatAreNoneOrInfinite) {
+    for (const char* option :
+         {"--fstop", "--focal-length", "--horizontal-aperture", "--focus-distance", "--blade-rotation",
+          "--anamorphic-ratio", "--blur-scale", "--time", "--blur-threshold", "--size-threshold", "--exposure"})
+        expectFault(2, option, {std::string(option) + "=nan"});
+    expectFault(2, "--focus-distance", {"--focus-distance=inf"});
+    expectFault(2, "--exposure", {"--exposure=-inf"});
+}
+
+TEST_F(BadInput, sizes) {
+    for (const char* size : {"0x768", "100000x100000", "1024x16385", "1024"})
+        expectFault(2, "--size", {"--size", size});
+}
+
+TEST_F(BadInput, wordsThatAreNotKnown) {
+    expectFault(2, "did you mean '--samples'", {"--smaples", "10"});
+    expectFault(2, "did you mean 'fractional'", {"--lod", "fractoinal"});
+    expectFault(2, "size, error", {"--lod-metric", "speed"});
+    expectFault(2, "did you mean 'accumulation'", {"--method", "acumulation"});
+    expectFault(2, "none, aces, agx", {"--tonemap", "filmic"});
+    expectFault(2, "depth, coc, level", {"--aov", "depth,normal"});
+    expectFault(2, "another.gltf", {"another.gltf"});
+    expectFault(2, "excludes", {"--fish", "3"});
+    expectFault(2, "excludes", {"--focus-distance", "1", "--focus-node", "Near"});
+}
+
+TEST_F(BadInput, wrongCommands) {
+    expectOneLine(run({}), 2);
+    const Outcome mistyped = run({"rendr", "quads.gltf"});
+    expectOneLine(mistyped, 2);
+    EXPECT_NE(mistyped.err.find("did you mean 'render'"), std::string::npos) << mistyped.err;
+    const Outcome unknown = run({"xyzzy"});
+    expectOneLine(unknown, 2);
+    EXPECT_NE(unknown.err.find("render, plan, info, compare"), std::string::npos) << unknown.err;
+}
+
+TEST_F(BadInput, namesThatAreNotInTheFileListThoseThatAre) {
+    expectFault(1, "Main", {"--camera", "Second"});
+    expectFault(1, "Near, Far, Tripod", {"--focus-node", "Middle"});
+    const Outcome inTheSchool = run({"plan", "--fish", "1", "--fish-triangles", "200", "--camera", "Second"});
+    expectOneLine(inTheSchool, 1);
+    EXPECT_NE(inTheSchool.err.find("Camera"), std::string::npos) << inTheSchool.err;
+}
+
+TEST_F(BadInput, focusThatTheSceneDoesNotHave) {
+    expectFault(1, "no surface", {"--focus-pixel", "0,767"});
+    expectFault(1, "outside", {"--focus-pixel", "1024,0"});
+    expectFault(2, "--focus-pixel", {"--focus-pixel", "-1,0"});
+    expectFault(1, "behind the camera", {"--focus-node", "Tripod"});
+    expectFault(1, "focus breathing", {"--focus-breathing", "--focal-length", "50", "--focus-distance", "0.05"});
+}
+
+TEST_F(BadInput, outputsThatCannotBeWritten) {
+    expectFault(1, "missing/out.exr", {"-o", "missing/out.exr"});
+    expectFault(1, "quads.gltf/out.exr", {"-o", "quads.gltf/out.exr"});
+    expectFault(1, ".exr, .png", {"-o", "out.gif"});
+    expectFault(1, ".exr, .png", {"-o", "out"});
+    expectFault(1, "missing/stats.json", {"--stats", "missing/stats.json"});
+    fs::create_directory(folder() / "images.png");
+    const Outcome outcome = run({"render", "quads.gltf", "-o", "images.png"});
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("directory"), std::string::npos) << outcome.err;
+    EXPECT_EQ(fileCount(), 2u);
+}
+
+TEST_F(BadInput, filesThatAreNoScene) {
+    std::ofstream(folder() / "text.gltf") << "not JSON";
+    std::ofstream(folder() / "picture.png") << "not a picture";
+    for (const char* command : {"render", "plan", "info"})
+        for (const char* name : {"missing.glb", ".", "text.gltf", "picture.png"}) {
+            const Outcome outcome = run({command, name});
+            SCOPED_TRACE(name);
+            expectOneLine(outcome, 1);
+            EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+        }
+    EXPECT_EQ(fileCount(), 3u);
+}
+
+TEST_F(BadInput, environmentsThatAreNone) {
+    expectFault(1, "missing.hdr", {"--environment", "missing.hdr"});
+    expectFault(1, "quads.gltf", {"--environment", "quads.gltf"});
+}
+
+TEST_F(BadInput, shaderFolderThatIsNone) {
+    expectFault(2, "--shader-dir", {"--shader-dir", "missing"});
+}
+
+// Each hostile file is refused with a line that names it, or loads; it never ends the program in another way.
+TEST_F(BadInput, hostileModels) {
+    DEFOCUS_MODEL_OR_SKIP(models, "invalid");
+    for (const fs::directory_entry& entry : fs::directory_iterator(models)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".gltf" && extension != ".glb") continue;
+        SCOPED_TRACE(entry.path());
+        for (const char* command : {"info", "plan"}) {
+            const Outcome outcome = run({"--quiet", command, entry.path().string()});
+            if (outcome.exitCode == 0) {
+                EXPECT_EQ(outcome.err, "");
+                EXPECT_NE(outcome.out, "");
+                continue;
+            }
+            expectOneLine(outcome, 1);
+            EXPECT_NE(outcome.err.find(entry.path().stem().string()), std::string::npos) << outcome.err;
+        }
+    }
+    EXPECT_EQ(fileCount(), 1u);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,93 @@
+#pragma once
+// Runs the real program as a child process, in a folder of its own.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace defocus {
+
+struct Outcome {
+    int exitCode = -1;  // 128 + number of the signal that ended it
+    std::string out;
+    std::string err;
+};
+
+class Program : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string pattern = (std::filesystem::temp_directory_path() / "defocus-app-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+        root_ = pattern;
+        std::filesystem::create_directory(folder());
+    }
+    void TearDown() override {
+        std::error_code ignored;
+        std::filesystem::remove_all(root_, ignored);
+    }
+
+    // Where the program runs: relative names in `arguments` lie here.
+    [[nodiscard]] std::filesystem::path folder() const { return root_ / "work"; }
+
+    [[nodiscard]] std::size_t fileCount() const {
+        using Files = std::filesystem::recursive_directory_iterator;
+        return static_cast<std::size_t>(std::distance(Files(folder()), Files()));
+    }
+
+    // `mostFileBytes`: writes beyond it fail, as on a full disk; 0: no limit.
+    Outcome run(const std::vector<std::string>& arguments, std::size_t mostFileBytes = 0) const {
+        const std::filesystem::path out = root_ / "stdout";
+        const std::filesystem::path err = root_ / "stderr";
+        const pid_t child = ::fork();
+        if (child == 0) runChild(arguments, out, err, mostFileBytes);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), textOf(out), textOf(err)};
+    }
+
+    static std::string textOf(const std::filesystem::path& path) {
+        std::ifstream file(path, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    }
+
+private:
+    [[noreturn]] void runChild(const std::vector<std::string>& arguments, const std::filesystem::path& out,
+                               const std::filesystem::path& err, std::size_t mostFileBytes) const {
+        const int outFile = ::open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+        const int errFile = ::open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+        if (::chdir(folder().c_str()) != 0 || ::dup2(outFile, 1) < 0 || ::dup2(errFile, 2) < 0) ::_exit(99);
+        if (mostFileBytes > 0) {
+            const rlimit limit{mostFileBytes, mostFileBytes};
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+        }
+        std::vector<std::string> words = {DEFOCUS_PROGRAM};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        std::vector<char*> pointers;
+        for (std::string& word : words) pointers.push_back(word.data());
+        pointers.push_back(nullptr);
+        ::execv(DEFOCUS_PROGRAM, pointers.data());
+        ::_exit(98);
+    }
+
+    std::filesystem::path root_;
+};
+
+// One line on stderr that begins with the program's name, nothing else said, and the exit code.
+inline void expectOneLine(const Outcome& outcome, int exitCode) {
+    EXPECT_EQ(outcome.exitCode, exitCode) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("defocus: ")) << outcome.err;
+    EXPECT_GT(outcome.err.size(), std::string("defocus: \n").size());
+}
+
+}  // namespace defocus

@@ -1,0 +1,79 @@
+// Real models: every one must become a pyramid, whatever its surface.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "invariants.h"
+#include "lod/pyramid.h"
+#include "models.h"
+#include "scene/gltf.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isModel(const fs::path& path) {
+    return path.extension() == ".glb" || path.extension() == ".gltf";
+}
+
+std::vector<fs::path> publicModels() {
+    std::vector<fs::path> models;
+    if (!fs::exists(modelsDirectory())) return models;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(modelsDirectory()))
+        if (isModel(entry.path()) && entry.path().parent_path().filename() != "invalid") models.push_back(entry.path());
+    std::sort(models.begin(), models.end());
+    return models;
+}
+
+TEST(RealModels, AllBecomePyramids) {
+    const std::vector<fs::path> models = publicModels();
+    if (models.empty()) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
+    for (const fs::path& path : models) {
+        SCOPED_TRACE(path.filename().string());
+        const Scene scene = loadGltf(path);
+        const std::vector<Pyramid> pyramids = buildPyramids(scene.meshes);
+        ASSERT_EQ(pyramids.size(), scene.meshes.size());
+        for (std::size_t m = 0; m < pyramids.size(); ++m) {
+            SCOPED_TRACE(testing::Message() << "mesh " << m << " " << scene.meshes[m].name);
+            expectPyramidInvariants(scene.meshes[m], pyramids[m]);
+        }
+    }
+}
+
+TEST(RealModels, ClosedScansStayClosedDownToTheFloor) {
+    for (const char* name : {"skull.glb", "hammer.glb"}) {
+        DEFOCUS_MODEL_OR_SKIP(path, name);
+        const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+        ASSERT_TRUE(isClosed(pyramid.vertices.positions, levelIndices(pyramid, 0))) << name;
+        EXPECT_EQ(pyramid.levels.back().triangleCount, 64u) << name;
+        for (std::size_t l = 1; l < pyramid.levels.size(); ++l)
+            EXPECT_TRUE(isClosed(pyramid.vertices.positions, levelIndices(pyramid, l))) << name << " level " << l;
+    }
+}
+
+TEST(RealModels, OpenMountainKeepsItsOutline) {
+    // The outline shrinks by no more than what the stored error allows along its length.
+    DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
+    const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        Bounds bounds;
+        for (const std::uint32_t v : levelIndices(pyramid, l)) bounds.extend(glm::dvec3(pyramid.vertices.positions[v]));
+        const glm::dvec3 lost = pyramid.bounds.size() - bounds.size();
+        EXPECT_LE(std::max(lost.x, lost.z), 2 * pyramid.levels[l].error) << "level " << l;
+    }
+}
+
+TEST(RealModels, SoupOfHundredLooseTrianglesStops) {
+    DEFOCUS_MODEL_OR_SKIP(path, "nasty/soup.glb");
+    const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+    EXPECT_EQ(pyramid.levels.size(), 1u);
+    EXPECT_EQ(pyramid.levels[0].triangleCount, 100u);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,153 @@
+#pragma once
+// Small meshes with seams and borders as real files have them, and counts over the surface joined by position.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <tuple>
+#include <vector>
+
+#include "lod/pyramid.h"
+
+namespace defocus {
+
+using PositionKey = std::tuple<float, float, float>;
+
+inline PositionKey keyOf(const glm::vec3& p) {
+    return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
+}
+
+inline Mesh singlePrimitive(Vertices vertices, std::vector<std::uint32_t> indices) {
+    Mesh mesh;
+    mesh.name = "test";
+    mesh.vertices = std::move(vertices);
+    mesh.primitives.push_back({-1, std::move(indices)});
+    if (mesh.vertices.normals.empty())
+        mesh.vertices.normals = smoothNormals(mesh.vertices.positions, mesh.primitives[0].indices);
+    return mesh;
+}
+
+// columns × rows quads over (u, v) ∈ [0, 1]², two triangles each, (columns + 1)·(rows + 1) vertices; where `place`
+// closes the surface the vertices of both ends are kept apart, as at a UV seam. Triangles whose corners coincide
+// (poles) are left out.
+template <typename Place>
+Mesh parametricSurface(std::uint32_t columns, std::uint32_t rows, const Place& place) {
+    Vertices vertices;
+    for (std::uint32_t j = 0; j <= rows; ++j)
+        for (std::uint32_t i = 0; i <= columns; ++i) {
+            // Both ends of a closed direction take the same position to the last bit.
+            vertices.positions.push_back(glm::vec3(place(i, j)));
+            vertices.uv0.push_back({static_cast<float>(i) / static_cast<float>(columns),
+                                    static_cast<float>(j) / static_cast<float>(rows)});
+        }
+    std::vector<std::uint32_t> indices;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const auto& p = vertices.positions;
+        if (p[a] != p[b] && p[b] != p[c] && p[c] != p[a]) indices.insert(indices.end(), {a, b, c});
+    };
+    for (std::uint32_t j = 0; j < rows; ++j)
+        for (std::uint32_t i = 0; i < columns; ++i) {
+            const std::uint32_t a = j * (columns + 1) + i;
+            const std::uint32_t b = a + columns + 1;
+            add(a, a + 1, b + 1);
+            add(a, b + 1, b);
+        }
+    return singlePrimitive(std::move(vertices), std::move(indices));
+}
+
+inline double turn(std::uint32_t i, std::uint32_t count) {
+    return 2 * std::numbers::pi * (i % count) / count;
+}
+
+// Unit sphere with a UV seam and poles of one vertex a column; `bump` modulates the radius.
+inline Mesh sphere(std::uint32_t columns, std::uint32_t rows, double bump = 0) {
+    return parametricSurface(columns, rows, [=](std::uint32_t i, std::uint32_t j) {
+        if (j == 0 || j == rows) return glm::dvec3(0, 0, j == 0 ? -1 : 1);
+        const double a = turn(i, columns);
+        const double b = std::numbers::pi * j / rows;
+        const double r = 1 + bump * std::sin(7 * a) * std::sin(9 * b) * std::sin(b);
+        return r * glm::dvec3(std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), -std::cos(b));
+    });
+}
+
+// Radii 1 and 0.4, UV seams both ways.
+inline Mesh torus(std::uint32_t columns, std::uint32_t rows) {
+    return parametricSurface(columns, rows, [=](std::uint32_t i, std::uint32_t j) {
+        const double a = turn(i, columns);
+        const double b = turn(j, rows);
+        const double r = 1 + 0.4 * std::cos(b);
+        return glm::dvec3(r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
+    });
+}
+
+// The unit square at z = 0.
+inline Mesh flatGrid(std::uint32_t cells) {
+    return parametricSurface(cells, cells, [=](std::uint32_t i, std::uint32_t j) {
+        return glm::dvec3(static_cast<double>(i) / cells, static_cast<double>(j) / cells, 0);
+    });
+}
+
+inline std::vector<std::uint32_t> levelIndices(const Pyramid& pyramid, std::size_t level) {
+    std::vector<std::uint32_t> indices;
+    for (const IndexRange& range : pyramid.levels[level].primitives) {
+        const auto begin = pyramid.indices.begin() + static_cast<std::ptrdiff_t>(range.first);
+        indices.insert(indices.end(), begin, begin + static_cast<std::ptrdiff_t>(range.count));
+    }
+    return indices;
+}
+
+// For each undirected edge of the surface joined by position: forward minus backward uses, and all uses.
+struct EdgeUse {
+    int balance = 0;
+    int count = 0;
+};
+
+inline std::map<std::pair<PositionKey, PositionKey>, EdgeUse> edgeUses(const std::vector<glm::vec3>& positions,
+                                                                       const std::vector<std::uint32_t>& indices) {
+    std::map<std::pair<PositionKey, PositionKey>, EdgeUse> edges;
+    for (std::size_t i = 0; i < indices.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const PositionKey a = keyOf(positions[indices[i + k]]);
+            const PositionKey b = keyOf(positions[indices[i + (k + 1) % 3]]);
+            EdgeUse& use = edges[{std::min(a, b), std::max(a, b)}];
+            use.balance += a < b ? 1 : -1;
+            ++use.count;
+        }
+    return edges;
+}
+
+// Every edge joined by position has exactly two faces, one on either side.
+inline bool isClosed(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
+    const auto edges = edgeUses(positions, indices);
+    return std::all_of(edges.begin(), edges.end(),
+                       [](const auto& edge) { return edge.second.count == 2 && edge.second.balance == 0; });
+}
+
+// The triangles as corner positions, smallest first in winding order, sorted: equal for equal sets of triangles.
+inline std::vector<std::array<PositionKey, 3>> triangleSet(const std::vector<glm::vec3>& positions,
+                                                           const std::vector<std::uint32_t>& indices) {
+    std::vector<std::array<PositionKey, 3>> result;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        std::array<PositionKey, 3> corners = {keyOf(positions[indices[i]]), keyOf(positions[indices[i + 1]]),
+                                              keyOf(positions[indices[i + 2]])};
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        result.push_back(corners);
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+inline double surfaceArea(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
+    double area = 0;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const glm::dvec3 a = positions[indices[i]];
+        area += 0.5 * glm::length(glm::cross(glm::dvec3(positions[indices[i + 1]]) - a,
+                                             glm::dvec3(positions[indices[i + 2]]) - a));
+    }
+    return area;
+}
+
+}  // namespace defocus

@@ -1,0 +1,179 @@
+#include "plan/frame_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "plan/plan_text.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+RenderSettings settingsFor(std::uint32_t samples) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.thresholds = {0.5, 2};
+    return settings;
+}
+
+bool leftOut(const FramePlan& plan, const std::string& what) {
+    return std::any_of(plan.leftOut.begin(), plan.leftOut.end(),
+                       [&](const LeftOut& entry) { return entry.what.find(what) != std::string::npos; });
+}
+
+TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
+    const auto small = fiveSpheres();
+    for (const std::uint32_t n : {1u, 2u, 7u, 64u, 100u})
+        for (const LodMode mode : {LodMode::fractional, LodMode::nearest, LodMode::off}) {
+            RenderSettings settings = settingsFor(n);
+            settings.lod = mode;
+            for (const ObjectPlan& object : planFrame(small->world, small->view, settings).objects) {
+                EXPECT_EQ(object.coarse.sampleCount + object.fine.sampleCount, n);
+                if (object.coarse.sampleCount > 0) {
+                    EXPECT_EQ(object.coarse.firstSample, 0u);
+                }
+                EXPECT_EQ(object.fine.firstSample, object.coarse.sampleCount);
+                if (mode == LodMode::fractional && object.coarse.sampleCount > 0 && object.fine.sampleCount > 0)
+                    EXPECT_EQ(object.coarse.level, object.fine.level + 1);
+                if (mode != LodMode::fractional) {
+                    EXPECT_EQ(object.coarse.sampleCount, 0u);
+                }
+            }
+        }
+}
+
+TEST(FramePlan, depthsAndBlurFollowTheFormula) {
+    const auto small = fiveSpheres();
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
+    const ObjectPlan& nearest = plan.objects.front();  // front to back
+    EXPECT_EQ(nearest.object, 0);
+    EXPECT_NEAR(nearest.nearestDepth, 1.05, 0.01);
+    const double A = 0.05 / 1;
+    const double expected = A * (1 / 3.0 - 1 / nearest.nearestDepth) * 160 / (36.0 / 50);
+    EXPECT_NEAR(nearest.coc.nearest, expected, 1e-9);
+    EXPECT_EQ(plan.objects[1].coc.smallest, 0) << "it straddles the focus plane";
+    EXPECT_TRUE(std::is_sorted(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& a, const ObjectPlan& b) {
+        return a.nearestDepth < b.nearestDepth;
+    }));
+}
+
+TEST(FramePlan, moreBlurAndDistanceMeanCoarserLevels) {
+    const auto small = fiveSpheres();
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
+    EXPECT_GT(plan.objects.back().lambda, plan.objects[1].lambda);
+    EXPECT_LT(plan.trianglesDrawn, plan.trianglesAtFullDetail);
+}
+
+TEST(FramePlan, objectsOutsideTheWidenedFrustumAreLeftOut) {
+    const auto small = fiveSpheres();
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
+    EXPECT_TRUE(leftOut(plan, "Object 4"));
+    RenderSettings everything = settingsFor(16);
+    everything.keepAll = true;
+    EXPECT_FALSE(leftOut(planFrame(small->world, small->view, everything), "Object 4"));
+}
+
+// A point that only the blurred image of an object reaches must not be culled: brute force over lens points and box corners.
+TEST(FramePlan, cullingIsConservative) {
+    const auto small = fiveSpheres();
+    const Bounds box = small->world.pyramids[0].bounds;
+    for (double x = -3; x <= 3; x += 0.13)
+        for (const double z : {0.4, 1.0, 3.0, 6.0}) {
+            auto& object = small->world.pose.objects[0];
+            object.worldFromObject =
+                glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, 0, -z)), glm::dvec3(0.1));
+            const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
+            bool seen = false;
+            for (const glm::dvec3& corner : box.corners())
+                for (const LensSample& sample : plan.samples) {
+                    const glm::dvec4 p = object.worldFromObject * glm::dvec4(corner, 1);
+                    const double w = -p.z;
+                    if (w < small->view.nearPlane) continue;
+                    const double ndcX = (p.x / plan.tanHalfHorizontal + plan.coc.at(w) * sample.lens.x) / w;
+                    const double ndcY = (p.y / (plan.tanHalfHorizontal * 0.75) + plan.coc.at(w) * sample.lens.y * 4 / 3) / w;
+                    seen |= std::abs(ndcX) <= 1 && std::abs(ndcY) <= 1;
+                }
+            if (seen) {
+                EXPECT_FALSE(leftOut(plan, "Object 0")) << x << " " << z;
+            }
+        }
+}
+
+TEST(FramePlan, nothingBlurredLeavesAntialiasingSamplesOnly) {
+    const auto small = fiveSpheres();
+    small->view.lens.fStop = 2000;
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
+    EXPECT_FALSE(plan.usesLens);
+    EXPECT_TRUE(leftOut(plan, "lens samples"));
+    EXPECT_EQ(plan.samples.size(), antialiasingSamples);
+    EXPECT_EQ(plan.apertureDiameter, 0);
+}
+
+TEST(FramePlan, unusedLevelsAreLeftOut) {
+    const auto small = fiveSpheres();
+    RenderSettings settings = settingsFor(16);
+    settings.lod = LodMode::off;
+    const FramePlan plan = planFrame(small->world, small->view, settings);
+    EXPECT_TRUE(plan.levelsUsed[0][0]);
+    EXPECT_EQ(std::count(plan.levelsUsed[0].begin(), plan.levelsUsed[0].end(), true), 1);
+    EXPECT_TRUE(leftOut(plan, "pyramid levels"));
+}
+
+TEST(FramePlan, boxThatReachesTheNearPlaneIsDrawnAtFullDetail) {
+    const auto small = fiveSpheres();
+    small->world.pose.objects[0].worldFromObject = glm::dmat4(1);  // around the camera
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
+    const auto found = std::find_if(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& o) { return o.object == 0; });
+    ASSERT_NE(found, plan.objects.end());
+    EXPECT_EQ(found->lambda, 0);
+}
+
+TEST(FramePlan, lambdaIsContinuousAlongADolly) {
+    const auto small = fiveSpheres();
+    double previous = -1;
+    for (double z = 1.2; z < 12; z *= 1.0005) {
+        small->world.pose.objects[0].worldFromObject =
+            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(0.2));
+        const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
+        const auto found =
+            std::find_if(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& o) { return o.object == 0; });
+        ASSERT_NE(found, plan.objects.end());
+        if (previous >= 0) {
+            EXPECT_NEAR(found->lambda, previous, 0.05) << z;
+        }
+        previous = found->lambda;
+    }
+}
+
+TEST(FramePlan, impossibleRequestsAreErrors) {
+    const auto small = fiveSpheres();
+    EXPECT_THROW(planFrame(small->world, small->view, settingsFor(0)), Error);
+    EXPECT_THROW(planFrame(small->world, small->view, settingsFor(10'000'000)), Error);
+    View view = small->view;
+    view.width = 0;
+    EXPECT_THROW(planFrame(small->world, view, settingsFor(1)), Error);
+    view = small->view;
+    view.lens.focusDistance = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(planFrame(small->world, view, settingsFor(1)), Error);
+}
+
+TEST(FramePlan, textAndJsonTellTheSame) {
+    const auto small = fiveSpheres();
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
+    const auto json = nlohmann::json::parse(planJson(plan));
+    EXPECT_EQ(json["objects"].size(), plan.objects.size());
+    EXPECT_EQ(json["triangles"]["drawn"], plan.trianglesDrawn);
+    EXPECT_NEAR(json["objects"][0]["lambda"].get<double>(), plan.objects[0].lambda, 1e-12);
+    const std::string table = planTable(plan);
+    EXPECT_NE(table.find(plan.objects[0].name), std::string::npos);
+    EXPECT_NE(table.find("no lens sample can see it"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,112 @@
+#pragma once
+// Small scenes for tests of plan and renderer: bumpy spheres and quads made here, with their pyramids.
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "lod/pyramid.h"
+#include "plan/view.h"
+
+namespace defocus {
+
+// World keeps a pointer to the scene: not to be copied or moved.
+struct SmallWorld {
+    SmallWorld() { world.scene = &scene; }
+    SmallWorld(const SmallWorld&) = delete;
+    SmallWorld& operator=(const SmallWorld&) = delete;
+
+    Scene scene;
+    World world;
+    View view;
+};
+
+// A sphere of radius 1 with ripples, 2 · slices · stacks triangles about.
+inline Mesh bumpySphere(int slices, int stacks, int material) {
+    Mesh mesh;
+    mesh.name = "sphere";
+    const auto point = [](double polar, double azimuth) {
+        const double radius = 1 + 0.03 * std::sin(14 * azimuth) * std::sin(11 * polar) * std::sin(polar);
+        return glm::vec3(radius * std::sin(polar) * std::cos(azimuth), radius * std::cos(polar),
+                         radius * std::sin(polar) * std::sin(azimuth));
+    };
+    for (int y = 0; y <= stacks; ++y)
+        for (int x = 0; x < slices; ++x) {
+            mesh.vertices.positions.push_back(
+                point(std::numbers::pi * y / stacks, 2 * std::numbers::pi * x / slices));
+            mesh.vertices.colors.emplace_back(x * 255 / slices, y * 255 / stacks, (x / 4 + y / 4) % 2 * 255, 255);
+        }
+    Primitive primitive{material, {}};
+    const auto index = [&](int x, int y) { return static_cast<std::uint32_t>(y * slices + x % slices); };
+    for (int y = 0; y < stacks; ++y)
+        for (int x = 0; x < slices; ++x) {
+            if (y > 0) primitive.indices.insert(primitive.indices.end(), {index(x, y), index(x + 1, y), index(x, y + 1)});
+            if (y < stacks - 1)
+                primitive.indices.insert(primitive.indices.end(), {index(x + 1, y), index(x + 1, y + 1), index(x, y + 1)});
+        }
+    mesh.vertices.normals = smoothNormals(mesh.vertices.positions, primitive.indices);
+    mesh.primitives.push_back(std::move(primitive));
+    return mesh;
+}
+
+// The square [−1, 1]² in the plane z = 0, facing +z.
+inline Mesh quad(int material) {
+    Mesh mesh;
+    mesh.name = "quad";
+    mesh.vertices.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.vertices.normals.assign(4, {0, 0, 1});
+    mesh.primitives.push_back({material, {0, 1, 2, 0, 2, 3}});
+    return mesh;
+}
+
+inline Material unlitMaterial(const glm::vec4& color) {
+    Material material;
+    material.baseColorFactor = color;
+    material.unlit = true;
+    return material;
+}
+
+inline void place(SmallWorld& small, int mesh, const glm::dmat4& worldFromObject) {
+    Object object;
+    object.mesh = mesh;
+    object.name = "Object " + std::to_string(small.world.pose.objects.size());
+    object.worldFromObject = worldFromObject;
+    small.world.pose.objects.push_back(object);
+}
+
+inline void finish(SmallWorld& small) { small.world.pyramids = buildPyramids(small.scene.meshes); }
+
+// Five rippled spheres from 1.2 to 9 m, one of them mirrored, one far outside the frame, lit by a sun and a gradient sky; f/1 at
+// 160 × 120 px focused at 3 m.
+inline std::unique_ptr<SmallWorld> fiveSpheres() {
+    auto small = std::make_unique<SmallWorld>();
+    Material glossy;
+    glossy.metallicFactor = 0;
+    glossy.roughnessFactor = 0.4f;
+    small->scene.materials.push_back(glossy);
+    small->scene.meshes.push_back(bumpySphere(120, 90, 0));
+    const auto at = [](double x, double y, double z, double s) {
+        return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, y, z)), glm::dvec3(s));
+    };
+    place(*small, 0, at(-0.25, -0.1, -1.2, 0.15));
+    place(*small, 0, at(0.3, 0.2, -3, 0.5));
+    place(*small, 0, glm::scale(at(-0.6, 0.5, -5, 0.8), glm::dvec3(-1, 1, 1)));
+    place(*small, 0, at(1.2, -1, -9, 1));
+    place(*small, 0, at(40, 0, -5, 0.5));
+    PlacedLight sun;
+    sun.light.intensity = 2;
+    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
+    small->world.lights.push_back(sun);
+    small->world.environment = {EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
+    small->view.lens.fStop = 1;
+    small->view.lens.focusDistance = 3;
+    small->view.width = 160;
+    small->view.height = 120;
+    finish(*small);
+    return small;
+}
+
+}  // namespace defocus
