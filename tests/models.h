@@ -16,5 +16,5 @@ inline std::filesystem::path modelsDirectory() {
 }  // namespace defocus
 
 #define DEFOCUS_MODEL_OR_SKIP(variable, name)                                                          \
-    const std::filesystem::path variable = ::defocus::modelsDirectory() / (name);                     \
-    if (!std::filesystem::exists(variable)) GTEST_SKIP() << "no model " << variable << "; set DEFOCUS_MODELS_DIR"
+    const std::filesystem::path variable( ::defocus::modelsDirectory() / (name));                    \
+    if (!std::filesystem::exists((variable))) GTEST_SKIP() << "no model " << variable << "; set DEFOCUS_MODELS_DIR"

@@ -116,6 +116,8 @@ void main() {
     vec3 radiance = shaded(baseColor.rgb) + emissive;
 #endif
 
+    // A texel or a sliver without a value is black, not a hole that no later sample could fill.
+    if (any(isnan(radiance))) radiance = vec3(0.0);
 #ifdef LAYER_LARGEST
     radiance = min(radiance, vec3(LAYER_LARGEST));
 #endif

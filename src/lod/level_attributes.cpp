@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "lod/level_normals.h"
+#include "lod/smoothing_groups.h"
 
 namespace defocus {
 
@@ -15,7 +15,7 @@ namespace {
 constexpr int iterations = 12;
 // Pull towards the mean of what a vertex stands for, as a share of its weight: keeps vertices with few anchors from
 // overshooting.
-constexpr float pull = 0.05f;
+constexpr float pull = 0.01f;
 
 template <std::size_t channels>
 using Row = std::array<float, channels>;

@@ -2,7 +2,7 @@
 // Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
 //
 // All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
-// together), so level l uses the prefix [0, vertexCount[l]). Only normals may differ between levels: level l has its
+// together), so level l uses the prefix [0, vertexCount[l]). Only normals and colours differ between levels: each has its
 // own, re-averaged for its triangles.
 
 #include <cstdint>

@@ -18,7 +18,7 @@ using OpenMesh::VertexHandle;
 // triangles.
 constexpr double edgeWeight = 1e-4;
 // The same for edges between unlike wedges: squared edge length × squared difference of normals (and 4 × of colours) …
-constexpr double shadingWeight = 1e-3;
+constexpr double shadingWeight = 1e-2;
 // … and squared step in uv, scaled to lengths.
 constexpr double uvWeight = 1e-4;
 constexpr double leastTurnCosine = 0.2588;  // 75°

@@ -39,8 +39,9 @@ TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
                     EXPECT_EQ(object.coarse.firstSample, 0u);
                 }
                 EXPECT_EQ(object.fine.firstSample, object.coarse.sampleCount);
-                if (mode == LodMode::fractional && object.coarse.sampleCount > 0 && object.fine.sampleCount > 0)
+                if (mode == LodMode::fractional && object.coarse.sampleCount > 0 && object.fine.sampleCount > 0) {
                     EXPECT_EQ(object.coarse.level, object.fine.level + 1);
+                }
                 if (mode != LodMode::fractional) {
                     EXPECT_EQ(object.coarse.sampleCount, 0u);
                 }

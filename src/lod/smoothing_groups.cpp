@@ -1,7 +1,6 @@
-#include "lod/level_normals.h"
+#include "lod/smoothing_groups.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 
@@ -32,28 +31,6 @@ std::vector<std::uint32_t> smoothingGroups(const std::vector<glm::vec3>& normals
         if (leader == leaders.end()) leaders.push_back(order[i]);
     }
     return groups;
-}
-
-std::vector<glm::vec3> levelNormals(const std::vector<glm::vec3>& points, const std::vector<glm::vec3>& original,
-                                    const std::vector<std::uint32_t>& groups, std::span<const std::uint32_t> indices,
-                                    std::uint32_t vertexCount) {
-    // A group's leader may lie anywhere among the vertices.
-    std::vector<glm::dvec3> sums(points.size(), glm::dvec3(0));
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const std::uint32_t* v = &indices[i];
-        const glm::dvec3 a = points[v[0]];
-        glm::dvec3 cross = glm::cross(glm::dvec3(points[v[1]]) - a, glm::dvec3(points[v[2]]) - a);
-        if (glm::dot(cross, glm::dvec3(original[v[0]] + original[v[1]] + original[v[2]])) < 0) cross = -cross;
-        for (std::size_t corner = 0; corner < 3; ++corner) sums[groups[v[corner]]] += cross;
-    }
-
-    std::vector<glm::vec3> normals(vertexCount);
-    for (std::uint32_t v = 0; v < vertexCount; ++v) {
-        const glm::dvec3& sum = sums[groups[v]];
-        const double length = glm::length(sum);
-        normals[v] = length > 0 && std::isfinite(length) ? glm::vec3(sum / length) : original[v];
-    }
-    return normals;
 }
 
 }  // namespace defocus

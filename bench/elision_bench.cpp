@@ -1,0 +1,111 @@
+// What leaving things out saves: for each elision of the plan a scene that profits and one that doesn't, with everything kept and
+// without what isn't needed.
+//
+// Held equal: size, samples, levels, renderer and process; interleaved runs, the fastest of each counts. The two images are
+// compared: the PSNR is infinite where nothing but the work was left out.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <limits>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "render/methods.h"
+#include "scene/defaults.h"
+#include "scene/fish_school.h"
+
+namespace {
+
+using namespace defocus;
+
+constexpr int runs = 3;
+
+struct Fish {
+    Scene scene;
+    World world;
+    View view;
+    RenderSettings settings;
+};
+
+void prepare(Fish& fish) {
+    fish.scene = fishSchool({.fishCount = 20, .trianglesPerFish = 20'000});
+    fish.world.scene = &fish.scene;
+    fish.world.pose = poseAt(fish.scene, 0);
+    fish.view.width = 512;
+    fish.view.height = 384;
+    const PlacedCamera placed = chooseCamera(fish.scene, fish.world.pose, "", 4.0 / 3.0);
+    fish.world.lights = lightsOrDefault(fish.scene, fish.world.pose, placed);
+    fish.world.environment = environmentOrDefault(fish.scene);
+    fish.world.pyramids = buildPyramids(fish.scene.meshes);
+    fish.view.worldFromCamera = placed.worldFromCamera;
+    fish.view.lens.fStop = placed.camera.fStop.value();
+    fish.view.lens.focusDistance = placed.camera.focusDistance.value();
+    fish.settings.thresholds = defaultThresholds(LodMetric::size, fish.settings.sampleCount);
+}
+
+struct Measured {
+    double setup = std::numeric_limits<double>::infinity();   // ms
+    double render = std::numeric_limits<double>::infinity();  // ms
+    double megabytes = 0;
+    Image image;
+};
+
+Measured measure(const Fish& fish, bool keepAll, Measured best) {
+    RenderSettings settings = fish.settings;
+    settings.keepAll = keepAll;
+    const auto renderer = methodNamed("accumulation").make(fish.world, {});
+    renderer->start(planFrame(fish.world, fish.view, settings));
+    while (renderer->advance()) {
+    }
+    const RenderStats stats = renderer->stats();
+    best.setup = std::min(best.setup, stats.setupMilliseconds);
+    best.render = std::min(best.render, stats.renderMilliseconds);
+    best.megabytes = static_cast<double>(stats.peakBytes) / 1e6;
+    best.image = renderer->image();
+    return best;
+}
+
+void compare(const char* name, const Fish& fish) {
+    Measured kept;
+    Measured lean;
+    for (int i = 0; i < runs; ++i) {
+        kept = measure(fish, true, std::move(kept));
+        lean = measure(fish, false, std::move(lean));
+    }
+    const Difference difference = compareImages(kept.image, lean.image);
+    fmt::print("{:<44} {:>8.0f} {:>8.0f} {:>7.2f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f}\n", name, kept.render, lean.render,
+               kept.render / lean.render, kept.setup, lean.setup, kept.megabytes, lean.megabytes, difference.psnr);
+}
+
+int run() {
+    const auto context = createHeadlessContext();
+    fmt::print("{}, {}\n20 fish of 20,000 triangles, 512 x 384, 64 samples, fastest of {} runs; kept | left out\n\n",
+               context->device(), context->driver(), runs);
+    fmt::print("{:<44} {:>17} {:>7} {:>17} {:>17} {:>8}\n", "", "render ms", "ratio", "set-up ms", "GPU MB", "PSNR");
+    Fish fish;
+    prepare(fish);
+    compare("all in view, blurred (nothing but levels)", fish);
+    const glm::dmat4 camera = fish.view.worldFromCamera;
+    fish.view.worldFromCamera = camera * glm::rotate(glm::dmat4(1), 0.55, glm::dvec3(0, 1, 0));
+    compare("most fish out of view (culling)", fish);
+    fish.view.worldFromCamera = camera;
+    fish.view.lens.fStop = 64;
+    compare("f/64: nothing blurred (lens samples)", fish);
+    return 0;
+}
+
+}  // namespace
+
+int main() {
+    try {
+        return run();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "elision_bench: {}\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,99 @@
+#include "lod/level_attributes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "lod/smoothing_groups.h"
+
+namespace defocus {
+namespace {
+
+const glm::vec3 up(0, 0, 1);
+const glm::vec3 right(1, 0, 0);
+
+TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
+    const glm::vec3 almostUp = glm::normalize(glm::vec3(0.01f, 0, 1));  // 0.57°
+    const std::vector<std::uint32_t> groups = smoothingGroups({up, right, almostUp, up}, {0, 0, 0, 1});
+    EXPECT_EQ(groups[0], groups[2]);
+    EXPECT_NE(groups[0], groups[1]);
+    EXPECT_NE(groups[0], groups[3]);
+}
+
+// One triangle (vertices 0, 1, 2 of the level) stands for 3 + `inner` vertices at the barycentric places below.
+struct OneTriangle {
+    Vertices vertices;
+    std::vector<std::uint32_t> positions;
+    std::vector<Anchor> anchors;
+};
+
+OneTriangle oneTriangle() {
+    OneTriangle result;
+    for (int i = 0; i <= 10; ++i)
+        for (int j = 0; i + j <= 10; ++j) {
+            const bool corner = i == 10 || j == 10 || i + j == 0;
+            if (corner) continue;
+            Anchor anchor{{0, 1, 2}, {0.1f * float(i), 0.1f * float(j), 1 - 0.1f * float(i + j)}};
+            result.anchors.push_back(anchor);
+        }
+    std::vector<Anchor> corners = {{{0, 0, 0}, {1, 0, 0}}, {{1, 1, 1}, {1, 0, 0}}, {{2, 2, 2}, {1, 0, 0}}};
+    result.anchors.insert(result.anchors.begin(), corners.begin(), corners.end());
+    for (std::uint32_t v = 0; v < result.anchors.size(); ++v) {
+        result.positions.push_back(v);
+        result.vertices.positions.emplace_back(float(v), 0, 0);
+        result.vertices.normals.push_back(up);
+        result.vertices.colors.emplace_back(0, 0, 0, 255);
+    }
+    return result;
+}
+
+TEST(LevelAttributes, colourThatIsLinearOverTheTriangleIsKept) {
+    OneTriangle t = oneTriangle();
+    const float corner[3] = {40, 120, 220};
+    for (std::size_t v = 0; v < t.anchors.size(); ++v) {
+        float value = 0;
+        for (int k = 0; k < 3; ++k) value += t.anchors[v].weight[k] * corner[t.anchors[v].vertex[k]];
+        t.vertices.colors[v].r = static_cast<std::uint8_t>(std::lround(value));
+    }
+    const LevelAttributes fitted = fitAttributes(t.vertices, t.positions, t.anchors);
+    for (std::size_t v = 0; v < 3; ++v) EXPECT_NEAR(fitted.colors[v].r, corner[v], 4);
+    EXPECT_EQ(fitted.colors[0].a, 255);
+}
+
+// A survivor that happens to sit on a dark spot must not make the whole triangle dark.
+TEST(LevelAttributes, colourOfOneSpotIsOutvoted) {
+    OneTriangle t = oneTriangle();
+    for (auto& color : t.vertices.colors) color.r = 200;
+    t.vertices.colors[0].r = 0;
+    EXPECT_GT(fitAttributes(t.vertices, t.positions, t.anchors).colors[0].r, 120);
+}
+
+TEST(LevelAttributes, normalsOfAReliefAveragedGetShorter) {
+    OneTriangle t = oneTriangle();
+    for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)
+        t.vertices.normals[v] = glm::normalize(glm::vec3(v % 2 == 0 ? 0.5f : -0.5f, 0, 1));
+    const LevelAttributes fitted = fitAttributes(t.vertices, t.positions, t.anchors);
+    glm::vec3 mean(0);
+    for (std::size_t v = 0; v < 3; ++v) mean += fitted.normals[v] / 3.0f;
+    EXPECT_NEAR(mean.z, 1 / std::sqrt(1.25), 0.01);  // the mean of the two slopes points up and is that long
+    EXPECT_NEAR(mean.x, 0, 0.1);
+}
+
+TEST(LevelAttributes, equalNormalsStayUnitLength) {
+    const OneTriangle t = oneTriangle();
+    for (const glm::vec3& normal : fitAttributes(t.vertices, t.positions, t.anchors).normals)
+        EXPECT_NEAR(glm::distance(normal, up), 0, 1e-5);
+}
+
+TEST(LevelAttributes, verticesThatNobodyNamesKeepTheirOwn) {
+    OneTriangle t = oneTriangle();
+    t.vertices.colors[7] = {9, 8, 7, 6};
+    t.vertices.normals[7] = right;
+    const LevelAttributes fitted = fitAttributes(t.vertices, t.positions, t.anchors);
+    EXPECT_EQ(fitted.colors[7], t.vertices.colors[7]);
+    EXPECT_EQ(fitted.normals[7], right);
+}
+
+}  // namespace
+}  // namespace defocus
