@@ -1,17 +1,16 @@
-// What leaving things out saves: for each elision of the plan a scene that profits and one that doesn't, with everything kept and
-// without what isn't needed.
+// What leaving things out saves: for each elision of the plan a scene that profits and one that doesn't, with
+// everything kept and without what isn't needed.
 //
-// Held equal: size, samples, levels, renderer and process; interleaved runs, the fastest of each counts. The two images are
-// compared: the PSNR is infinite where nothing but the work was left out.
+// Held equal: size, samples, levels, renderer and process; interleaved runs, the fastest of each counts. The two images
+// are compared: the PSNR is infinite where nothing but the work was left out.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <limits>
-
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 
 #include "gl/context.h"
 #include "image/metrics.h"
@@ -78,8 +77,9 @@ void compare(const char* name, const Fish& fish) {
         lean = measure(fish, false, std::move(lean));
     }
     const Difference difference = compareImages(kept.image, lean.image);
-    fmt::print("{:<44} {:>8.0f} {:>8.0f} {:>7.2f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f}\n", name, kept.render, lean.render,
-               kept.render / lean.render, kept.setup, lean.setup, kept.megabytes, lean.megabytes, difference.psnr);
+    fmt::print("{:<44} {:>8.0f} {:>8.0f} {:>7.2f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f} {:>8.1f}\n", name, kept.render,
+               lean.render, kept.render / lean.render, kept.setup, lean.setup, kept.megabytes, lean.megabytes,
+               difference.psnr);
 }
 
 int run() {

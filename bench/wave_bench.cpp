@@ -1,7 +1,8 @@
 // What a lens sample costs before anything is drawn, by layer format: clear, compose over a sky, add, resolve.
 //
-// Held equal: 1024 × 768 px, 64 samples, an empty scene, the same program and process, interleaved runs of which the fastest
-// counts. Wave K: the default for each format's memory, and 8. Prints a table; checks that every format gave the sky's colour.
+// Held equal: 1024 × 768 px, 64 samples, an empty scene, the same program and process, interleaved runs of which the
+// fastest counts. Wave K: the default for each format's memory, and 8. Prints a table; checks that every format gave
+// the sky's colour.
 
 #include <fmt/format.h>
 
@@ -37,7 +38,8 @@ void measure(Renderer& renderer, const FramePlan& plan, float expected, Row& row
     row.wave = stats.wave;
     row.gigabytes = static_cast<double>(stats.peakBytes) / 1e9;
     const float value = renderer.image().at(0, 0)[1];
-    if (std::abs(value - expected) > 2e-3f * expected) fail("{} K = {}: {} is not {}", row.format, row.wave, value, expected);
+    if (std::abs(value - expected) > 2e-3f * expected)
+        fail("{} K = {}: {} is not {}", row.format, row.wave, value, expected);
 }
 
 int run() {
@@ -48,7 +50,8 @@ int run() {
     View view;
     RenderSettings settings;
     settings.keepAll = true;  // nothing is blurred: the lens would be left out
-    fmt::print("{}, {}\n1024 x 768, 64 samples, nothing drawn, fastest of {} runs\n\n", context->device(), context->driver(), runs);
+    fmt::print("{}, {}\n1024 x 768, 64 samples, nothing drawn, fastest of {} runs\n\n", context->device(),
+               context->driver(), runs);
     fmt::print("{:<10} {:<10} {:>4} {:>14} {:>10}\n", "sky", "format", "K", "ms a sample", "GB");
     for (const EnvironmentType type : {EnvironmentType::uniform, EnvironmentType::gradient}) {
         const glm::vec3 colour(0.2f, 0.3f, 0.4f);
@@ -63,8 +66,9 @@ int run() {
                 const FramePlan plan = planFrame(world, view, settings);
                 Row row;
                 for (int i = 0; i < runs; ++i) measure(*renderer, plan, colour.g, row);
-                fmt::print("{:<10} {:<10} {:>4} {:>14.2f} {:>10.2f}\n", type == EnvironmentType::uniform ? "uniform" : "gradient",
-                           row.format, row.wave, row.milliseconds, row.gigabytes);
+                fmt::print("{:<10} {:<10} {:>4} {:>14.2f} {:>10.2f}\n",
+                           type == EnvironmentType::uniform ? "uniform" : "gradient", row.format, row.wave,
+                           row.milliseconds, row.gigabytes);
             }
     }
     return 0;

@@ -1,5 +1,6 @@
 #pragma once
-// Where the real models for tests lie: $DEFOCUS_MODELS_DIR, else a folder beside the checkout. Tests skip where it is absent.
+// Where the real models for tests lie: $DEFOCUS_MODELS_DIR, else a folder beside the checkout. Tests skip where it is
+// absent.
 
 #include <gtest/gtest.h>
 
@@ -15,6 +16,6 @@ inline std::filesystem::path modelsDirectory() {
 
 }  // namespace defocus
 
-#define DEFOCUS_MODEL_OR_SKIP(variable, name)                                                          \
-    const std::filesystem::path variable( ::defocus::modelsDirectory() / (name));                    \
+#define DEFOCUS_MODEL_OR_SKIP(variable, name)                                    \
+    const std::filesystem::path variable(::defocus::modelsDirectory() / (name)); \
     if (!std::filesystem::exists((variable))) GTEST_SKIP() << "no model " << variable << "; set DEFOCUS_MODELS_DIR"

@@ -2,11 +2,10 @@
 // Small scenes for tests of plan and renderer: bumpy spheres and quads made here, with their pyramids.
 
 #include <cmath>
-#include <memory>
-#include <numbers>
-
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+#include <numbers>
 
 #include "lod/pyramid.h"
 #include "plan/view.h"
@@ -35,17 +34,18 @@ inline Mesh bumpySphere(int slices, int stacks, int material) {
     };
     for (int y = 0; y <= stacks; ++y)
         for (int x = 0; x < slices; ++x) {
-            mesh.vertices.positions.push_back(
-                point(std::numbers::pi * y / stacks, 2 * std::numbers::pi * x / slices));
+            mesh.vertices.positions.push_back(point(std::numbers::pi * y / stacks, 2 * std::numbers::pi * x / slices));
             mesh.vertices.colors.emplace_back(x * 255 / slices, y * 255 / stacks, (x / 4 + y / 4) % 2 * 255, 255);
         }
     Primitive primitive{material, {}};
     const auto index = [&](int x, int y) { return static_cast<std::uint32_t>(y * slices + x % slices); };
     for (int y = 0; y < stacks; ++y)
         for (int x = 0; x < slices; ++x) {
-            if (y > 0) primitive.indices.insert(primitive.indices.end(), {index(x, y), index(x + 1, y), index(x, y + 1)});
+            if (y > 0)
+                primitive.indices.insert(primitive.indices.end(), {index(x, y), index(x + 1, y), index(x, y + 1)});
             if (y < stacks - 1)
-                primitive.indices.insert(primitive.indices.end(), {index(x + 1, y), index(x + 1, y + 1), index(x, y + 1)});
+                primitive.indices.insert(primitive.indices.end(),
+                                         {index(x + 1, y), index(x + 1, y + 1), index(x, y + 1)});
         }
     mesh.vertices.normals = smoothNormals(mesh.vertices.positions, primitive.indices);
     mesh.primitives.push_back(std::move(primitive));
@@ -77,10 +77,12 @@ inline void place(SmallWorld& small, int mesh, const glm::dmat4& worldFromObject
     small.world.pose.objects.push_back(object);
 }
 
-inline void finish(SmallWorld& small) { small.world.pyramids = buildPyramids(small.scene.meshes); }
+inline void finish(SmallWorld& small) {
+    small.world.pyramids = buildPyramids(small.scene.meshes);
+}
 
-// Five rippled spheres from 1.2 to 9 m, one of them mirrored, one far outside the frame, lit by a sun and a gradient sky; f/1 at
-// 160 × 120 px focused at 3 m.
+// Five rippled spheres from 1.2 to 9 m, one of them mirrored, one far outside the frame, lit by a sun and a gradient
+// sky; f/1 at 160 × 120 px focused at 3 m.
 inline std::unique_ptr<SmallWorld> fiveSpheres() {
     auto small = std::make_unique<SmallWorld>();
     Material glossy;
@@ -100,7 +102,8 @@ inline std::unique_ptr<SmallWorld> fiveSpheres() {
     sun.light.intensity = 2;
     sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
     small->world.lights.push_back(sun);
-    small->world.environment = {EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
+    small->world.environment = {
+        EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
     small->view.lens.fStop = 1;
     small->view.lens.focusDistance = 3;
     small->view.width = 160;

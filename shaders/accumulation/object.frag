@@ -79,7 +79,7 @@ vec3 shaded(vec3 baseColor) {
     point.roughness = roughness;
     point.normal = shadingNormal();
     point.toEye = normalize(surface.toEye);
-    float nv = max(dot(point.normal, point.toEye), 1e-4);
+    float nv = dot(point.normal, point.toEye);   // may be below 0: an interpolated normal can look away
     float alpha = max(roughness * roughness, 1e-3);
     LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
     for (int i = 0; i < LIGHT_COUNT; ++i) {
@@ -94,7 +94,7 @@ vec3 shaded(vec3 baseColor) {
     }
     vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
     vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
-    return diffuse + specular + environmentLight(point, nv, occlusion);
+    return diffuse + specular + environmentLight(point, max(nv, 0.0), occlusion);
 }
 #endif
 

@@ -24,10 +24,11 @@ struct LightSums {
 void addLight(inout LightSums sums, SurfacePoint point, float nv, float alpha, vec3 toLight, vec3 illuminance) {
     float nl = max(dot(point.normal, toLight), 0.0);
     float sum2 = max(2.0 + 2.0 * dot(toLight, point.toEye), 1e-6);
-    float cosines = nl + nv;
-    float base = max(cosines * cosines * (alpha * alpha - 1.0) + sum2, 1e-7 * sum2);
+    float cosines = max(nl + nv, 0.0);
+    float base = max(cosines * cosines * (alpha * alpha - 1.0) + sum2, alpha * alpha * sum2);  // (n·h)² ≤ 1
     float lobe = alpha * sum2;
-    float specular = 0.5 * lobe * lobe / (base * base * mix(2.0 * nl * nv, cosines, alpha));
+    float masking = max(mix(2.0 * nl * nv, cosines, alpha), 1e-4);
+    float specular = nv > 0.0 ? 0.5 * lobe * lobe / (base * base * masking) : 0.0;  // an averted normal reflects nothing
     float g = 1.0 - 0.5 * sqrt(sum2);
     float g2 = g * g;
     g = g2 * g2 * g;

@@ -19,7 +19,8 @@ void Bounds::extend(const Bounds& other) {
 std::array<glm::dvec3, 8> Bounds::corners() const {
     std::array<glm::dvec3, 8> result;
     for (int i = 0; i < 8; ++i)
-        result[static_cast<std::size_t>(i)] = {(i & 1) != 0 ? maximum.x : minimum.x, (i & 2) != 0 ? maximum.y : minimum.y,
+        result[static_cast<std::size_t>(i)] = {(i & 1) != 0 ? maximum.x : minimum.x,
+                                               (i & 2) != 0 ? maximum.y : minimum.y,
                                                (i & 4) != 0 ? maximum.z : minimum.z};
     return result;
 }

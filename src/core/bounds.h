@@ -1,10 +1,9 @@
 #pragma once
 // Axis-aligned bounding box in double precision (scenes may lie 1e7 m from the origin).
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-
-#include <array>
 #include <limits>
 
 namespace defocus {

@@ -1,7 +1,7 @@
 #pragma once
-// The one exception of defocus. A runtime failure (a file, user input, a shader, the driver) throws `Error` with what was
-// being done, the file or name concerned, and what to do about it, as ONE line. Broken invariants are assertions instead;
-// a miss that callers expect is a std::optional. Only `main` catches.
+// The one exception of defocus. A runtime failure (a file, user input, a shader, the driver) throws `Error` with what
+// was being done, the file or name concerned, and what to do about it, as ONE line. Broken invariants are assertions
+// instead; a miss that callers expect is a std::optional. Only `main` catches.
 
 #include <fmt/format.h>
 

@@ -18,11 +18,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string reason(int code) { return std::generic_category().message(code); }
+std::string reason(int code) {
+    return std::generic_category().message(code);
+}
 
 using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-FileHandle openFile(const fs::path& path, const char* mode) { return {std::fopen(path.c_str(), mode), &std::fclose}; }
+FileHandle openFile(const fs::path& path, const char* mode) {
+    return {std::fopen(path.c_str(), mode), &std::fclose};
+}
 
 }  // namespace
 
@@ -48,13 +52,15 @@ void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
     pending.commit();
 }
 
-void writeFile(const fs::path& path, std::string_view text) { writeFile(path, std::as_bytes(std::span(text))); }
+void writeFile(const fs::path& path, std::string_view text) {
+    writeFile(path, std::as_bytes(std::span(text)));
+}
 
 PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
     static std::atomic<unsigned> counter = 0;
     temporary_ = target_;
-    temporary_.replace_filename(fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++,
-                                            target_.extension().string()));
+    temporary_.replace_filename(
+        fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++, target_.extension().string()));
 }
 
 PendingFile::~PendingFile() {

@@ -1,6 +1,6 @@
 #pragma once
-// Whole-file reads and writes that never leave half a file: data goes to a temporary name beside the target and is renamed
-// over it once complete, so a crash or a full disk destroys nothing.
+// Whole-file reads and writes that never leave half a file: data goes to a temporary name beside the target and is
+// renamed over it once complete, so a crash or a full disk destroys nothing.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,8 +17,8 @@ std::vector<std::byte> readFile(const std::filesystem::path& path);
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFile(const std::filesystem::path& path, std::string_view text);
 
-// A temporary name beside `target` with the same extension, for writers (image libraries) that need a path of their own.
-// The temporary file is removed on destruction unless `commit()` has renamed it over the target.
+// A temporary name beside `target` with the same extension, for writers (image libraries) that need a path of their
+// own. The temporary file is removed on destruction unless `commit()` has renamed it over the target.
 class PendingFile {
 public:
     explicit PendingFile(std::filesystem::path target);
@@ -36,8 +36,8 @@ private:
     bool committed_ = false;
 };
 
-// Throws Error now if a file cannot be created at `path` (no folder, no permission, a directory), so that long work doesn't
-// end in a write failure.
+// Throws Error now if a file cannot be created at `path` (no folder, no permission, a directory), so that long work
+// doesn't end in a write failure.
 void checkWritable(const std::filesystem::path& path);
 
 }  // namespace defocus

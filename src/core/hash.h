@@ -1,9 +1,9 @@
 #pragma once
 // 64-bit FNV-1a (Fowler, Noll, Vo), eight bytes a step for bulk data; for cache keys and settings, not for security.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <cstddef>
 
 namespace defocus {
 

@@ -1,6 +1,6 @@
 #pragma once
-// How long work reports where it stands. An empty function means nobody listens. May be called from several threads' work,
-// but never from two threads at once.
+// How long work reports where it stands. An empty function means nobody listens. May be called from several threads'
+// work, but never from two threads at once.
 
 #include <cstdint>
 #include <functional>

@@ -10,7 +10,8 @@ Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(bytes) {
     GLuint name = 0;
     glCreateBuffers(1, &name);
     handle_ = GlHandle<destroyBuffer>(name);
-    while (glGetError() != GL_NO_ERROR) {}
+    while (glGetError() != GL_NO_ERROR) {
+    }
     glNamedBufferStorage(name, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 1)), bytes > 0 ? data : nullptr,
                          GL_DYNAMIC_STORAGE_BIT);
     if (glGetError() != GL_NO_ERROR) fail("graphics memory: a buffer of {} bytes cannot be had", bytes);
@@ -34,9 +35,12 @@ void VertexArray::attribute(GLuint location, GLint components, GLenum type, bool
 }
 
 void VertexArray::bind(GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride) {
-    glVertexArrayVertexBuffer(name(), location, buffer.name(), static_cast<GLintptr>(offset), static_cast<GLsizei>(stride));
+    glVertexArrayVertexBuffer(name(), location, buffer.name(), static_cast<GLintptr>(offset),
+                              static_cast<GLsizei>(stride));
 }
 
-void VertexArray::indices(const Buffer& buffer) { glVertexArrayElementBuffer(name(), buffer.name()); }
+void VertexArray::indices(const Buffer& buffer) {
+    glVertexArrayElementBuffer(name(), buffer.name());
+}
 
 }  // namespace defocus

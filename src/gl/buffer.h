@@ -33,8 +33,8 @@ private:
 class VertexArray {
 public:
     VertexArray();
-    // Attribute `location` reads `components` values of GL type `type` from binding point `location`; integers are normalised
-    // to [0, 1] or [−1, 1] where asked. With `perInstance` it advances once an instance.
+    // Attribute `location` reads `components` values of GL type `type` from binding point `location`; integers are
+    // normalised to [0, 1] or [−1, 1] where asked. With `perInstance` it advances once an instance.
     void attribute(GLuint location, GLint components, GLenum type, bool normalized, bool perInstance = false);
     // Attaches a buffer to the binding point of `location`, from byte `offset`, `stride` bytes a vertex.
     void bind(GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride);

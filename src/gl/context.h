@@ -1,6 +1,6 @@
 #pragma once
-// A current OpenGL 4.5 core context without a window, through EGL: device enumeration first (GPUs before software), then the
-// surfaceless platform, then the default display. Every step that failed keeps its reason.
+// A current OpenGL 4.5 core context without a window, through EGL: device enumeration first (GPUs before software),
+// then the surfaceless platform, then the default display. Every step that failed keeps its reason.
 
 #include <memory>
 #include <string>

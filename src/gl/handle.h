@@ -30,11 +30,23 @@ private:
     GLuint name_ = 0;
 };
 
-inline void destroyBuffer(GLuint name) { glDeleteBuffers(1, &name); }
-inline void destroyTexture(GLuint name) { glDeleteTextures(1, &name); }
-inline void destroyFramebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-inline void destroyVertexArray(GLuint name) { glDeleteVertexArrays(1, &name); }
-inline void destroyProgram(GLuint name) { glDeleteProgram(name); }
-inline void destroyQuery(GLuint name) { glDeleteQueries(1, &name); }
+inline void destroyBuffer(GLuint name) {
+    glDeleteBuffers(1, &name);
+}
+inline void destroyTexture(GLuint name) {
+    glDeleteTextures(1, &name);
+}
+inline void destroyFramebuffer(GLuint name) {
+    glDeleteFramebuffers(1, &name);
+}
+inline void destroyVertexArray(GLuint name) {
+    glDeleteVertexArrays(1, &name);
+}
+inline void destroyProgram(GLuint name) {
+    glDeleteProgram(name);
+}
+inline void destroyQuery(GLuint name) {
+    glDeleteQueries(1, &name);
+}
 
 }  // namespace defocus

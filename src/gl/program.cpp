@@ -37,7 +37,8 @@ std::string sourceOf(const std::string& path, const std::filesystem::path& overr
 }
 
 // `including` holds the files on the way down to this one.
-std::string expanded(const std::string& path, const std::filesystem::path& overrideFolder, std::set<std::string>& including) {
+std::string expanded(const std::string& path, const std::filesystem::path& overrideFolder,
+                     std::set<std::string>& including) {
     if (!including.insert(path).second) fail("shader {}: includes itself", path);
     std::istringstream source(sourceOf(path, overrideFolder));
     std::string result;
@@ -50,7 +51,8 @@ std::string expanded(const std::string& path, const std::filesystem::path& overr
         }
         const std::size_t end = line.find('"', directive.size());
         if (end == std::string::npos) fail("shader {}:{}: an #include without its closing quote", path, number);
-        result += "#line 1\n" + expanded(line.substr(directive.size(), end - directive.size()), overrideFolder, including) +
+        result += "#line 1\n" +
+                  expanded(line.substr(directive.size(), end - directive.size()), overrideFolder, including) +
                   fmt::format("#line {}\n", number + 1);
     }
     including.erase(path);
@@ -84,7 +86,8 @@ GLuint compiled(const std::string& path, const ProgramInfo& info) {
 
 }  // namespace
 
-std::string shaderText(const std::string& path, const ShaderDefines& defines, const std::filesystem::path& overrideFolder) {
+std::string shaderText(const std::string& path, const ShaderDefines& defines,
+                       const std::filesystem::path& overrideFolder) {
     std::set<std::string> including;
     std::string text = "#version 450 core\n";
     for (const auto& [name, value] : defines) text += fmt::format("#define {} {}\n", name, value);

@@ -1,8 +1,8 @@
 #pragma once
 // A linked shader program. Sources come from the shaders embedded in the library, or from a folder that overrides them.
 //
-// `#include "path"` (relative to shaders/) is resolved here, each time it stands. Every `#line` keeps the file's own line
-// numbers, so that the driver's log can be read.
+// `#include "path"` (relative to shaders/) is resolved here, each time it stands. Every `#line` keeps the file's own
+// line numbers, so that the driver's log can be read.
 
 #include <filesystem>
 #include <string>
@@ -16,7 +16,7 @@ namespace defocus {
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
 struct ProgramInfo {
-    std::vector<std::string> shaders;      // paths under shaders/; the extension names the stage: .vert .geom .frag .comp
+    std::vector<std::string> shaders;  // paths under shaders/; the extension names the stage: .vert .geom .frag .comp
     ShaderDefines defines;
     std::filesystem::path overrideFolder;  // empty: the embedded shaders only
 };
@@ -36,7 +36,8 @@ private:
 };
 
 // The text of a shader with includes and defines in place (for tests and messages).
-std::string shaderText(const std::string& path, const ShaderDefines& defines, const std::filesystem::path& overrideFolder);
+std::string shaderText(const std::string& path, const ShaderDefines& defines,
+                       const std::filesystem::path& overrideFolder);
 
 // Whether the vertex shader may write gl_Layer (ARB_shader_viewport_layer_array or AMD_vertex_shader_layer).
 bool vertexShaderMayPickLayer();

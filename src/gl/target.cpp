@@ -10,11 +10,16 @@ namespace {
 
 const char* inWords(GLenum status) {
     switch (status) {
-        case GL_FRAMEBUFFER_UNSUPPORTED: return "the driver does not render to this combination of formats";
-        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT: return "an attachment cannot be rendered to";
-        case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS: return "the attachments differ in their layers";
-        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT: return "it has no attachment";
-        default: return "it is incomplete";
+        case GL_FRAMEBUFFER_UNSUPPORTED:
+            return "the driver does not render to this combination of formats";
+        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+            return "an attachment cannot be rendered to";
+        case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
+            return "the attachments differ in their layers";
+        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+            return "it has no attachment";
+        default:
+            return "it is incomplete";
     }
 }
 

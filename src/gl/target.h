@@ -1,6 +1,6 @@
 #pragma once
-// A framebuffer over textures that it doesn't own: colour attachments in order and an optional depth texture. Array textures
-// are attached with all their layers (gl_Layer picks one).
+// A framebuffer over textures that it doesn't own: colour attachments in order and an optional depth texture. Array
+// textures are attached with all their layers (gl_Layer picks one).
 
 #include <initializer_list>
 

@@ -18,13 +18,20 @@ struct FormatRow {
 
 FormatRow row(TextureFormat format) {
     switch (format) {
-        case TextureFormat::r32f: return {GL_R32F, GL_RED, GL_FLOAT, 4};
-        case TextureFormat::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-        case TextureFormat::rgba16f: return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 8};
-        case TextureFormat::rgba8: return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
-        case TextureFormat::srgb8Alpha8: return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
-        case TextureFormat::r32ui: return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
-        case TextureFormat::depth32f: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+        case TextureFormat::r32f:
+            return {GL_R32F, GL_RED, GL_FLOAT, 4};
+        case TextureFormat::rgba32f:
+            return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+        case TextureFormat::rgba16f:
+            return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 8};
+        case TextureFormat::rgba8:
+            return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+        case TextureFormat::srgb8Alpha8:
+            return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+        case TextureFormat::r32ui:
+            return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+        case TextureFormat::depth32f:
+            return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
     }
     return {};
 }
@@ -39,7 +46,8 @@ GlTexture::GlTexture(const TextureInfo& info) : info_(info) {
     GLuint name = 0;
     glCreateTextures(info.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &name);
     handle_ = GlHandle<destroyTexture>(name);
-    while (glGetError() != GL_NO_ERROR) {}
+    while (glGetError() != GL_NO_ERROR) {
+    }
     const GLenum format = row(info.format).internal;
     if (info.layers > 0)
         glTextureStorage3D(name, info.levels, format, info.width, info.height, info.layers);
@@ -57,7 +65,9 @@ void GlTexture::upload(int level, int width, int height, const void* pixels) {
     glTextureSubImage2D(name(), level, 0, 0, width, height, format.upload, format.type, pixels);
 }
 
-void GlTexture::generateMipmaps() { glGenerateTextureMipmap(name()); }
+void GlTexture::generateMipmaps() {
+    glGenerateTextureMipmap(name());
+}
 
 void GlTexture::sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenum wrapT) {
     glTextureParameteri(name(), GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minFilter));
@@ -79,6 +89,8 @@ int mipmapLevels(int width, int height) {
     return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max({width, height, 1}))));
 }
 
-std::size_t pixelBytes(TextureFormat format) { return row(format).bytes; }
+std::size_t pixelBytes(TextureFormat format) {
+    return row(format).bytes;
+}
 
 }  // namespace defocus

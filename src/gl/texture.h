@@ -8,7 +8,11 @@
 namespace defocus {
 
 enum class TextureFormat {
-    r32f, rgba32f, rgba16f, rgba8, srgb8Alpha8,
+    r32f,
+    rgba32f,
+    rgba16f,
+    rgba8,
+    srgb8Alpha8,
     r32ui,  // integer: 32 packed bits
     depth32f,
 };
@@ -17,8 +21,8 @@ struct TextureInfo {
     TextureFormat format = TextureFormat::rgba32f;
     int width = 1;
     int height = 1;
-    int layers = 0;   // 0: a 2D texture; ≥ 1: a 2D array
-    int levels = 1;   // mipmap levels
+    int layers = 0;  // 0: a 2D texture; ≥ 1: a 2D array
+    int levels = 1;  // mipmap levels
 };
 
 class GlTexture {

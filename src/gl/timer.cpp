@@ -9,7 +9,9 @@ void GpuTimer::begin() {
     glBeginQuery(GL_TIME_ELAPSED, name);
 }
 
-void GpuTimer::end() { glEndQuery(GL_TIME_ELAPSED); }
+void GpuTimer::end() {
+    glEndQuery(GL_TIME_ELAPSED);
+}
 
 double GpuTimer::milliseconds() {
     for (const auto& query : pending_) {

@@ -1,5 +1,5 @@
-// Jeong, Kim, Lee 2011, Multi-Resolution Depth-of-Field Rendering; Munkberg, Toth, Akenine-Möller 2012, Per-Vertex Defocus
-// Blur for Stochastic Rasterization (C with the opposite sign).
+// Jeong, Kim, Lee 2011, Multi-Resolution Depth-of-Field Rendering; Munkberg, Toth, Akenine-Möller 2012, Per-Vertex
+// Defocus Blur for Stochastic Rasterization (C with the opposite sign).
 
 #include "lens/lens.h"
 
@@ -16,7 +16,8 @@ namespace {
 constexpr double millimetre = 1e-3;
 
 void requirePositive(double value, const char* name, const char* unit) {
-    if (!(value > 0) || !std::isfinite(value)) fail("lens: {} must be a finite number above 0{}, not {}", name, unit, value);
+    if (!(value > 0) || !std::isfinite(value))
+        fail("lens: {} must be a finite number above 0{}, not {}", name, unit, value);
 }
 
 // Distance from the lens to the sensor, mm: the focal length, or the image distance f·s/(s − f) of the thin lens.
@@ -40,11 +41,13 @@ void checkLens(const Lens& lens) {
     if (lens.bladeCount != 0 && (lens.bladeCount < 3 || lens.bladeCount > 64))
         fail("lens: the blade count must be 0 (a disk) or 3 to 64, not {}", lens.bladeCount);
     if (lens.focusBreathing && lens.focusDistance <= lens.focalLength * millimetre)
-        fail("lens: with focus breathing the focus distance ({} m) must be beyond the focal length ({} mm)", lens.focusDistance,
-             lens.focalLength);
+        fail("lens: with focus breathing the focus distance ({} m) must be beyond the focal length ({} mm)",
+             lens.focusDistance, lens.focalLength);
 }
 
-double tanHalfHorizontalFov(const Lens& lens) { return lens.horizontalAperture / (2 * imageDistance(lens)); }
+double tanHalfHorizontalFov(const Lens& lens) {
+    return lens.horizontalAperture / (2 * imageDistance(lens));
+}
 
 double apertureDiameter(const Lens& lens) {
     return lens.dofEnabled ? lens.blurScale * lens.focalLength * millimetre / lens.fStop : 0;

@@ -2,7 +2,8 @@
 // A lens in the words of photographers, USD and Blender, and what an off-axis graphics camera makes of it.
 //
 // With A the aperture diameter and s the focus distance (m), a point at depth z is blurred to a disk of diameter
-//   c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2))  pixels                                          (circle of confusion, CoC)
+//   c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2))  pixels                                          (circle of confusion,
+//   CoC)
 // In clip space the image of a point moves by C(w)·(u, k·v) for a lens point (u, v) of the unit disk, k = W/H:
 //   C(w) = a + b·w,  a = −(A/2)/tan(θx/2),  b = −a/s;   c = |C/w|·W
 // This is Munkberg, Toth and Akenine-Möller 2012 with the opposite sign of C: here C > 0 behind the focus plane.
@@ -10,24 +11,24 @@
 namespace defocus {
 
 struct Lens {
-    double focalLength = 50;          // mm
-    double fStop = 2.8;               // f-number, > 0
-    double focusDistance = 2.5;       // m from the camera, along the view axis, > 0 (infinity is allowed)
-    double horizontalAperture = 36;   // mm, sensor width
-    int bladeCount = 0;               // 0: a disk, else a polygon of 3 or more blades
-    double bladeRotation = 0;         // radians
-    double anamorphicRatio = 1;       // > 1 narrows the aperture horizontally (tall ovals)
-    bool dofEnabled = true;           // false: a pinhole, whatever the f-number
-    double blurScale = 1;             // 1 is physical; ≥ 0
-    bool focusBreathing = false;      // true: textbook thin lens, the field of view narrows as the focus comes nearer
+    double focalLength = 50;         // mm
+    double fStop = 2.8;              // f-number, > 0
+    double focusDistance = 2.5;      // m from the camera, along the view axis, > 0 (infinity is allowed)
+    double horizontalAperture = 36;  // mm, sensor width
+    int bladeCount = 0;              // 0: a disk, else a polygon of 3 or more blades
+    double bladeRotation = 0;        // radians
+    double anamorphicRatio = 1;      // > 1 narrows the aperture horizontally (tall ovals)
+    bool dofEnabled = true;          // false: a pinhole, whatever the f-number
+    double blurScale = 1;            // 1 is physical; ≥ 0
+    bool focusBreathing = false;     // true: textbook thin lens, the field of view narrows as the focus comes nearer
 };
 
-// Throws Error naming the value that makes an impossible lens (NaN, fStop ≤ 0, blades 1 or 2, focus inside the focal length with
-// focus breathing …).
+// Throws Error naming the value that makes an impossible lens (NaN, fStop ≤ 0, blades 1 or 2, focus inside the focal
+// length with focus breathing …).
 void checkLens(const Lens& lens);
 
-double tanHalfHorizontalFov(const Lens& lens);             // tan(θx/2); follows the focus with focusBreathing
-double apertureDiameter(const Lens& lens);                 // A in m, blurScale included; 0 without depth of field
+double tanHalfHorizontalFov(const Lens& lens);  // tan(θx/2); follows the focus with focusBreathing
+double apertureDiameter(const Lens& lens);      // A in m, blurScale included; 0 without depth of field
 double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture);  // mm; inverse of tanHalfHorizontalFov
 
 // C(w) = a + b·w in clip space (w: depth in m).

@@ -1,4 +1,5 @@
-// van der Corput 1935 and Halton 1960 (radical inverse); Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
+// van der Corput 1935 and Halton 1960 (radical inverse); Shirley and Chiu 1997, A Low Distortion Map Between Disk and
+// Square.
 
 #include "lens/lens_samples.h"
 
@@ -14,7 +15,9 @@ namespace {
 constexpr std::array<std::uint32_t, 4> bases = {2, 3, 5, 7};  // lens r, lens s, pixel x, pixel y
 constexpr double beforeOne = 1.0 - 0x1p-32;
 
-double fraction(double value) { return std::min(value - std::floor(value), beforeOne); }
+double fraction(double value) {
+    return std::min(value - std::floor(value), beforeOne);
+}
 
 // A well mixed 32-bit value of (seed, dimension), as a shift in [0, 1); seed 0 shifts by nothing.
 double seedShift(std::uint32_t seed, std::uint32_t dimension) {
@@ -64,13 +67,14 @@ glm::dvec2 concentricDisk(const glm::dvec2& square) {
 glm::dvec2 apertureSample(const Lens& lens, const glm::dvec2& square) {
     glm::dvec2 point = concentricDisk(square);
     if (lens.bladeCount >= 3) {
-        // The disk point's angle and area fraction pick the blade and the place in it, so that the centre stays the centre and
-        // the sequence stays well spread.
+        // The disk point's angle and area fraction pick the blade and the place in it, so that the centre stays the
+        // centre and the sequence stays well spread.
         const double blades = lens.bladeCount;
         const double turn = fraction(std::atan2(point.y, point.x) / (2 * std::numbers::pi)) * blades;
         const double blade = std::floor(turn);
         const double width = 2 * std::numbers::pi / blades;
-        point = bladePoint(blade * width + lens.bladeRotation, width, point.x * point.x + point.y * point.y, turn - blade);
+        point =
+            bladePoint(blade * width + lens.bladeRotation, width, point.x * point.x + point.y * point.y, turn - blade);
     }
     const double ratio = lens.anamorphicRatio;
     return {ratio > 1 ? point.x / ratio : point.x, ratio < 1 ? point.y * ratio : point.y};

@@ -10,8 +10,8 @@ namespace defocus {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 2.0};    // px of edge at 64 samples
-constexpr LodThresholds referenceError{0.02, 0.1};   // px of deviation at 64 samples
+constexpr LodThresholds referenceSize{0.25, 2.0};   // px of edge at 64 samples
+constexpr LodThresholds referenceError{0.02, 0.1};  // px of deviation at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
 

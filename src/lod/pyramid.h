@@ -2,8 +2,8 @@
 // Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
 //
 // All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
-// together), so level l uses the prefix [0, vertexCount[l]). Only normals and colours differ between levels: each has its
-// own, re-averaged for its triangles.
+// together), so level l uses the prefix [0, vertexCount[l]). Only normals and colours differ between levels: each has
+// its own, re-averaged for its triangles.
 
 #include <cstdint>
 #include <string>

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 
 #include "core/error.h"
 
@@ -30,11 +29,13 @@ void checkRequest(const View& view, const RenderSettings& settings) {
 }
 
 double largestScale(const glm::dmat4& matrix) {
-    return std::max({glm::length(glm::dvec3(matrix[0])), glm::length(glm::dvec3(matrix[1])), glm::length(glm::dvec3(matrix[2]))});
+    return std::max(
+        {glm::length(glm::dvec3(matrix[0])), glm::length(glm::dvec3(matrix[1])), glm::length(glm::dvec3(matrix[2]))});
 }
 
-// No lens sample sees any of the box: all corners lie outside one plane of the frustum widened by the lens. For the left plane a
-// point is outside while x/tan + w + |C(w)| < 0 (half a pixel added for the jitter); |C| is convex, so corners bound it.
+// No lens sample sees any of the box: all corners lie outside one plane of the frustum widened by the lens. For the
+// left plane a point is outside while x/tan + w + |C(w)| < 0 (half a pixel added for the jitter); |C| is convex, so
+// corners bound it.
 bool outsideWidenedFrustum(const Bounds& viewBox, const View& view, double tanX, double tanY,
                            const ClipCircleOfConfusion& coc) {
     bool outside[5] = {true, true, true, true, true};
@@ -68,7 +69,8 @@ bool hasBlending(const Scene& scene, const Mesh& mesh) {
 bool hasTextures(const Scene& scene, const Mesh& mesh) {
     return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& primitive) {
         const Material& m = materialOf(scene, primitive);
-        return m.baseColor.used() || m.metallicRoughness.used() || m.normal.used() || m.occlusion.used() || m.emissive.used();
+        return m.baseColor.used() || m.metallicRoughness.used() || m.normal.used() || m.occlusion.used() ||
+               m.emissive.used();
     });
 }
 
@@ -126,7 +128,8 @@ std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const Ob
     if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
     if (plan.settings.keepAll) return "";
     const Bounds box = transformed(pyramid.bounds, object.viewFromObject);
-    if (outsideWidenedFrustum(box, plan.view, plan.tanHalfHorizontal, tanY, plan.coc)) return "no lens sample can see it";
+    if (outsideWidenedFrustum(box, plan.view, plan.tanHalfHorizontal, tanY, plan.coc))
+        return "no lens sample can see it";
     return "";
 }
 
@@ -143,9 +146,10 @@ double largestBlur(const FramePlan& plan, const World& world) {
 void leaveOutLens(FramePlan& plan, const World& world) {
     const double blur = largestBlur(plan, world);
     if (plan.settings.keepAll || blur >= leastBlur) return;
-    plan.leftOut.push_back({"lens samples", fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} antialiasing "
-                                                        "samples remain",
-                                                        blur, std::min(plan.settings.sampleCount, antialiasingSamples))});
+    plan.leftOut.push_back(
+        {"lens samples", fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} antialiasing "
+                                     "samples remain",
+                                     blur, std::min(plan.settings.sampleCount, antialiasingSamples))});
     plan.usesLens = false;
     plan.coc = {};
     plan.apertureDiameter = 0;
@@ -182,13 +186,16 @@ void noteLevels(FramePlan& plan, const World& world) {
             if (draw.sampleCount > 0) used[draw.level] = true;
             plan.trianglesDrawn += std::uint64_t{draw.triangleCount} * draw.sampleCount;
         }
-        plan.trianglesAtFullDetail += std::uint64_t{world.pyramids[static_cast<std::size_t>(object.mesh)].levels[0].triangleCount} *
-                                      plan.samples.size();
+        plan.trianglesAtFullDetail +=
+            std::uint64_t{world.pyramids[static_cast<std::size_t>(object.mesh)].levels[0].triangleCount} *
+            plan.samples.size();
         whole += object.coarse.sampleCount == 0 ? 1 : 0;
     }
-    for (const auto& used : plan.levelsUsed) kept += static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
+    for (const auto& used : plan.levelsUsed)
+        kept += static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
     if (kept < all)
-        plan.leftOut.push_back({fmt::format("{} of {} pyramid levels", all - kept, all), "no sample of this frame draws them"});
+        plan.leftOut.push_back(
+            {fmt::format("{} of {} pyramid levels", all - kept, all), "no sample of this frame draws them"});
     if (whole > 0 && plan.settings.lod == LodMode::fractional)
         plan.leftOut.push_back({fmt::format("sample split of {} object(s)", whole), "their level is whole"});
 }

@@ -1,10 +1,9 @@
 #pragma once
-// FramePlan: everything decided about a frame before a GL call is made, as plain data that can be printed, tested and compared
-// without a GPU. A renderer only executes it.
-
-#include <glm/mat4x4.hpp>
+// FramePlan: everything decided about a frame before a GL call is made, as plain data that can be printed, tested and
+// compared without a GPU. A renderer only executes it.
 
 #include <cstdint>
+#include <glm/mat4x4.hpp>
 #include <string>
 #include <vector>
 
@@ -16,29 +15,29 @@ namespace defocus {
 // A level of an object and the lens samples that draw it.
 struct LevelDraw {
     std::uint32_t level = 0;
-    std::uint32_t firstSample = 0;    // into FramePlan::samples
+    std::uint32_t firstSample = 0;  // into FramePlan::samples
     std::uint32_t sampleCount = 0;
     std::uint32_t triangleCount = 0;  // of the level, all primitives
 };
 
 struct ObjectPlan {
-    int object = -1;                  // into World::pose.objects
+    int object = -1;  // into World::pose.objects
     int mesh = -1;
     std::string name;
-    glm::dmat4 viewFromObject{1.0};   // camera-relative, composed in double
-    double nearestDepth = 0;          // m, of the bounding box; ≤ near plane when the box reaches it
-    double farthestDepth = 0;         // m
-    CocRange coc;                     // px, over the box
-    double projectedEdge = 0;         // mean edge of level 0 in px at the nearest depth
-    double lambda = 0;                // fractional level
-    LevelDraw coarse;                 // samples [0, n) at level ⌊λ⌋ + 1; none when λ is whole
-    LevelDraw fine;                   // samples [n, N) at level ⌊λ⌋
-    bool mirrored = false;            // the transform flips winding
-    bool blended = false;             // has alpha-blended primitives
+    glm::dmat4 viewFromObject{1.0};  // camera-relative, composed in double
+    double nearestDepth = 0;         // m, of the bounding box; ≤ near plane when the box reaches it
+    double farthestDepth = 0;        // m
+    CocRange coc;                    // px, over the box
+    double projectedEdge = 0;        // mean edge of level 0 in px at the nearest depth
+    double lambda = 0;               // fractional level
+    LevelDraw coarse;                // samples [0, n) at level ⌊λ⌋ + 1; none when λ is whole
+    LevelDraw fine;                  // samples [n, N) at level ⌊λ⌋
+    bool mirrored = false;           // the transform flips winding
+    bool blended = false;            // has alpha-blended primitives
 };
 
 struct LeftOut {
-    std::string what;                 // "object Fish 3", "lens samples", "texture path", …
+    std::string what;  // "object Fish 3", "lens samples", "texture path", …
     std::string reason;
 };
 
@@ -46,13 +45,13 @@ struct FramePlan {
     View view;
     RenderSettings settings;
     double tanHalfHorizontal = 0;
-    double apertureDiameter = 0;              // m; 0 when the lens is left out
+    double apertureDiameter = 0;  // m; 0 when the lens is left out
     ClipCircleOfConfusion coc;
-    std::vector<LensSample> samples;          // those that are drawn, in order
-    std::vector<ObjectPlan> objects;          // those that are drawn, front to back
+    std::vector<LensSample> samples;  // those that are drawn, in order
+    std::vector<ObjectPlan> objects;  // those that are drawn, front to back
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // per mesh and level: does any object draw it
-    bool usesLens = true;                     // false: nothing is blurred by half a pixel, only antialiasing samples
+    bool usesLens = true;                       // false: nothing is blurred by half a pixel, only antialiasing samples
     bool usesTextures = false;
     bool usesBlending = false;
     bool needsAlpha = false;                  // transparent background: the accumulation keeps coverage

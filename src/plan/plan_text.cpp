@@ -12,7 +12,9 @@ namespace {
 
 using nlohmann::json;
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json number(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
 
 json drawJson(const LevelDraw& draw) {
     return {{"level", draw.level},
@@ -40,9 +42,12 @@ json objectJson(const ObjectPlan& object) {
 
 const char* name(LodMode mode) {
     switch (mode) {
-        case LodMode::fractional: return "fractional";
-        case LodMode::nearest: return "nearest";
-        case LodMode::off: return "off";
+        case LodMode::fractional:
+            return "fractional";
+        case LodMode::nearest:
+            return "nearest";
+        case LodMode::off:
+            return "off";
     }
     return "";
 }
@@ -60,19 +65,23 @@ std::string planTable(const FramePlan& plan) {
         "{} x {} px, {} samples, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
         "level of detail: {}, {} metric, blur threshold {:.4g}, size threshold {:.4g} px\n\n",
         plan.view.width, plan.view.height, plan.samples.size(), lens.focalLength, lens.fStop, lens.focusDistance,
-        plan.apertureDiameter * 1000, name(plan.settings.lod), plan.settings.metric == LodMetric::size ? "size" : "error",
-        plan.settings.thresholds.blur, plan.settings.thresholds.size);
+        plan.apertureDiameter * 1000, name(plan.settings.lod),
+        plan.settings.metric == LodMetric::size ? "size" : "error", plan.settings.thresholds.blur,
+        plan.settings.thresholds.size);
     std::size_t width = 6;
     for (const ObjectPlan& object : plan.objects) width = std::max(width, object.name.size());
-    text += fmt::format("{:{}}  {:>17}  {:>17}  {:>7}  {:>6}  {:<24}  {}\n", "object", width, "depth m", "CoC px", "edge px",
-                        "level", "coarse (first samples)", "fine (the rest)");
+    text += fmt::format("{:{}}  {:>17}  {:>17}  {:>7}  {:>6}  {:<24}  {}\n", "object", width, "depth m", "CoC px",
+                        "edge px", "level", "coarse (first samples)", "fine (the rest)");
     for (const ObjectPlan& object : plan.objects)
-        text += fmt::format("{:{}}  {:>8.3f} {:>8.3f}  {:>8.2f} {:>8.2f}  {:>7.2f}  {:>6.2f}  {:<24}  {}\n", object.name, width,
-                            object.nearestDepth, object.farthestDepth, object.coc.nearest, object.coc.farthest,
-                            object.projectedEdge, object.lambda, drawText(object.coarse), drawText(object.fine));
-    const double ratio = plan.trianglesDrawn > 0 ? static_cast<double>(plan.trianglesAtFullDetail) / static_cast<double>(plan.trianglesDrawn) : 1;
-    text += fmt::format("\n{} triangles in all samples; {} at full detail ({:.1f} times as many)\n", plan.trianglesDrawn,
-                        plan.trianglesAtFullDetail, ratio);
+        text +=
+            fmt::format("{:{}}  {:>8.3f} {:>8.3f}  {:>8.2f} {:>8.2f}  {:>7.2f}  {:>6.2f}  {:<24}  {}\n", object.name,
+                        width, object.nearestDepth, object.farthestDepth, object.coc.nearest, object.coc.farthest,
+                        object.projectedEdge, object.lambda, drawText(object.coarse), drawText(object.fine));
+    const double ratio = plan.trianglesDrawn > 0 ? static_cast<double>(plan.trianglesAtFullDetail) /
+                                                       static_cast<double>(plan.trianglesDrawn)
+                                                 : 1;
+    text += fmt::format("\n{} triangles in all samples; {} at full detail ({:.1f} times as many)\n",
+                        plan.trianglesDrawn, plan.trianglesAtFullDetail, ratio);
     if (!plan.leftOut.empty()) text += "\nleft out\n";
     for (const LeftOut& entry : plan.leftOut) text += fmt::format("  {}: {}\n", entry.what, entry.reason);
     return text;
@@ -84,24 +93,23 @@ std::string planJson(const FramePlan& plan) {
     for (const ObjectPlan& object : plan.objects) objects.push_back(objectJson(object));
     json leftOut = json::array();
     for (const LeftOut& entry : plan.leftOut) leftOut.push_back({{"what", entry.what}, {"reason", entry.reason}});
-    const json document = {
-        {"image", {{"width", plan.view.width}, {"height", plan.view.height}}},
-        {"lens",
-         {{"focalLength", lens.focalLength},
-          {"fStop", lens.fStop},
-          {"focusDistance", number(lens.focusDistance)},
-          {"horizontalAperture", lens.horizontalAperture},
-          {"apertureDiameter", plan.apertureDiameter},
-          {"used", plan.usesLens}}},
-        {"samples", plan.samples.size()},
-        {"lod",
-         {{"mode", name(plan.settings.lod)},
-          {"metric", plan.settings.metric == LodMetric::size ? "size" : "error"},
-          {"blurThreshold", plan.settings.thresholds.blur},
-          {"sizeThreshold", plan.settings.thresholds.size}}},
-        {"objects", std::move(objects)},
-        {"leftOut", std::move(leftOut)},
-        {"triangles", {{"drawn", plan.trianglesDrawn}, {"fullDetail", plan.trianglesAtFullDetail}}}};
+    const json document = {{"image", {{"width", plan.view.width}, {"height", plan.view.height}}},
+                           {"lens",
+                            {{"focalLength", lens.focalLength},
+                             {"fStop", lens.fStop},
+                             {"focusDistance", number(lens.focusDistance)},
+                             {"horizontalAperture", lens.horizontalAperture},
+                             {"apertureDiameter", plan.apertureDiameter},
+                             {"used", plan.usesLens}}},
+                           {"samples", plan.samples.size()},
+                           {"lod",
+                            {{"mode", name(plan.settings.lod)},
+                             {"metric", plan.settings.metric == LodMetric::size ? "size" : "error"},
+                             {"blurThreshold", plan.settings.thresholds.blur},
+                             {"sizeThreshold", plan.settings.thresholds.size}}},
+                           {"objects", std::move(objects)},
+                           {"leftOut", std::move(leftOut)},
+                           {"triangles", {{"drawn", plan.trianglesDrawn}, {"fullDetail", plan.trianglesAtFullDetail}}}};
     return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

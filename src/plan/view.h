@@ -1,9 +1,8 @@
 #pragma once
 // A view: from where, through which lens, at which size a posed scene is rendered.
 
-#include <glm/mat4x4.hpp>
-
 #include <cstdint>
+#include <glm/mat4x4.hpp>
 #include <string>
 #include <vector>
 
@@ -18,20 +17,20 @@ namespace defocus {
 struct View {
     glm::dmat4 worldFromCamera{1.0};  // rigid; the camera looks along its −z
     Lens lens;
-    double nearPlane = 0.01;          // m, > 0
-    int width = 1024;                 // px
-    int height = 768;                 // px
+    double nearPlane = 0.01;  // m, > 0
+    int width = 1024;         // px
+    int height = 768;         // px
 };
 
 struct RenderSettings {
-    std::uint32_t sampleCount = 64;   // 1 … 65,536
+    std::uint32_t sampleCount = 64;  // 1 … 65,536
     std::uint32_t seed = 0;
-    std::uint32_t firstSample = 0;    // offset into the sequence (a reference takes its own)
+    std::uint32_t firstSample = 0;  // offset into the sequence (a reference takes its own)
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::size;
-    bool lodCocAtCentre = false;      // c at the box's centre (the paper) instead of the smallest over the box
-    LodThresholds thresholds;         // see defaultThresholds
-    bool keepAll = false;             // leave nothing out: the image must be the same
+    bool lodCocAtCentre = false;  // c at the box's centre (the paper) instead of the smallest over the box
+    LodThresholds thresholds;     // see defaultThresholds
+    bool keepAll = false;         // leave nothing out: the image must be the same
 };
 
 // A scene ready to be planned: posed, lit, with one pyramid a mesh.
@@ -40,7 +39,7 @@ struct World {
     Pose pose;
     std::vector<PlacedLight> lights;
     Environment environment;
-    std::vector<Pyramid> pyramids;    // one a mesh of the scene
+    std::vector<Pyramid> pyramids;  // one a mesh of the scene
 };
 
 }  // namespace defocus

@@ -1,13 +1,14 @@
-// Haeberli and Akeley 1990, The Accumulation Buffer; Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering.
+// Haeberli and Akeley 1990, The Accumulation Buffer; Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field
+// Rendering.
 
 #include "render/accumulation.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <chrono>
-#include <optional>
-
-#include <epoxy/gl.h>
 #include <glm/common.hpp>
+#include <optional>
 
 #include "core/error.h"
 #include "gl/timer.h"
@@ -29,7 +30,9 @@ std::string glString(GLenum name) {
     return text != nullptr ? text : "";
 }
 
-float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
+float largest(const glm::vec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
 
 // Radiance that a half float cannot hold: layers must be 32-bit floats then.
 bool beyondHalfFloat(const World& world) {
@@ -43,16 +46,17 @@ bool beyondHalfFloat(const World& world) {
 LayerFormat chosenFormat(const World& world, const FramePlan& plan, LayerFormat asked) {
     if (asked == LayerFormat::automatic) return beyondHalfFloat(world) ? LayerFormat::rgba32f : LayerFormat::rgba16f;
     if (asked == LayerFormat::rgb9e5 && (plan.usesBlending || plan.needsAlpha))
-        fail("layer format {}: it holds no alpha, which blended materials and a transparent background need; choose rgba16f",
-             layerFormatName(asked));
+        fail(
+            "layer format {}: it holds no alpha, which blended materials and a transparent background need; choose "
+            "rgba16f",
+            layerFormatName(asked));
     return asked;
 }
 
 // As many layers as the memory allows, at most a block.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, LayerFormat format) {
-    const std::uint64_t layerBytes =
-        std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} * static_cast<std::uint32_t>(plan.view.height) *
-        layerPixelBytes(format);
+    const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
+                                     static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format);
     const std::uint64_t wanted = options.wave > 0 ? options.wave : options.waveBytes / layerBytes;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
@@ -73,8 +77,8 @@ public:
         stats_.setupMilliseconds = millisecondsSince(begin);
         stats_.renderMilliseconds = 0;
         stats_.trianglesDrawn = 0;
-        stats_.peakBytes = std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + frame_.bytes() +
-                                                                       surfaces_->bytes() + sum_->bytes());
+        stats_.peakBytes = std::max<std::uint64_t>(
+            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + sum_->bytes());
         timer_.reset();
         frameStart_ = Clock::now();
     }
@@ -112,10 +116,7 @@ private:
     // The sums and the pass that fills them, made anew only when size or format change.
     void prepareTarget() {
         const LayerFormat format = chosenFormat(scene_.world(), plan_, options_.layerFormat);
-        const LayerSumInfo info{plan_.view.width,
-                                plan_.view.height,
-                                chosenWave(plan_, options_, format),
-                                format,
+        const LayerSumInfo info{plan_.view.width, plan_.view.height, chosenWave(plan_, options_, format), format,
                                 options_.shaderFolder};
         const bool same = sum_ && sum_->info().width == info.width && sum_->info().height == info.height &&
                           sum_->info().layers == info.layers && sum_->info().format == info.format;

@@ -1,6 +1,6 @@
 #pragma once
-// Method "accumulation": every object is drawn once per lens sample, in waves of K samples into a layered target, at the level
-// and for the samples that the plan gives it (Haeberli and Akeley 1990; Jeong, Kim and Lee 2011).
+// Method "accumulation": every object is drawn once per lens sample, in waves of K samples into a layered target, at
+// the level and for the samples that the plan gives it (Haeberli and Akeley 1990; Jeong, Kim and Lee 2011).
 
 #include <memory>
 

@@ -17,7 +17,8 @@ struct AovImages {
 // Draws opaque, alpha-tested and blended surfaces alike, at the nearest whole level. Needs a current GL context.
 AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
 
-// λ as colours that a person can read: level 0 dark violet to level 8 and beyond yellow (viridis), black where nothing is.
+// λ as colours that a person can read: level 0 dark violet to level 8 and beyond yellow (viridis), black where nothing
+// is.
 Image levelColourMap(const Image& level);
 
 }  // namespace defocus

@@ -17,21 +17,27 @@ GpuLight gpuLight(const PlacedLight& placed, const glm::dmat4& viewFromWorld) {
     const Light& light = placed.light;
     const glm::vec3 direction(glm::normalize(glm::dmat3(viewFromWorld) * placed.direction));
     const glm::vec3 position(viewFromWorld * glm::dvec4(placed.position, 1.0));
-    // KHR_lights_punctual: the cone's falloff is a linear ramp between the cosines of its angles, squared in the shader.
+    // KHR_lights_punctual: the cone's falloff is a linear ramp between the cosines of its angles, squared in the
+    // shader.
     const float inner = std::cos(light.innerConeAngle);
     const float outer = std::cos(light.outerConeAngle);
     const float scale = 1.0f / std::max(inner - outer, 1e-4f);
     const float type = light.type == LightType::directional ? 0.0f : light.type == LightType::point ? 1.0f : 2.0f;
-    return {glm::vec4(position, light.range), glm::vec4(direction, type), glm::vec4(light.color * (light.intensity / std::numbers::pi_v<float>), scale),
+    return {glm::vec4(position, light.range), glm::vec4(direction, type),
+            glm::vec4(light.color * (light.intensity / std::numbers::pi_v<float>), scale),
             glm::vec4(-outer * scale, 0, 0, 0)};
 }
 
 int environmentNumber(EnvironmentType type) {
     switch (type) {
-        case EnvironmentType::none: return 0;
-        case EnvironmentType::uniform: return 1;
-        case EnvironmentType::gradient: return 2;
-        case EnvironmentType::map: return 3;
+        case EnvironmentType::none:
+            return 0;
+        case EnvironmentType::uniform:
+            return 1;
+        case EnvironmentType::gradient:
+            return 2;
+        case EnvironmentType::map:
+            return 3;
     }
     return 0;
 }
@@ -96,13 +102,14 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
         const glm::vec2 jitter = -sample.pixel * pixel;
         const double dither = 0.5 + goldenRatio * static_cast<double>(plan.settings.firstSample + i);
         const auto layer = static_cast<float>(i % blockSamples % layerCount);
-        samples[i] = {{sample.lens.x, k * sample.lens.y, jitter.x, jitter.y},
-                      {radius * sample.lens.x, radius * sample.lens.y, static_cast<float>(dither - std::floor(dither)), layer}};
+        samples[i] = {
+            {sample.lens.x, k * sample.lens.y, jitter.x, jitter.y},
+            {radius * sample.lens.x, radius * sample.lens.y, static_cast<float>(dither - std::floor(dither)), layer}};
     }
     samples_ = Buffer::of(std::span<const GpuSample>(samples));
 
-    // At infinity C/w = b: the sky seen through a pixel lies where the lens and the jitter moved it from, in units of the image
-    // plane at distance 1. Padded to whole blocks, which are bound one at a time.
+    // At infinity C/w = b: the sky seen through a pixel lies where the lens and the jitter moved it from, in units of
+    // the image plane at distance 1. Padded to whole blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
     const auto b = static_cast<float>(plan.coc.b);
     std::vector<glm::vec4> shifts((samples.size() + blockSamples - 1) / blockSamples * blockSamples);

@@ -1,10 +1,9 @@
 #pragma once
 // The uniform blocks of shaders/include/frame.glsl, std140, for C++.
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
-
-#include <array>
 
 namespace defocus {
 

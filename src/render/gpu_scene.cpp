@@ -15,9 +15,12 @@ Buffer prefixBuffer(const std::vector<T>& items, std::size_t count) {
 
 GLenum wrapMode(Wrap wrap) {
     switch (wrap) {
-        case Wrap::repeat: return GL_REPEAT;
-        case Wrap::clampToEdge: return GL_CLAMP_TO_EDGE;
-        case Wrap::mirroredRepeat: return GL_MIRRORED_REPEAT;
+        case Wrap::repeat:
+            return GL_REPEAT;
+        case Wrap::clampToEdge:
+            return GL_CLAMP_TO_EDGE;
+        case Wrap::mirroredRepeat:
+            return GL_MIRRORED_REPEAT;
     }
     return GL_REPEAT;
 }
@@ -144,9 +147,10 @@ GpuMaterial GpuScene::materialBlock(const Material& material) {
     GpuMaterial block{};
     block.baseColor = material.baseColorFactor;
     block.emissiveCutoff = glm::vec4(material.emissiveFactor, material.alphaCutoff);
-    block.surface = {material.metallicFactor, material.roughnessFactor, material.normalScale, material.occlusionStrength};
-    const TextureUse* uses[5] = {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
-                                 &material.emissive};
+    block.surface = {material.metallicFactor, material.roughnessFactor, material.normalScale,
+                     material.occlusionStrength};
+    const TextureUse* uses[5] = {&material.baseColor, &material.metallicRoughness, &material.normal,
+                                 &material.occlusion, &material.emissive};
     for (std::size_t i = 0; i < 5; ++i) {
         const glm::mat3& m = uses[i]->uvTransform;
         block.uvRows[2 * i] = {m[0][0], m[1][0], m[2][0], static_cast<float>(uses[i]->uvSet)};

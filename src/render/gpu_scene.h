@@ -1,6 +1,6 @@
 #pragma once
-// A World on the GPU: vertex and index buffers of the pyramid levels that frames use, textures and materials of the meshes that
-// are drawn. What no plan has asked for is never uploaded.
+// A World on the GPU: vertex and index buffers of the pyramid levels that frames use, textures and materials of the
+// meshes that are drawn. What no plan has asked for is never uploaded.
 
 #include <map>
 #include <optional>
@@ -16,9 +16,9 @@ namespace defocus {
 // A level's place in the mesh's buffers.
 struct GpuLevel {
     bool uploaded = false;
-    std::size_t normalOffset = 0;              // bytes into the normals buffer
-    std::size_t colorOffset = 0;               // bytes into the colours buffer
-    std::vector<std::size_t> indexOffsets;     // bytes into the index buffer, one a primitive
+    std::size_t normalOffset = 0;           // bytes into the normals buffer
+    std::size_t colorOffset = 0;            // bytes into the colours buffer
+    std::vector<std::size_t> indexOffsets;  // bytes into the index buffer, one a primitive
 };
 
 struct GpuMesh {

@@ -11,15 +11,20 @@ namespace {
 
 TextureFormat textureFormat(LayerFormat format) {
     switch (format) {
-        case LayerFormat::rgb9e5: return TextureFormat::r32ui;
-        case LayerFormat::rgba32f: return TextureFormat::rgba32f;
-        case LayerFormat::rgba8: return TextureFormat::rgba8;
-        default: return TextureFormat::rgba16f;
+        case LayerFormat::rgb9e5:
+            return TextureFormat::r32ui;
+        case LayerFormat::rgba32f:
+            return TextureFormat::rgba32f;
+        case LayerFormat::rgba8:
+            return TextureFormat::rgba8;
+        default:
+            return TextureFormat::rgba16f;
     }
 }
 
 GlTexture layerTexture(const LayerSumInfo& info, TextureFormat format) {
-    return GlTexture({.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(info.layers)});
+    return GlTexture(
+        {.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(info.layers)});
 }
 
 }  // namespace
@@ -32,11 +37,16 @@ ShaderDefines layerFormatDefines(LayerFormat format) {
 
 const char* layerFormatName(LayerFormat format) {
     switch (format) {
-        case LayerFormat::automatic: return "automatic";
-        case LayerFormat::rgb9e5: return "rgb9e5";
-        case LayerFormat::rgba16f: return "rgba16f";
-        case LayerFormat::rgba32f: return "rgba32f";
-        case LayerFormat::rgba8: return "rgba8";
+        case LayerFormat::automatic:
+            return "automatic";
+        case LayerFormat::rgb9e5:
+            return "rgb9e5";
+        case LayerFormat::rgba16f:
+            return "rgba16f";
+        case LayerFormat::rgba32f:
+            return "rgba32f";
+        case LayerFormat::rgba8:
+            return "rgba8";
     }
     return "";
 }
@@ -61,13 +71,16 @@ LayerSum::LayerSum(const LayerSumInfo& info)
       block_(info.width, info.height),
       frame_(info.width, info.height) {
     const auto pass = [&](const char* fragment) {
-        return Program({{"accumulation/fullscreen.vert", fragment}, layerFormatDefines(info.format), info.shaderFolder});
+        return Program(
+            {{"accumulation/fullscreen.vert", fragment}, layerFormatDefines(info.format), info.shaderFolder});
     };
     addBlock_ = pass("accumulation/add_block.frag");
     resolve_ = pass("accumulation/resolve.frag");
 }
 
-void LayerSum::reset() { samples_ = 0; }
+void LayerSum::reset() {
+    samples_ = 0;
+}
 
 void LayerSum::beginWave() {
     layerTarget_.bind();
@@ -88,7 +101,8 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t count) {
         addDefines_ = frame.defines();
         ShaderDefines defines = addDefines_;
         for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
-        addLayers_ = Program({{"accumulation/fullscreen.vert", "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
+        addLayers_ =
+            Program({{"accumulation/fullscreen.vert", "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     }
     block_.target[1 - block_.current].bind();
     frame.bind(samples_);

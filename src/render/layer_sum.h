@@ -1,9 +1,9 @@
 #pragma once
 // The accumulation target: K layers, one a lens sample, and the compensated sums they are added to.
 //
-// Layers are added one after the other, in order, with Neumaier's compensation, to the sum of a block of 64 samples, and
-// finished blocks likewise to the frame's sum: the same pixels for every K, and for every split over machines at block borders.
-// The sum is divided when it is read, never in place.
+// Layers are added one after the other, in order, with Neumaier's compensation, to the sum of a block of 64 samples,
+// and finished blocks likewise to the frame's sum: the same pixels for every K, and for every split over machines at
+// block borders. The sum is divided when it is read, never in place.
 
 #include <cstdint>
 
@@ -19,8 +19,8 @@ namespace defocus {
 struct LayerSumInfo {
     int width = 1;
     int height = 1;
-    std::uint32_t layers = 1;                    // K, 1 … 64
-    LayerFormat format = LayerFormat::rgba16f;   // not automatic
+    std::uint32_t layers = 1;                   // K, 1 … 64
+    LayerFormat format = LayerFormat::rgba16f;  // not automatic
     std::filesystem::path shaderFolder;
 };
 
@@ -32,7 +32,8 @@ public:
     void reset();
     // Clears the layers to nothing (black, transparent, infinitely far) and makes them the render target.
     void beginWave();
-    // Adds layers [0, count), each composed over the environment of `frame`; `count` ≤ K and not beyond the block's end.
+    // Adds layers [0, count), each composed over the environment of `frame`; `count` ≤ K and not beyond the block's
+    // end.
     void endWave(const FrameUniforms& frame, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
     // The mean of the samples so far, RGBA. At least one.

@@ -19,9 +19,13 @@ std::vector<Method>& table() {
 
 }  // namespace
 
-const std::vector<Method>& methods() { return table(); }
+const std::vector<Method>& methods() {
+    return table();
+}
 
-void registerMethod(Method method) { table().push_back(std::move(method)); }
+void registerMethod(Method method) {
+    table().push_back(std::move(method));
+}
 
 const Method& methodNamed(std::string_view name) {
     const auto found = std::find_if(table().begin(), table().end(), [&](const Method& m) { return m.name == name; });

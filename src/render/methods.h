@@ -1,5 +1,6 @@
 #pragma once
-// The name table of rendering methods. Optional builds (the Embree ray tracer) add theirs with registerMethod before use.
+// The name table of rendering methods. Optional builds (the Embree ray tracer) add theirs with registerMethod before
+// use.
 
 #include <filesystem>
 #include <functional>
@@ -23,10 +24,10 @@ enum class LayerFormat {
 
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
-    std::uint32_t wave = 0;                         // K, lens samples drawn at once; 0: as many as waveBytes allow
-    std::uint64_t waveBytes = 256ull << 20;         // memory for a wave's layers
-    bool geometryShaderLayers = false;              // pick layers in a geometry shader even where the vertex shader may
-    std::filesystem::path shaderFolder;             // overrides the embedded shaders; empty: none
+    std::uint32_t wave = 0;                  // K, lens samples drawn at once; 0: as many as waveBytes allow
+    std::uint64_t waveBytes = 256ull << 20;  // memory for a wave's layers
+    bool geometryShaderLayers = false;       // pick layers in a geometry shader even where the vertex shader may
+    std::filesystem::path shaderFolder;      // overrides the embedded shaders; empty: none
 };
 
 struct Method {

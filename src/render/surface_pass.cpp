@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
-
 #include <glm/gtc/matrix_inverse.hpp>
-
 
 namespace defocus {
 
@@ -25,7 +23,9 @@ Buffer stridedBuffer(const std::vector<T>& items, std::size_t stride) {
     return Buffer(bytes.size(), bytes.data());
 }
 
-bool local(const PlacedLight& placed) { return placed.light.type != LightType::directional; }
+bool local(const PlacedLight& placed) {
+    return placed.light.type != LightType::directional;
+}
 
 std::string keyOf(const ShaderDefines& defines) {
     std::string key;
@@ -59,7 +59,8 @@ void SurfacePass::uploadObjects(const FramePlan& plan) {
 
 void SurfacePass::uploadMaterials() {
     std::vector<GpuMaterial> blocks(materialSlots_.size());
-    for (const auto& [material, slot] : materialSlots_) blocks[slot] = GpuScene::materialBlock(scene_->material(material));
+    for (const auto& [material, slot] : materialSlots_)
+        blocks[slot] = GpuScene::materialBlock(scene_->material(material));
     materialStride_ = aligned(sizeof(GpuMaterial));
     materialBlocks_ = stridedBuffer(blocks, materialStride_);
 }
@@ -83,8 +84,8 @@ void SurfacePass::addDraws(const FramePlan& plan) {
                 const std::uint32_t indexCount = pyramid.levels[level.level].primitives[p].count;
                 if (level.sampleCount == 0 || indexCount == 0) continue;
                 auto& list = material.alphaMode == AlphaMode::blend ? blended_ : opaque_;
-                list.push_back({object.mesh, level.level, p, static_cast<std::uint32_t>(index), materialIndex, level.firstSample,
-                                level.sampleCount, static_cast<GLsizei>(indexCount), object.mirrored,
+                list.push_back({object.mesh, level.level, p, static_cast<std::uint32_t>(index), materialIndex,
+                                level.firstSample, level.sampleCount, static_cast<GLsizei>(indexCount), object.mirrored,
                                 &program(material, gpuMesh, materialIndex)});
             }
         }
@@ -100,8 +101,8 @@ ShaderDefines SurfacePass::passDefines() const {
 }
 
 const Program& SurfacePass::program(const Material& material, const GpuMesh& mesh, int materialIndex) {
-    static constexpr const char* textureDefines[5] = {"BASE_COLOR_TEXTURE", "METALLIC_ROUGHNESS_TEXTURE", "NORMAL_TEXTURE",
-                                                      "OCCLUSION_TEXTURE", "EMISSIVE_TEXTURE"};
+    static constexpr const char* textureDefines[5] = {"BASE_COLOR_TEXTURE", "METALLIC_ROUGHNESS_TEXTURE",
+                                                      "NORMAL_TEXTURE", "OCCLUSION_TEXTURE", "EMISSIVE_TEXTURE"};
     ShaderDefines defines = passDefines();
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "1");
@@ -178,7 +179,9 @@ void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first,
     }
 }
 
-void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) { drawSolid(opaque_, first, count); }
+void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
+    drawSolid(opaque_, first, count);
+}
 
 void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
     drawSolid(opaque_, first, count);

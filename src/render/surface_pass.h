@@ -1,6 +1,6 @@
 #pragma once
-// Draws the surfaces of a FramePlan: one shader program for each set of features that the drawn materials need, and per object,
-// primitive and wave at most two instanced draws (a wave meets at most one boundary between levels).
+// Draws the surfaces of a FramePlan: one shader program for each set of features that the drawn materials need, and per
+// object, primitive and wave at most two instanced draws (a wave meets at most one boundary between levels).
 
 #include <map>
 #include <string>
@@ -12,10 +12,10 @@
 namespace defocus {
 
 struct SurfacePassInfo {
-    std::string fragmentShader;            // under shaders/
-    ShaderDefines defines;                 // of the pass (layer format …)
-    bool shaded = true;                    // false: neither lights nor textures beyond the alpha test
-    bool vertexShaderLayers = true;        // false: a geometry shader picks the layer
+    std::string fragmentShader;      // under shaders/
+    ShaderDefines defines;           // of the pass (layer format …)
+    bool shaded = true;              // false: neither lights nor textures beyond the alpha test
+    bool vertexShaderLayers = true;  // false: a geometry shader picks the layer
     std::filesystem::path shaderFolder;
 };
 
@@ -31,17 +31,18 @@ public:
     void drawBlended(std::uint32_t first, std::uint32_t count);
     // All surfaces, blended ones too, as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
-    // An environment map behind everything, where no surface was drawn (simpler skies are composed when layers are added).
+    // An environment map behind everything, where no surface was drawn (simpler skies are composed when layers are
+    // added).
     void drawSky(std::uint32_t first, std::uint32_t count);
 
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    struct Draw {                     // a primitive of an object at one level
+    struct Draw {  // a primitive of an object at one level
         int mesh = -1;
         std::uint32_t level = 0;
         std::uint32_t primitive = 0;
-        std::uint32_t object = 0;     // into the object blocks
+        std::uint32_t object = 0;  // into the object blocks
         int material = -1;
         std::uint32_t firstSample = 0;
         std::uint32_t sampleCount = 0;

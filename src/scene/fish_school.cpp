@@ -24,8 +24,8 @@ constexpr int minimumTriangles = 200;
 constexpr int maximumTriangles = 10'000'000;
 constexpr std::int64_t maximumTotal = 400'000'000;  // about 10 GB of meshes
 
-// A 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m: the CoC at 1024 px is 74.9 px · |1/2 − 1/z|, z in m: 37 px at
-// 1 m, under 2 px from 1.90 to 2.11 m, and never more than 37 px behind the focus.
+// A 50 mm lens at f/0.95 on a 36 mm sensor, focused at 2 m: the CoC at 1024 px is 74.9 px · |1/2 − 1/z|, z in m: 37 px
+// at 1 m, under 2 px from 1.90 to 2.11 m, and never more than 37 px behind the focus.
 constexpr double horizontalAperture = 36.0;
 constexpr double fStop = 0.95;
 constexpr double focusDistance = 2.0;

@@ -1,10 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <atomic>
 #include <cstring>
 #include <filesystem>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 #include <string>
 
@@ -63,7 +62,8 @@ TEST_F(Files, errorsNameThePathAndTheReason) {
     const std::string missing = messageOf([&] { readFile(folder_ / "missing"); });
     EXPECT_NE(missing.find("missing"), std::string::npos);
     EXPECT_NE(missing.find("No such file"), std::string::npos);
-    EXPECT_NE(messageOf([&] { checkWritable(folder_ / "no" / "folder.png"); }).find("cannot be written"), std::string::npos);
+    EXPECT_NE(messageOf([&] { checkWritable(folder_ / "no" / "folder.png"); }).find("cannot be written"),
+              std::string::npos);
     EXPECT_EQ(messageOf([&] { checkWritable(folder_ / "fine.png"); }), "");
     EXPECT_TRUE(fs::is_empty(folder_));
 }
@@ -90,7 +90,11 @@ TEST(ParallelFor, visitsEachIndexOnce) {
 }
 
 TEST(ParallelFor, passesOnTheFirstFailure) {
-    EXPECT_THROW(parallelFor(100, [](std::size_t i) { if (i == 17) fail("seventeen"); }), Error);
+    EXPECT_THROW(parallelFor(100,
+                             [](std::size_t i) {
+                                 if (i == 17) fail("seventeen");
+                             }),
+                 Error);
 }
 
 TEST(Bounds, emptyStaysEmptyAndTransformsKeepTheCorners) {

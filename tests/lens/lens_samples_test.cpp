@@ -26,8 +26,8 @@ TEST(LensSamples, firstSampleIsThePinhole) {
     }
 }
 
-// Moments of a uniform shape: mean 0, and per axis the second moment 1/4 for the disk, and for a regular n-gon inscribed in the
-// unit circle (1/12)(1 + 2cos²(π/n))·… = (2 + cos(2π/n))/12.
+// Moments of a uniform shape: mean 0, and per axis the second moment 1/4 for the disk, and for a regular n-gon
+// inscribed in the unit circle (1/12)(1 + 2cos²(π/n))·… = (2 + cos(2π/n))/12.
 TEST(LensSamples, momentsAreThoseOfTheShape) {
     for (const int blades : {0, 3, 5, 6, 8}) {
         Lens lens;
@@ -73,8 +73,9 @@ TEST(LensSamples, pixelOffsetsFillThePixelEvenly) {
     for (const int count : quadrants) EXPECT_NEAR(count, 1024, 12);
 }
 
-// The sample split draws a prefix of the sequence with one level and the suffix with the other: both must cover the lens. The
-// mean of n independent points strays by √(0.5/n); taking every other Halton point instead halves the lens and strays by 0.4.
+// The sample split draws a prefix of the sequence with one level and the suffix with the other: both must cover the
+// lens. The mean of n independent points strays by √(0.5/n); taking every other Halton point instead halves the lens
+// and strays by 0.4.
 TEST(LensSamples, prefixesAndSuffixesAreWellSpread) {
     const std::vector<LensSample> samples = lensSamples(Lens{}, 64, 0);
     for (std::size_t cut = 16; cut <= 48; cut += 4) {

@@ -11,7 +11,8 @@ namespace defocus {
 namespace {
 
 TEST(Lens, circleOfConfusionOfATextbookExample) {
-    // 50 mm at f/2, focused at 2 m: A = 25 mm, tan(θx/2) = 36/100. At 4 m c = 0.025·(1/2 − 1/4)·1000/(0.72) = 8.6806 px.
+    // 50 mm at f/2, focused at 2 m: A = 25 mm, tan(θx/2) = 36/100. At 4 m c = 0.025·(1/2 − 1/4)·1000/(0.72) = 8.6806
+    // px.
     Lens lens;
     lens.fStop = 2;
     lens.focusDistance = 2;
@@ -27,8 +28,7 @@ TEST(Lens, clipFormIsTheFormulaForEveryDepth) {
         lens.focusDistance = s;
         const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens);
         for (const double z : {0.01, 0.5, 3.0, 1e4}) {
-            const double expected =
-                apertureDiameter(lens) * (1 / s - 1 / z) * 640 / (2 * tanHalfHorizontalFov(lens));
+            const double expected = apertureDiameter(lens) * (1 / s - 1 / z) * 640 / (2 * tanHalfHorizontalFov(lens));
             EXPECT_NEAR(circleOfConfusion(coc, z, 640), expected, 1e-9 * std::abs(expected));
             EXPECT_NEAR(coc.at(z) / z * 640, expected, 1e-9 * std::abs(expected));
         }
@@ -44,8 +44,8 @@ TEST(Lens, focusAtInfinityBlursTheForegroundOnly) {
 }
 
 TEST(Lens, focusBreathingIsTheThinLens) {
-    // Thin lens: image distance i = f·s/(s − f); the sensor's half width over i is tan(θx/2); CoC = A·|z − s|/z · i/s on the
-    // sensor, which is W/horizontalAperture px a mm.
+    // Thin lens: image distance i = f·s/(s − f); the sensor's half width over i is tan(θx/2); CoC = A·|z − s|/z · i/s
+    // on the sensor, which is W/horizontalAperture px a mm.
     Lens lens;
     lens.focusBreathing = true;
     lens.focusDistance = 1;

@@ -2,11 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "plan/plan_text.h"
@@ -80,15 +79,15 @@ TEST(FramePlan, objectsOutsideTheWidenedFrustumAreLeftOut) {
     EXPECT_FALSE(leftOut(planFrame(small->world, small->view, everything), "Object 4"));
 }
 
-// A point that only the blurred image of an object reaches must not be culled: brute force over lens points and box corners.
+// A point that only the blurred image of an object reaches must not be culled: brute force over lens points and box
+// corners.
 TEST(FramePlan, cullingIsConservative) {
     const auto small = fiveSpheres();
     const Bounds box = small->world.pyramids[0].bounds;
     for (double x = -3; x <= 3; x += 0.13)
         for (const double z : {0.4, 1.0, 3.0, 6.0}) {
             auto& object = small->world.pose.objects[0];
-            object.worldFromObject =
-                glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, 0, -z)), glm::dvec3(0.1));
+            object.worldFromObject = glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, 0, -z)), glm::dvec3(0.1));
             const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
             bool seen = false;
             for (const glm::dvec3& corner : box.corners())
@@ -97,7 +96,8 @@ TEST(FramePlan, cullingIsConservative) {
                     const double w = -p.z;
                     if (w < small->view.nearPlane) continue;
                     const double ndcX = (p.x / plan.tanHalfHorizontal + plan.coc.at(w) * sample.lens.x) / w;
-                    const double ndcY = (p.y / (plan.tanHalfHorizontal * 0.75) + plan.coc.at(w) * sample.lens.y * 4 / 3) / w;
+                    const double ndcY =
+                        (p.y / (plan.tanHalfHorizontal * 0.75) + plan.coc.at(w) * sample.lens.y * 4 / 3) / w;
                     seen |= std::abs(ndcX) <= 1 && std::abs(ndcY) <= 1;
                 }
             if (seen) {
@@ -130,7 +130,8 @@ TEST(FramePlan, boxThatReachesTheNearPlaneIsDrawnAtFullDetail) {
     const auto small = fiveSpheres();
     small->world.pose.objects[0].worldFromObject = glm::dmat4(1);  // around the camera
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
-    const auto found = std::find_if(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& o) { return o.object == 0; });
+    const auto found =
+        std::find_if(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& o) { return o.object == 0; });
     ASSERT_NE(found, plan.objects.end());
     EXPECT_EQ(found->lambda, 0);
 }

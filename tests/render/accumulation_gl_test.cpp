@@ -89,7 +89,8 @@ TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
     options.geometryShaderLayers = true;
     const Image expected = rendered(*small, settingsFor(16));
     const Image image = rendered(*small, settingsFor(16), options);
-    EXPECT_LT(largestDifference(expected, image), 1e-3);  // another vertex program: rounding may differ, coverage may not
+    EXPECT_LT(largestDifference(expected, image),
+              1e-3);  // another vertex program: rounding may differ, coverage may not
 }
 
 TEST_F(Accumulation, keepingEverythingGivesTheSameImage) {
@@ -141,7 +142,8 @@ TEST_F(Accumulation, blurredEdgeSpreadsOverTheCircleOfConfusion) {
     const double edge = 48 - 0.2 / 0.36 * 48;
     for (int x = 0; x < 48; ++x) {
         const double green = image.at(x, 32)[1];
-        // A half-plane's profile under a uniform disk of radius r at distance d: 1/2 + (asin(d/r) + d/r·√(1 − (d/r)²))/π
+        // A half-plane's profile under a uniform disk of radius r at distance d: 1/2 + (asin(d/r) + d/r·√(1 −
+        // (d/r)²))/π
         const double d = std::clamp((x + 0.5 - edge) / (c / 2), -1.0, 1.0);
         const double covered = 0.5 + (std::asin(d) + d * std::sqrt(1 - d * d)) / std::numbers::pi;
         EXPECT_NEAR(green, 0.1 + 0.6 * covered, 0.04) << x;
@@ -233,7 +235,9 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
         small->scene.materials.push_back(material);
         small->scene.meshes.push_back(quad(static_cast<int>(small->scene.materials.size()) - 1));
     }
-    const auto at = [](double z) { return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(9)); };
+    const auto at = [](double z) {
+        return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(9));
+    };
     place(*small, 0, at(2));  // red in front of green in front of blue
     place(*small, 2, at(4));
     place(*small, 1, at(3));
@@ -247,10 +251,12 @@ TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
     EXPECT_NEAR(image.at(8, 8)[2], 0.25, 1e-3);
 }
 
-// A pinhole shows L(d) of each pixel's direction; an environment at infinity lies still when only the focus is at infinity.
+// A pinhole shows L(d) of each pixel's direction; an environment at infinity lies still when only the focus is at
+// infinity.
 TEST_F(Accumulation, gradientSkyIsItsFormula) {
     SmallWorld small;
-    small.world.environment = {EnvironmentType::gradient, {0.2f, 0.4f, 0.9f}, {0.6f, 0.6f, 0.5f}, {0.1f, 0.2f, 0.1f}, nullptr, 1};
+    small.world.environment = {
+        EnvironmentType::gradient, {0.2f, 0.4f, 0.9f}, {0.6f, 0.6f, 0.5f}, {0.1f, 0.2f, 0.1f}, nullptr, 1};
     small.view.width = 64;
     small.view.height = 48;
     small.view.lens.dofEnabled = false;
@@ -302,6 +308,24 @@ TEST_F(Accumulation, lambertUnderADirectionalLight) {
         small->world.lights = {sun};
         const double radiance = rendered(*small, settingsFor(1)).at(48, 32)[0];
         EXPECT_NEAR(radiance, 3 * std::cos(angle) / std::numbers::pi, 0.05) << angle;
+    }
+}
+
+// Interpolated normals can look away from the eye: the half vector's cosine must not leave [0, 1], whatever the light.
+TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
+    const auto small = wall(1, 4);
+    small->scene.materials[0] = Material{};
+    small->scene.materials[0].metallicFactor = 0;
+    small->scene.materials[0].roughnessFactor = 0.3f;
+    small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
+    PlacedLight lamp;
+    lamp.light.intensity = 1;
+    lamp.direction = {0, 0, 1};  // from behind the wall
+    small->world.lights = {lamp};
+    for (const float tilt : {-0.9f, -0.5f, -0.1f, -0.01f}) {
+        for (glm::vec3& normal : small->world.pyramids[0].levels[0].normals)
+            normal = glm::vec3(std::sqrt(1 - tilt * tilt), 0, tilt);
+        EXPECT_LT(rendered(*small, settingsFor(1)).at(20, 32)[0], 1) << tilt;
     }
 }
 
