@@ -53,7 +53,7 @@ std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
 
 std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
     const std::string standard = option->get_default_str();
-    const std::string text = option->get_description();
+    const std::string& text = option->get_description();
     return standard.empty() ? text : text + " (default " + standard + ")";
 }
 

@@ -72,6 +72,7 @@ private:
         std::vector<std::string> words = {DEFOCUS_PROGRAM};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;
+        pointers.reserve(words.size() + 1);
         for (std::string& word : words) pointers.push_back(word.data());
         pointers.push_back(nullptr);
         ::execv(DEFOCUS_PROGRAM, pointers.data());
