@@ -1,5 +1,6 @@
 #pragma once
-// GPU time of a span of GL commands through GL_TIME_ELAPSED queries. On a software driver these miss the vertex work.
+// GPU time of a span of GL commands between pairs of GL_TIMESTAMP queries (llvmpipe's GL_TIME_ELAPSED is
+// off by orders of magnitude). On a software driver these miss the vertex work.
 
 #include <vector>
 
@@ -16,7 +17,7 @@ public:
     void reset();
 
 private:
-    std::vector<GlHandle<destroyQuery>> pending_;
+    std::vector<GlHandle<destroyQuery>> pending_;  // begin, end, begin, end …
     double total_ = 0;
 };
 

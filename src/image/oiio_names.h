@@ -10,14 +10,13 @@
 namespace defocus {
 
 // EXR attribute name and the one that OpenImageIO turns it into.
-inline constexpr std::array<std::pair<std::string_view, std::string_view>, 8> oiioNames = {{
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> oiioNames = {{
     {"aperture", "FNumber"},
     {"expTime", "ExposureTime"},
     {"comments", "ImageDescription"},
     {"owner", "Copyright"},
     {"capDate", "DateTime"},
     {"worldToCamera", "worldtocamera"},
-    {"worldToNDC", "worldtoscreen"},
     {"pixelAspectRatio", "PixelAspectRatio"},
 }};
 
