@@ -124,7 +124,7 @@ RTCRayHit EmbreeRenderer::cameraRay(int x, int y, std::uint32_t sample) const {
 
 glm::vec4 EmbreeRenderer::radiance(const RTCRayHit& ray) const {
     if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) return {surfaceRadiance(world_, *scene_, ray), 1};
-    if (world_.environment.type == EnvironmentType::none) return glm::vec4(0);
+    if (world_.environment.type == EnvironmentType::none || !world_.environment.visible) return glm::vec4(0);
     const glm::dvec3 direction(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z);
     return {backgroundRadiance(world_.environment, worldFromCamera_ * direction), 1};
 }

@@ -21,14 +21,14 @@ layout(location = 1) uniform int firstInBlock;
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
 
-#if ENVIRONMENT == 2
+#if BACKGROUND == 2
 // The sky that a sample sees through this pixel.
 vec3 behind(vec2 imagePlane, int layer) {
     vec2 p = imagePlane + sampleShifts[firstInBlock + layer].xy;
     vec3 up = vec3(frame.worldFromView[0].y, frame.worldFromView[1].y, frame.worldFromView[2].y);
     return gradientRadiance((dot(up.xy, p) - up.z) * inversesqrt(dot(p, p) + 1.0));
 }
-#elif ENVIRONMENT == 1
+#elif BACKGROUND == 1
 vec3 behind(vec2 imagePlane, int layer) { return frame.environment[0].rgb; }
 #endif
 
@@ -42,21 +42,21 @@ void main() {
 #ifdef LAYER_RGB9E5
         uint bits = texelFetch(layers, ivec3(pixel, layer), 0).r;
         vec3 value = decodeLayer(bits).rgb;
-#if ENVIRONMENT == 1 || ENVIRONMENT == 2
+#if BACKGROUND == 1 || BACKGROUND == 2
         if (bits == 0u) value = behind(imagePlane, layer);
 #endif
         addCompensated(sum.rgb, compensation.rgb, value);
 #else
         vec4 value = texelFetch(layers, ivec3(pixel, layer), 0);
-#if ENVIRONMENT == 1 || ENVIRONMENT == 2
+#if BACKGROUND == 1 || BACKGROUND == 2
         value.rgb += (1.0 - value.a) * behind(imagePlane, layer);
-#elif ENVIRONMENT == 0
+#elif BACKGROUND == 0
         addCompensated(sum.a, compensation.a, value.a);
 #endif
         addCompensated(sum.rgb, compensation.rgb, value.rgb);
 #endif
     }
-#if ENVIRONMENT != 0
+#if BACKGROUND != 0
     sum.a += float(layerCount);   // whole numbers: exact
 #endif
     sumOut = sum;

@@ -1,5 +1,5 @@
 // What surrounds the scene: its radiance along a direction, and the light it throws on a surface.
-// ENVIRONMENT: 0 none, 1 uniform, 2 gradient, 3 map.
+// ENVIRONMENT: 0 none, 1 uniform, 2 gradient, 3 map. BACKGROUND: what of it shows behind the surfaces, 0 or the same.
 
 #if ENVIRONMENT == 3
 layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; mipmaps serve as rough reflections

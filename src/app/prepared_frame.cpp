@@ -56,7 +56,7 @@ Environment chosenEnvironment(const SceneOptions& options, const Scene& scene) {
         environment.type = EnvironmentType::map;
         environment.map = loadEnvironment(options.environment);
     }
-    if (options.background == Background::none) environment.type = EnvironmentType::none;
+    if (options.background == Background::none) environment.visible = false;
     if (options.background == Background::uniform) {
         environment = {};
         environment.type = EnvironmentType::uniform;

@@ -138,7 +138,7 @@ double largestBlur(const FramePlan& plan, const World& world) {
     double largest = 0;
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
     const EnvironmentType type = world.environment.type;
-    if (type == EnvironmentType::gradient || type == EnvironmentType::map)
+    if (!plan.needsAlpha && (type == EnvironmentType::gradient || type == EnvironmentType::map))
         largest = std::max(largest, std::abs(plan.coc.b) * plan.view.width);
     return largest;
 }
@@ -210,7 +210,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.tanHalfHorizontal = tanHalfHorizontalFov(view.lens);
     plan.apertureDiameter = apertureDiameter(view.lens);
     plan.coc = clipCircleOfConfusion(view.lens);
-    plan.needsAlpha = world.environment.type == EnvironmentType::none;
+    plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
     for (std::uint32_t i = 0; i < settings.sampleCount; ++i)
         plan.samples.push_back(lensSample(view.lens, std::uint64_t{settings.firstSample} + i, settings.seed));
 

@@ -135,7 +135,7 @@ private:
     void drawWave(std::uint32_t first, std::uint32_t count) {
         sum_->beginWave();
         surfaces_->drawOpaque(first, count);
-        if (scene_.world().environment.type == EnvironmentType::map) surfaces_->drawSky(first, count);
+        if (scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha) surfaces_->drawSky(first, count);
         surfaces_->drawBlended(first, count);
         sum_->endWave(frame_, count);
         for (const ObjectPlan& object : plan_.objects)

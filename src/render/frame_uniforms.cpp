@@ -70,6 +70,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     defines_ = {{"MAX_LIGHTS", std::to_string(mostLights)},
                 {"BLOCK_SAMPLES", std::to_string(blockSamples)},
                 {"ENVIRONMENT", std::to_string(environmentNumber(type))},
+                {"BACKGROUND", std::to_string(plan.needsAlpha ? 0 : environmentNumber(type))},
                 {"ENVIRONMENT_LEVELS", fmt::format("{:.1f}", static_cast<double>(levels))},
                 {"ENVIRONMENT_LIGHTING", fmt::format("{:.6f}", world.environment.lighting)},
                 {"LIGHT_COUNT", std::to_string(world.lights.size())}};

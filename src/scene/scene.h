@@ -91,7 +91,8 @@ struct Environment {
     glm::vec3 horizon{0.0f};
     glm::vec3 nadir{0.0f};
     std::shared_ptr<const Image> map;  // EnvironmentType::map
-    float lighting = 1.0f;             // scales the light it throws on surfaces (its own look stays)
+    bool visible = true;    // false: it lights the surfaces, but behind them is nothing (alpha is their coverage)
+    float lighting = 1.0f;  // scales the light it throws on surfaces (its own look stays)
 };
 
 // ---- hierarchy and animation --------------------------------------------------------------------

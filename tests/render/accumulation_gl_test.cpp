@@ -217,6 +217,22 @@ TEST_F(Accumulation, transparentBackgroundIsPremultipliedCoverage) {
                 ASSERT_NEAR(over.at(x, y)[c], alone.at(x, y)[c] + (1 - alone.at(x, y)[3]) * background[c], 1e-3);
 }
 
+TEST_F(Accumulation, invisibleEnvironmentStillLights) {
+    const auto small = fiveSpheres();
+    const Image over = rendered(*small, settingsFor(16));
+    small->world.environment.visible = false;
+    const Image alone = rendered(*small, settingsFor(16));
+    EXPECT_EQ(alone.at(0, 0)[3], 0);
+    int covered = 0;
+    for (int y = 0; y < over.height; ++y)
+        for (int x = 0; x < over.width; ++x) {
+            if (alone.at(x, y)[3] < 1) continue;
+            ++covered;
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(alone.at(x, y)[c], over.at(x, y)[c], 1e-4);
+        }
+    EXPECT_GT(covered, 100);
+}
+
 TEST_F(Accumulation, nearestRowIsTheTop) {
     const auto small = wall(2, 0.1);
     small->world.pose.objects[0].worldFromObject =
