@@ -79,22 +79,14 @@ vec3 shaded(vec3 baseColor) {
     point.roughness = roughness;
     point.normal = shadingNormal();
     point.toEye = normalize(surface.toEye);
-    float nv = dot(point.normal, point.toEye);   // may be below 0: an interpolated normal can look away
-    float alpha = max(roughness * roughness, 1e-3);
-    LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
-    for (int i = 0; i < LIGHT_COUNT; ++i) {
-#ifdef LOCAL_LIGHTS
-        vec3 toLight = -frame.lights[i].directionType.xyz;
-        vec3 illuminance = frame.lights[i].colorScale.rgb;
-        if (frame.lights[i].directionType.w != 0.0) illuminance = localLight(frame.lights[i], surface.position, toLight);
-        addLight(sums, point, nv, alpha, toLight, illuminance);
-#else
-        addLight(sums, point, nv, alpha, -frame.lights[i].directionType.xyz, frame.lights[i].colorScale.rgb);
+#ifdef COARSE_LEVEL
+    point.agreement = clamp(surface.agreement, 0.05, 1.0);   // a sliver may extrapolate
 #endif
-    }
-    vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
-    vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
-    return diffuse + specular + environmentLight(point, max(nv, 0.0), occlusion);
+#ifdef LOCAL_LIGHTS
+    return reflectedRadiance(point, surface.position, occlusion);
+#else
+    return reflectedRadiance(point, vec3(0.0), occlusion);
+#endif
 }
 #endif
 

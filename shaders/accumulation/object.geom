@@ -21,6 +21,9 @@ void main() {
         surface.color = toGeometry[i].color;
 #ifndef UNLIT
         surface.normal = toGeometry[i].normal;
+#ifdef COARSE_LEVEL
+        surface.agreement = toGeometry[i].agreement;
+#endif
         surface.toEye = toGeometry[i].toEye;
 #endif
 #if defined(LOCAL_LIGHTS)

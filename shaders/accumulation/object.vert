@@ -40,7 +40,9 @@ void main() {
     STAGE_OUT.color = material.baseColor;
 #endif
 #ifndef UNLIT
-    STAGE_OUT.color.rgb *= length(normalIn);   // shorter where a coarse level stands for a relief
+#ifdef COARSE_LEVEL
+    STAGE_OUT.agreement = length(normalIn);
+#endif
     STAGE_OUT.normal = mat3(object.normalMatrix) * normalIn;
     STAGE_OUT.toEye = vec3(eyeAndDitherIn.xy, 0.0) - viewPosition;
 #endif

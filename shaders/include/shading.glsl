@@ -11,6 +11,9 @@ struct SurfacePoint {
     float roughness;      // perceptual
     vec3 normal;          // unit, view space
     vec3 toEye;           // unit, view space
+#ifdef COARSE_LEVEL
+    float agreement;      // length |n| of the mean of the normals that `normal` stands for, in (0, 1]
+#endif
 };
 
 struct LightSums {
@@ -19,10 +22,28 @@ struct LightSums {
     vec3 grazing;         // Σ E·(n·l)·D·V·g
 };
 
+#ifdef COARSE_LEVEL
+// The mean of max(n·l, 0) over the normals that one stands for, whose cosine to the light is `cosine`. They have the mean |n| cosine
+// and, if they spread alike to all sides, the variance σ² = (1 − |n|²)/2 · (1 − cosine²); for a normal distribution of mean μ the mean of
+// the positive part is close to (μ + √(μ² + 2σ²/π)) / 2, which is exact for μ = 0 and for σ = 0.
+float meanCosine(float cosine, float agreement) {
+    float mean = agreement * cosine;
+    float spread = 0.31830988618 * (1.0 - agreement * agreement) * max(1.0 - cosine * cosine, 0.0);
+    return 0.5 * (mean + sqrt(mean * mean + spread));
+}
+
+// The normals that one stands for widen the reflection: a lobe of width α over slopes of variance σ² ≈ (1 − |n|)/|n| along each axis
+// (Toksvig 2005, Mipmapping Normal Maps) is one of width √(α² + 2σ²).
+float widenedAlpha(float alpha, float agreement) {
+    return min(sqrt(alpha * alpha + 2.0 * (1.0 - agreement) / agreement), 1.0);
+}
+#endif
+
 // One light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is known through its cosines
 // only: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
 void addLight(inout LightSums sums, SurfacePoint point, float nv, float alpha, vec3 toLight, vec3 illuminance) {
-    float nl = max(dot(point.normal, toLight), 0.0);
+    float cosine = dot(point.normal, toLight);
+    float nl = max(cosine, 0.0);
     float sum2 = max(2.0 + 2.0 * dot(toLight, point.toEye), 1e-6);
     float cosines = max(nl + nv, 0.0);
     float base = max(cosines * cosines * (alpha * alpha - 1.0) + sum2, alpha * alpha * sum2);  // (n·h)² ≤ 1
@@ -32,9 +53,13 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, float alpha, v
     float g = 1.0 - 0.5 * sqrt(sum2);
     float g2 = g * g;
     g = g2 * g2 * g;
-    vec3 received = illuminance * nl;
-    sums.diffuse += received * (1.0 - g);
-    received *= specular;
+#ifdef COARSE_LEVEL
+    float matt = meanCosine(cosine, point.agreement);
+#else
+    float matt = nl;
+#endif
+    sums.diffuse += illuminance * (matt * (1.0 - g));
+    vec3 received = illuminance * (nl * specular);
     sums.specular += received;
     sums.grazing += received * g;
 }
@@ -56,6 +81,15 @@ vec3 localLight(LightData light, vec3 viewPosition, out vec3 toLight) {
     return light.colorScale.rgb * falloff;
 }
 
+// The normal whose cosine gives the light that matt surfaces throw back.
+vec3 mattNormal(SurfacePoint point) {
+#ifdef COARSE_LEVEL
+    return point.normal * point.agreement;
+#else
+    return point.normal;
+#endif
+}
+
 // The environment's light on the point, `occlusion` of it.
 vec3 environmentLight(SurfacePoint point, float nv, float occlusion) {
 #if ENVIRONMENT == 0
@@ -63,14 +97,14 @@ vec3 environmentLight(SurfacePoint point, float nv, float occlusion) {
 #else
 #if ENVIRONMENT == 3
     mat3 worldFromView = mat3(frame.worldFromView);
-    vec3 diffuse = environmentDiffuse(worldFromView * point.normal);
+    vec3 diffuse = environmentDiffuse(worldFromView * mattNormal(point));
     vec3 reflection = environmentRadiance(worldFromView * reflect(-point.toEye, point.normal), point.roughness * ENVIRONMENT_LEVELS);
 #elif ENVIRONMENT == 2
     // Only heights count: that of the mirrored direction 2 (n·v) n − v too.
     vec3 up = vec3(frame.worldFromView[0].y, frame.worldFromView[1].y, frame.worldFromView[2].y);
     float normalHeight = dot(up, point.normal);
     float mirroredHeight = 2.0 * nv * normalHeight - dot(up, point.toEye);
-    vec3 diffuse = gradientDiffuse(normalHeight);
+    vec3 diffuse = gradientDiffuse(dot(up, mattNormal(point)));
     vec3 reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), point.roughness);
 #else
     vec3 diffuse = frame.environment[0].rgb;
@@ -81,4 +115,26 @@ vec3 environmentLight(SurfacePoint point, float nv, float occlusion) {
     vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
     return (point.diffuse * diffuse + (point.specular * fit.x + fit.y) * reflection) * (occlusion * ENVIRONMENT_LIGHTING);
 #endif
+}
+
+// Radiance towards the eye, without emission. `viewPosition` matters to point and spot lights only.
+vec3 reflectedRadiance(SurfacePoint point, vec3 viewPosition, float occlusion) {
+    float nv = dot(point.normal, point.toEye);   // may be below 0: an interpolated normal can look away
+    float alpha = max(point.roughness * point.roughness, 1e-3);
+#ifdef COARSE_LEVEL
+    alpha = widenedAlpha(alpha, point.agreement);
+    point.roughness = sqrt(alpha);
+#endif
+    LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
+    for (int i = 0; i < LIGHT_COUNT; ++i) {
+        vec3 toLight = -frame.lights[i].directionType.xyz;
+        vec3 illuminance = frame.lights[i].colorScale.rgb;
+#ifdef LOCAL_LIGHTS
+        if (frame.lights[i].directionType.w != 0.0) illuminance = localLight(frame.lights[i], viewPosition, toLight);
+#endif
+        addLight(sums, point, nv, alpha, toLight, illuminance);
+    }
+    vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
+    vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
+    return diffuse + specular + environmentLight(point, max(nv, 0.0), occlusion);
 }

@@ -3,6 +3,9 @@
     vec4 color;
 #ifndef UNLIT
     vec3 normal;          // view space
+#ifdef COARSE_LEVEL
+    float agreement;      // of the normals that a coarse level's normal stands for: the length of their mean, ≤ 1
+#endif
     vec3 toEye;           // view space, to this sample's point on the lens
 #endif
 #if defined(LOCAL_LIGHTS)

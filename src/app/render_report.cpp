@@ -23,18 +23,6 @@ std::uint64_t peakMemory() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
-const char* lodName(LodMode mode) {
-    switch (mode) {
-        case LodMode::fractional:
-            return "fractional";
-        case LodMode::nearest:
-            return "nearest";
-        case LodMode::off:
-            return "off";
-    }
-    return "";
-}
-
 const char* metricName(LodMetric metric) {
     return metric == LodMetric::size ? "size" : "error";
 }
@@ -86,7 +74,7 @@ Metadata renderMetadata(const RenderReport& report) {
         {"defocus:seed", static_cast<double>(settings.seed)},
         {"defocus:seconds", report.stats.renderMilliseconds / 1000},
         {"defocus:method", report.options.method},
-        {"defocus:lod", std::string(lodName(settings.lod))},
+        {"defocus:lod", std::string(lodModeName(settings.lod))},
         {"defocus:lodMetric", std::string(metricName(settings.metric))},
         {"defocus:blurThreshold", settings.thresholds.blur},
         {"defocus:sizeThreshold", settings.thresholds.size},
@@ -109,7 +97,7 @@ std::string statsJson(const RenderReport& report) {
         {"method", report.options.method},
         {"samples", stats.samples},
         {"seed", settings.seed},
-        {"lod", lodName(settings.lod)},
+        {"lod", lodModeName(settings.lod)},
         {"lodMetric", metricName(settings.metric)},
         {"blurThreshold", settings.thresholds.blur},
         {"sizeThreshold", settings.thresholds.size},

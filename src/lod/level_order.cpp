@@ -37,10 +37,11 @@ void optimizeTriangleOrder(LevelTriangles& level, std::size_t vertexCount) {
 }
 
 SurvivalOrder sortBySurvival(std::vector<LevelTriangles>& levels, const Welded& positions) {
-    // The vertices of each position, in a list that starts at `head`; only those that level 0 uses.
+    // The vertices of each position, in a list that starts at `head`; only those that a level uses.
     const std::size_t vertexCount = positions.id.size();
     std::vector<std::uint8_t> used(vertexCount, 0);
-    for (const std::uint32_t v : levels.front().indices) used[v] = 1;
+    for (const LevelTriangles& level : levels)
+        for (const std::uint32_t v : level.indices) used[v] = 1;
     std::vector<std::uint32_t> head(positions.first.size(), none);
     std::vector<std::uint32_t> next(vertexCount, none);
     for (std::size_t v = vertexCount; v-- > 0;) {

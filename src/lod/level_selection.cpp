@@ -10,8 +10,8 @@ namespace defocus {
 namespace {
 
 constexpr double referenceSamples = 64;
-constexpr LodThresholds referenceSize{0.25, 2.0};   // px of edge at 64 samples
-constexpr LodThresholds referenceError{0.02, 0.1};  // px of deviation at 64 samples
+constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 samples
+constexpr LodThresholds referenceError{0.025, 0.25};  // px of deviation at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
 
@@ -28,6 +28,18 @@ double between(double fine, double coarse, double target, LodMetric metric) {
 }
 
 }  // namespace
+
+const char* lodModeName(LodMode mode) {
+    switch (mode) {
+        case LodMode::fractional:
+            return "fractional";
+        case LodMode::nearest:
+            return "nearest";
+        case LodMode::off:
+            return "off";
+    }
+    return "";
+}
 
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
     const LodThresholds& reference = metric == LodMetric::size ? referenceSize : referenceError;

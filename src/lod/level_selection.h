@@ -14,6 +14,8 @@ enum class LodMode {
     off,         // full detail
 };
 
+const char* lodModeName(LodMode mode);  // as the command line has it
+
 enum class LodMetric {
     size,   // target edge length in px
     error,  // target deviation in px

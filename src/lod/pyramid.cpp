@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "lod/level_attributes.h"
+#include "lod/level_fit.h"
 #include "lod/level_order.h"
 #include "lod/simplify.h"
 #include "lod/weld.h"
@@ -59,14 +59,6 @@ LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& 
     return level;
 }
 
-// Of finite positions: a box only picks among the coordinates, so single precision is exact.
-Bounds boundsOf(const std::vector<glm::vec3>& positions) {
-    Bounds bounds;
-    for (const glm::vec3& p : positions)
-        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) bounds.extend(glm::dvec3(p));
-    return bounds;
-}
-
 double meanEdge(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
     double sum = 0;
     for (std::size_t i = 0; i < indices.size(); i += 3)
@@ -88,7 +80,6 @@ PyramidLevel appendLevel(Pyramid& pyramid, const LevelTriangles& triangles, std:
         first += count;
     }
     pyramid.indices.insert(pyramid.indices.end(), triangles.indices.begin(), triangles.indices.end());
-    level.meanEdge = meanEdge(pyramid.vertices.positions, triangles.indices);
     return level;
 }
 
@@ -104,9 +95,9 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
 Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
     // Join equal vertices; weld the positions of the rest.
     const Welded unique = weldVertices(mesh);
-    Vertices vertices = gathered(mesh.vertices, unique.first);
-    const Welded positions = weldPositions(vertices.positions);
     std::vector<LevelTriangles> triangles = {allTriangles(mesh, unique.id)};
+    Vertices vertices = gathered(mesh.vertices, unique.first);
+    Welded positions = weldPositions(vertices.positions);
     if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, triangles.front().indices);
 
     // Simplify.
@@ -117,7 +108,20 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
         simplification =
             simplify(vertices, positions, triangles.front(), {options.leastTriangles, options.mostLevels - 1});
     pyramid.repairedFaces = simplification.repairedFaces;
+
+    // Twins are vertices like others from here on; no corner of level 0 uses them.
+    const std::size_t ownCount = vertices.count();
+    std::vector<std::uint32_t> withTwins(ownCount);
+    std::iota(withTwins.begin(), withTwins.end(), 0u);
+    withTwins.insert(withTwins.end(), simplification.twins.begin(), simplification.twins.end());
+    vertices = gathered(vertices, withTwins);
+    for (const std::uint32_t v : simplification.twins) positions.id.push_back(positions.id[v]);
+
+    // Fit the levels' shape and looks to the mesh.
+    const FitSource source = prepareFit(vertices, positions, ownCount, triangles.front().indices);
+    std::vector<LevelFit> fits = {{vertices.positions, vertices.normals, vertices.colors}};
     for (SimplifiedLevel& level : simplification.levels) {
+        fits.push_back(fitLevel(source, level.anchors, level.triangles.indices));
         triangles.push_back(std::move(level.triangles));
         errors.push_back(level.error);
     }
@@ -126,19 +130,18 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
     for (LevelTriangles& level : triangles) optimizeTriangleOrder(level, vertices.count());
     const SurvivalOrder order = sortBySurvival(triangles, positions);
     pyramid.vertices = gathered(vertices, order.vertices);
-    pyramid.source = gathered(unique.first, order.vertices);
+    pyramid.source = gathered(gathered(unique.first, withTwins), order.vertices);
     pyramid.bounds = boundsOf(pyramid.vertices.positions);
 
-    // Describe each level: ranges, sizes and its own normals and colours.
+    // Describe each level.
     for (std::size_t l = 0; l < triangles.size(); ++l) {
         PyramidLevel level = appendLevel(pyramid, triangles[l], order.vertexCounts[l]);
         level.error = errors[l];
-        const LevelAttributes attributes =
-            l == 0 ? LevelAttributes{vertices.normals, vertices.colors}
-                   : fitAttributes(vertices, positions.id, simplification.levels[l - 1].anchors);
         const std::vector<std::uint32_t> prefix(order.vertices.begin(), order.vertices.begin() + level.vertexCount);
-        level.normals = gathered(attributes.normals, prefix);
-        level.colors = gathered(attributes.colors, prefix);
+        level.positions = gathered(fits[l].positions, prefix);
+        level.normals = gathered(fits[l].normals, prefix);
+        level.colors = gathered(fits[l].colors, prefix);
+        level.meanEdge = meanEdge(level.positions, triangles[l].indices);
         pyramid.levels.push_back(std::move(level));
     }
     separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));

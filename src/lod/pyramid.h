@@ -2,8 +2,9 @@
 // Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
 //
 // All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
-// together), so level l uses the prefix [0, vertexCount[l]). Only normals and colours differ between levels: each has
-// its own, re-averaged for its triangles.
+// together), so level l uses the prefix [0, vertexCount[l]): texture coordinates, joints, weights and morph targets are
+// those of the surviving vertices. Positions, normals and colours are each level's own, fitted to level 0
+// (level_fit.h).
 
 #include <cstdint>
 #include <string>
@@ -23,10 +24,12 @@ struct PyramidLevel {
     std::vector<IndexRange> primitives;  // one a primitive of the mesh, in its order
     std::uint32_t vertexCount = 0;       // the prefix of the vertex buffer that the level uses
     std::uint32_t triangleCount = 0;
-    // Fitted to the triangles of this level (level 0: the mesh's own). Normals have a length of at most 1: the shorter,
-    // the more the normals that they stand for differ, and the less light a matt surface throws back.
-    std::vector<glm::vec3> normals;   // vertexCount
-    std::vector<glm::u8vec4> colors;  // vertexCount; empty without colours
+    // Fitted to level 0 (there: the mesh's own), inside its bounds; vertices at one position stay at one. Normals have
+    // a length of at most 1: the shorter, the more the normals that they stand for differ, and the less light a matt
+    // surface throws back.
+    std::vector<glm::vec3> positions;  // vertexCount
+    std::vector<glm::vec3> normals;    // vertexCount
+    std::vector<glm::u8vec4> colors;   // vertexCount; empty without colours
 
     // Object units. Mean of all faces' edge lengths (an edge counts once a face), raised where needed so that it grows
     // by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew them.
@@ -38,7 +41,9 @@ struct PyramidLevel {
 };
 
 struct Pyramid {
-    Vertices vertices;                   // of level 0, sorted by survival, equal ones joined; `normals` are level 0's
+    // Of level 0, sorted by survival, equal ones joined; `normals` are level 0's. A few are there twice, for coarser
+    // levels that need two normals at one place.
+    Vertices vertices;
     std::vector<std::uint32_t> source;   // for each vertex, which one of Mesh::vertices it is (morph targets follow it)
     std::vector<std::uint32_t> indices;  // of all levels
     std::vector<PyramidLevel> levels;    // at least one; an empty mesh has one empty level

@@ -98,6 +98,11 @@ void collapse(Simplifier& s, HalfedgeHandle edge) {
     for (const HalfedgeHandle side : {edge, opposite})
         if (s.mesh.face_handle(side).is_valid()) --s.liveFaces;
     for (const Retarget& retarget : s.retargets) {
+        const std::uint32_t old = s.corners.wedge[retarget.corner];
+        if (old != retarget.wedge && s.attributeQuadrics[old].weight > 0) {
+            s.attributeQuadrics[retarget.wedge].add(s.attributeQuadrics[old]);
+            s.attributeQuadrics[old] = {};
+        }
         s.corners.vertex[retarget.corner] = to;
         s.corners.wedge[retarget.corner] = retarget.wedge;
     }
@@ -136,15 +141,16 @@ bool collapseTo(Simplifier& s, std::size_t target) {
 
 SimplifiedLevel snapshot(Simplifier& s, std::size_t primitiveCount) {
     SimplifiedLevel level;
+    const std::vector<std::uint32_t> wedges = creasedWedges(s);
     level.triangles.primitiveIndexCounts.assign(primitiveCount, 0);
     level.triangles.indices.reserve(3 * s.liveFaces);
     for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
         if (s.mesh.status(FaceHandle(static_cast<int>(face))).deleted()) continue;
-        for (std::uint32_t i = 0; i < 3; ++i) level.triangles.indices.push_back(s.corners.wedge[3 * face + i]);
+        for (std::uint32_t i = 0; i < 3; ++i) level.triangles.indices.push_back(wedges[3 * face + i]);
         level.triangles.primitiveIndexCounts[s.corners.primitive[face]] += 3;
     }
     level.error = deviation(s);
-    level.anchors = anchors(s);
+    level.anchors = anchors(s, wedges);
     return level;
 }
 
@@ -200,6 +206,7 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, const
         if (s.liveFaces <= enough) result.levels.push_back(snapshot(s, triangles.primitiveIndexCounts.size()));
         if (!reached) break;
     }
+    result.twins = std::move(s.twins);
     return result;
 }
 

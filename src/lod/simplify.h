@@ -7,13 +7,14 @@
 //   poor:  it leaves a seam or an open border, or makes a sliver: it costs ten times as much;
 //   bad:   it turns a face's normal by more than 75° or draws a vertex of another primitive: it is made only when no
 //          other is left anywhere.
-// The topology never changes (link condition): a closed surface is closed at every level, and a component ends as a
-// tetrahedron or its like.
+// The cost of a collapse is the quadric error of places (Garland and Heckbert 1997), with constraints along borders,
+// seams and the rims of thin sheets, plus that of attributes (Hoppe 1999). The topology never changes (link condition):
+// a closed surface is closed at every level, and a component ends as a tetrahedron or its like.
 
 #include <cstdint>
 #include <vector>
 
-#include "lod/level_attributes.h"
+#include "lod/level_fit.h"
 #include "lod/level_order.h"
 #include "lod/weld.h"
 #include "scene/mesh.h"
@@ -33,6 +34,9 @@ struct SimplifiedLevel {
 
 struct Simplification {
     std::vector<SimplifiedLevel> levels;  // coarser and coarser, the mesh itself not among them; may be empty
+    // Levels may name more vertices than the mesh has: number `vertexCount + i` is a second one beside the mesh's
+    // vertex twins[i], for the other side of a thin sheet whose rim has collapsed.
+    std::vector<std::uint32_t> twins;
     std::uint32_t repairedFaces = 0;
 };
 

@@ -3,7 +3,9 @@
 // vertices stands for the level.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "lod/simplify_state.h"
 #include "lod/triangle_distance.h"
@@ -13,7 +15,7 @@ namespace defocus {
 namespace {
 
 constexpr std::size_t mostSamples = 4096;  // vertices looked at a level
-constexpr int mostSteps = 8;               // from vertex to vertex towards the closest face
+constexpr std::size_t mostSteps = 12;      // vertices whose faces are looked at, on the way to the closest face
 constexpr double percentile = 0.99;
 
 std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
@@ -29,21 +31,38 @@ bool looksAlong(const Simplifier& s, const std::uint32_t* corner, const glm::dve
 struct Closest {
     double squaredDistance = 0;
     glm::dvec3 point{0};
-    std::uint32_t vertex = 0;             // that the walk ended at
     std::uint32_t face = EdgeSide::none;  // none: the vertex itself is the closest point
 };
 
-// The point of the level's surface closest to vertex `v`, near its survivor: from vertex to vertex as long as that
-// leads closer.
+// The corner of `face` nearest to `p` that isn't among `seen`; EdgeSide::none if all are.
+std::uint32_t nearestUnseen(const Simplifier& s, std::uint32_t face, const glm::dvec3& p,
+                            std::span<const std::uint32_t> seen) {
+    std::uint32_t nearest = EdgeSide::none;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
+        const std::uint32_t v = s.corners.vertex[corner];
+        if (std::find(seen.begin(), seen.end(), v) != seen.end()) continue;
+        const glm::dvec3 offset = p - s.points[v];
+        if (const double distance = glm::dot(offset, offset); distance < least) {
+            least = distance;
+            nearest = v;
+        }
+    }
+    return nearest;
+}
+
+// The point of the level's surface closest to vertex `v`, near its survivor: from the faces around one vertex to those
+// around the corners of the closest, as long as that leads closer.
 // With a `side`, only faces that look that way count: a thin fin has two sides in one place.
 Closest closestTo(Simplifier& s, std::uint32_t v, const glm::dvec3* side = nullptr) {
     Closest result;
     const glm::dvec3& p = s.points[v];
     std::uint32_t nearest = survivorOf(s, v);
     double least = glm::dot(p - s.points[nearest], p - s.points[nearest]);
-    for (int step = 0; step < mostSteps && least > 0; ++step) {
+    std::array<std::uint32_t, mostSteps> seen;
+    for (std::size_t step = 0; step < mostSteps && least > 0 && nearest != EdgeSide::none; ++step) {
+        seen[step] = nearest;
         facesAround(s, vertexHandle(nearest), s.facesFrom);
-        std::uint32_t closestFace = EdgeSide::none;
         for (const std::uint32_t face : s.facesFrom) {
             const std::uint32_t* corner = &s.corners.vertex[3 * std::size_t{face}];
             const glm::dvec3 point = closestPoint(p, s.points[corner[0]], s.points[corner[1]], s.points[corner[2]]);
@@ -52,22 +71,13 @@ Closest closestTo(Simplifier& s, std::uint32_t v, const glm::dvec3* side = nullp
             if (!(distance < least)) continue;  // NaN of a degenerate face is passed over
             if (side != nullptr && !looksAlong(s, corner, *side)) continue;
             least = distance;
-            closestFace = face;
             result.point = point;
             result.face = face;
         }
-        if (closestFace == EdgeSide::none) break;
-        const auto distanceTo = [&](std::uint32_t corner) {
-            return glm::distance(p, s.points[s.corners.vertex[corner]]);
-        };
-        std::uint32_t next = 3 * closestFace;
-        for (std::uint32_t corner = next + 1; corner < 3 * closestFace + 3; ++corner)
-            if (distanceTo(corner) < distanceTo(next)) next = corner;
-        if (s.corners.vertex[next] == nearest) break;
-        nearest = s.corners.vertex[next];
+        if (result.face == EdgeSide::none) break;
+        nearest = nearestUnseen(s, result.face, p, std::span(seen.data(), step + 1));
     }
     result.squaredDistance = least;
-    result.vertex = nearest;
     return result;
 }
 
@@ -93,7 +103,7 @@ double deviation(Simplifier& s) {
     return std::sqrt(squaredDistances[static_cast<std::size_t>(rank)]) * s.scale;
 }
 
-std::vector<Anchor> anchors(Simplifier& s) {
+std::vector<Anchor> anchors(Simplifier& s, const std::vector<std::uint32_t>& wedges) {
     std::vector<Anchor> result(s.firstCorner.size());
     for (std::uint32_t wedge = 0; wedge < result.size(); ++wedge) {
         if (s.firstCorner[wedge] == EdgeSide::none) continue;
@@ -109,7 +119,7 @@ std::vector<Anchor> anchors(Simplifier& s) {
         const std::uint32_t* v = &s.corners.vertex[corner];
         const glm::vec3 weights = barycentric(closest.point, s.points[v[0]], s.points[v[1]], s.points[v[2]]);
         for (int k = 0; k < 3; ++k) {
-            anchor.vertex[k] = s.corners.wedge[corner + static_cast<std::size_t>(k)];
+            anchor.vertex[k] = wedges[corner + static_cast<std::size_t>(k)];
             anchor.weight[k] = weights[k];
         }
     }

@@ -17,10 +17,6 @@ using OpenMesh::VertexHandle;
 // Squared edge length that weighs as much as a squared distance: decides on flat ground, where it favours even
 // triangles.
 constexpr double edgeWeight = 1e-4;
-// The same for edges between unlike wedges: squared edge length × squared difference of normals (and 4 × of colours) …
-constexpr double shadingWeight = 1e-2;
-// … and squared step in uv, scaled to lengths.
-constexpr double uvWeight = 1e-4;
 constexpr double leastTurnCosine = 0.2588;  // 75°
 constexpr double sliverQuality = 0.02;      // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
@@ -72,26 +68,24 @@ void facesAround(const Simplifier& s, VertexHandle v, std::vector<std::uint32_t>
     });
 }
 
-// Quadric error of both vertices at the survivor, plus what edge length and unlike attributes weigh.
+// Quadric errors of both vertices at the survivor, of place and of attributes, plus what edge length weighs.
 double collapseCost(const Simplifier& s, HalfedgeHandle edge) {
     const HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
     const std::uint32_t from = index(s.mesh.to_vertex_handle(opposite));
     const std::uint32_t to = index(s.mesh.to_vertex_handle(edge));
     const glm::dvec3 step = s.points[to] - s.points[from];
-    double shading = 0;
-    double uv = 0;
+    double cost = s.quadrics[from].at(s.points[to]) + s.quadrics[to].at(s.points[to]) +
+                  s.quadrics[from].weight * edgeWeight * glm::dot(step, step);
     EdgeSide last;
     for (const HalfedgeHandle side : {edge, opposite}) {
         const EdgeSide wedges = edgeSide(s, s.mesh.face_handle(side), from, to);
         if (wedges.face == EdgeSide::none || (wedges.from == last.from && wedges.to == last.to)) continue;
         last = wedges;
-        const WedgeAttributes& a = s.corners.attributes[wedges.from];
-        const WedgeAttributes& b = s.corners.attributes[wedges.to];
-        shading = std::max(shading, shadingDifference(a, b));
-        uv = std::max(uv, uvDifference(a, b));
+        const AttributeRow& row = s.rows[wedges.to];
+        cost += s.attributeQuadrics[wedges.from].at(s.points[to], row);
+        cost += s.attributeQuadrics[wedges.to].at(s.points[to], row);
     }
-    const double extra = glm::dot(step, step) * (edgeWeight + shadingWeight * shading) + uvWeight * uv;
-    return s.quadrics[from].at(s.points[to]) + s.quadrics[to].at(s.points[to]) + s.quadrics[from].weight * extra;
+    return cost;
 }
 
 // Leaves the wedges to hand over in `s.retargets`.

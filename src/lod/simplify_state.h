@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
+#include "lod/attribute_quadric.h"
 #include "lod/corners.h"
 #include "lod/quadric.h"
 #include "lod/simplify.h"
@@ -41,6 +43,8 @@ struct Simplifier {
     std::vector<glm::dvec3> points;  // of the vertices; the mesh's longest side is 1
     double scale = 0;                // object units per unit of `points`; 0: nothing to simplify
     std::vector<Quadric> quadrics;
+    std::vector<AttributeRow> rows;  // attributes of each mesh vertex, as lengths that weigh as much as distances do
+    std::vector<AttributeQuadric> attributeQuadrics;  // of each mesh vertex
     std::vector<std::uint32_t> survivors;  // for each vertex the one it collapsed onto, itself while it lives
     std::vector<Candidate> candidates;
     std::vector<QueueEntry> queue;
@@ -48,6 +52,9 @@ struct Simplifier {
     std::uint32_t repairedFaces = 0;
     std::vector<std::uint32_t> firstCorner;  // of each mesh vertex, as the mesh was; EdgeSide::none if it has no face
     std::vector<std::uint32_t> firstVertex;  // of each mesh vertex's first corner, as the mesh was
+
+    std::vector<std::uint32_t> twins;                         // see Simplification
+    std::unordered_map<std::uint32_t, std::uint32_t> twinOf;  // mesh vertex → the number of its twin
 
     std::vector<std::uint32_t> facesFrom, facesTo;  // scratch of judgeCollapse
     std::vector<Retarget> retargets;                // the wedges that the collapse judged last hands over
@@ -86,7 +93,11 @@ Fit judgeCollapse(Simplifier& s, OpenMesh::HalfedgeHandle edge);
 
 // simplify_deviation.cpp: estimated distance between the mesh and what is left of it, object units.
 double deviation(Simplifier& s);
-// simplify_deviation.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive.
-std::vector<Anchor> anchors(Simplifier& s);
+// simplify_deviation.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive;
+// `wedges` (one a corner) are the vertices that they name.
+std::vector<Anchor> anchors(Simplifier& s, const std::vector<std::uint32_t>& wedges);
+
+// simplify_creases.cpp: the wedges of all corners, split into two where the faces around one look opposite ways.
+std::vector<std::uint32_t> creasedWedges(Simplifier& s);
 
 }  // namespace defocus

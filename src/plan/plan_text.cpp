@@ -40,18 +40,6 @@ json objectJson(const ObjectPlan& object) {
             {"draws", std::move(draws)}};
 }
 
-const char* name(LodMode mode) {
-    switch (mode) {
-        case LodMode::fractional:
-            return "fractional";
-        case LodMode::nearest:
-            return "nearest";
-        case LodMode::off:
-            return "off";
-    }
-    return "";
-}
-
 std::string drawText(const LevelDraw& draw) {
     if (draw.sampleCount == 0) return "";
     return fmt::format("{} ({} tri) x {}", draw.level, draw.triangleCount, draw.sampleCount);
@@ -65,7 +53,7 @@ std::string planTable(const FramePlan& plan) {
         "{} x {} px, {} samples, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
         "level of detail: {}, {} metric, blur threshold {:.4g}, size threshold {:.4g} px\n\n",
         plan.view.width, plan.view.height, plan.samples.size(), lens.focalLength, lens.fStop, lens.focusDistance,
-        plan.apertureDiameter * 1000, name(plan.settings.lod),
+        plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
         plan.settings.metric == LodMetric::size ? "size" : "error", plan.settings.thresholds.blur,
         plan.settings.thresholds.size);
     std::size_t width = 6;
@@ -103,7 +91,7 @@ std::string planJson(const FramePlan& plan) {
                              {"used", plan.usesLens}}},
                            {"samples", plan.samples.size()},
                            {"lod",
-                            {{"mode", name(plan.settings.lod)},
+                            {{"mode", lodModeName(plan.settings.lod)},
                              {"metric", plan.settings.metric == LodMetric::size ? "size" : "error"},
                              {"blurThreshold", plan.settings.thresholds.blur},
                              {"sizeThreshold", plan.settings.thresholds.size}}},

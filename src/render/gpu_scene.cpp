@@ -64,7 +64,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
 
     // Level l uses a prefix of the vertices: the finest wanted level says how many are needed.
     std::size_t vertexCount = 0;
-    std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> positions, normals;
     std::vector<glm::u8vec4> colors;
     std::vector<std::uint32_t> indices;
     for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -73,7 +73,8 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
         GpuLevel& target = result.levels[level];
         vertexCount = std::max<std::size_t>(vertexCount, source.vertexCount);
         target.uploaded = true;
-        target.normalOffset = normals.size() * sizeof(glm::vec3);
+        target.vectorOffset = normals.size() * sizeof(glm::vec3);
+        positions.insert(positions.end(), source.positions.begin(), source.positions.end());
         normals.insert(normals.end(), source.normals.begin(), source.normals.end());
         target.colorOffset = colors.size() * sizeof(glm::u8vec4);
         colors.insert(colors.end(), source.colors.begin(), source.colors.end());
@@ -84,7 +85,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
         }
     }
     const Vertices& vertices = pyramid.vertices;
-    result.positions = prefixBuffer(vertices.positions, vertexCount);
+    result.positions = prefixBuffer(positions, positions.size());
     result.normals = prefixBuffer(normals, normals.size());
     result.colors = prefixBuffer(colors, colors.size());
     result.uv0 = prefixBuffer(vertices.uv0, vertexCount);

@@ -16,7 +16,7 @@ namespace defocus {
 // A level's place in the mesh's buffers.
 struct GpuLevel {
     bool uploaded = false;
-    std::size_t normalOffset = 0;           // bytes into the normals buffer
+    std::size_t vectorOffset = 0;           // bytes into the positions and the normals buffer
     std::size_t colorOffset = 0;            // bytes into the colours buffer
     std::vector<std::size_t> indexOffsets;  // bytes into the index buffer, one a primitive
 };

@@ -86,7 +86,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
                 auto& list = material.alphaMode == AlphaMode::blend ? blended_ : opaque_;
                 list.push_back({object.mesh, level.level, p, static_cast<std::uint32_t>(index), materialIndex,
                                 level.firstSample, level.sampleCount, static_cast<GLsizei>(indexCount), object.mirrored,
-                                &program(material, gpuMesh, materialIndex)});
+                                &program(material, gpuMesh, materialIndex, level.level > 0)});
             }
         }
     }
@@ -100,7 +100,7 @@ ShaderDefines SurfacePass::passDefines() const {
     return defines;
 }
 
-const Program& SurfacePass::program(const Material& material, const GpuMesh& mesh, int materialIndex) {
+const Program& SurfacePass::program(const Material& material, const GpuMesh& mesh, int materialIndex, bool coarse) {
     static constexpr const char* textureDefines[5] = {"BASE_COLOR_TEXTURE", "METALLIC_ROUGHNESS_TEXTURE",
                                                       "NORMAL_TEXTURE", "OCCLUSION_TEXTURE", "EMISSIVE_TEXTURE"};
     ShaderDefines defines = passDefines();
@@ -121,6 +121,7 @@ const Program& SurfacePass::program(const Material& material, const GpuMesh& mes
     const std::vector<PlacedLight>& lights = scene_->world().lights;
     set(textured, "TEXTURED");
     set(!lit, "UNLIT");
+    set(lit && coarse, "COARSE_LEVEL");
     set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
     set(static_cast<bool>(mesh.colors), "VERTEX_COLORS");
     set(material.doubleSided, "DOUBLE_SIDED");
@@ -155,7 +156,8 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     const GpuMaterialTextures& textures = scene_->textures(item.material);
     for (GLuint i = 0; i < 5; ++i)
         if (textures.slots[i] != nullptr) textures.slots[i]->attach(i);
-    mesh.vertexArray.bind(normalLocation, mesh.normals, level.normalOffset, sizeof(glm::vec3));
+    mesh.vertexArray.bind(positionLocation, mesh.positions, level.vectorOffset, sizeof(glm::vec3));
+    mesh.vertexArray.bind(normalLocation, mesh.normals, level.vectorOffset, sizeof(glm::vec3));
     if (mesh.colors) mesh.vertexArray.bind(colorLocation, mesh.colors, level.colorOffset, sizeof(glm::u8vec4));
     glBindVertexArray(mesh.vertexArray.name());
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);

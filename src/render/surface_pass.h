@@ -54,7 +54,7 @@ private:
     void uploadObjects(const FramePlan& plan);
     void uploadMaterials();
     void addDraws(const FramePlan& plan);
-    const Program& program(const Material& material, const GpuMesh& mesh, int materialIndex);
+    const Program& program(const Material& material, const GpuMesh& mesh, int materialIndex, bool coarse);
     [[nodiscard]] ShaderDefines passDefines() const;
     void bindFrame();
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);

@@ -54,6 +54,13 @@ Bounds Mesh::bounds() const {
     return result;
 }
 
+Bounds boundsOf(const std::vector<glm::vec3>& positions) {
+    Bounds bounds;
+    for (const glm::vec3& p : positions)
+        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) bounds.extend(glm::dvec3(p));
+    return bounds;
+}
+
 std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
                                      const std::vector<std::uint32_t>& indices) {
     const std::vector<std::uint32_t> welded = weldedIndices(positions);

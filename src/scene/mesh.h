@@ -49,6 +49,9 @@ struct Mesh {
     [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles use; empty without triangles
 };
 
+// The box of the finite ones among positions.
+Bounds boundsOf(const std::vector<glm::vec3>& positions);
+
 // Area-weighted smooth normals (positions welded exactly) for triangles `indices` over `positions`; a vertex without
 // any proper triangle gets +y.
 std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,

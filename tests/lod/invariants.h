@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/vector_relational.hpp>
+
 #include "shapes.h"
 
 namespace defocus {
@@ -27,6 +29,13 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
         const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
         ASSERT_EQ(indices.size(), 3 * std::size_t{level.triangleCount});
         for (const std::uint32_t index : indices) ASSERT_LT(index, level.vertexCount);
+        ASSERT_EQ(level.positions.size(), level.vertexCount);
+        for (std::size_t v = 0; v < level.positions.size(); ++v) {
+            const glm::dvec3 p = level.positions[v];
+            ASSERT_FALSE(l == 0 && level.positions[v] != pyramid.vertices.positions[v]);
+            ASSERT_FALSE(glm::any(glm::lessThan(p, pyramid.bounds.minimum)) ||
+                         glm::any(glm::greaterThan(p, pyramid.bounds.maximum)));
+        }
         ASSERT_EQ(level.normals.size(), level.vertexCount);
         for (const glm::vec3& normal : level.normals) {
             ASSERT_LE(glm::length(normal), 1 + 1e-3);

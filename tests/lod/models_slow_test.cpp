@@ -52,7 +52,7 @@ TEST(RealModels, ClosedScansStayClosedDownToTheFloor) {
         ASSERT_TRUE(isClosed(pyramid.vertices.positions, levelIndices(pyramid, 0))) << name;
         EXPECT_EQ(pyramid.levels.back().triangleCount, 64u) << name;
         for (std::size_t l = 1; l < pyramid.levels.size(); ++l)
-            EXPECT_TRUE(isClosed(pyramid.vertices.positions, levelIndices(pyramid, l))) << name << " level " << l;
+            EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l))) << name << " level " << l;
     }
 }
 

@@ -63,7 +63,7 @@ TEST(Pyramid, HalvesAClosedSphereWithASeamDownToItsFloorAndKeepsItClosed) {
     expectPyramidInvariants(mesh, pyramid);
     EXPECT_EQ(pyramid.repairedFaces, 0u);
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
-        EXPECT_TRUE(isClosed(pyramid.vertices.positions, levelIndices(pyramid, l))) << "level " << l;
+        EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l))) << "level " << l;
     // 3968, 1984, 992, 496, 248, 124, 64
     ASSERT_EQ(pyramid.levels.size(), 7u);
     EXPECT_EQ(pyramid.levels[3].triangleCount, 496u);
@@ -76,13 +76,72 @@ TEST(Pyramid, KeepsATorusWithTwoSeamsClosed) {
     expectPyramidInvariants(mesh, pyramid);
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
-        EXPECT_TRUE(isClosed(pyramid.vertices.positions, indices)) << "level " << l;
+        EXPECT_TRUE(isClosed(pyramid.levels[l].positions, indices)) << "level " << l;
         // V − E + F = 0 as for every torus.
         std::map<PositionKey, int> positions;
         for (const std::uint32_t v : indices) ++positions[keyOf(pyramid.vertices.positions[v])];
         EXPECT_EQ(positions.size(), indices.size() / 6) << "level " << l;
     }
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
+}
+
+double volume(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
+    double sum = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3)
+        sum += glm::dot(glm::dvec3(positions[indices[i]]),
+                        glm::cross(glm::dvec3(positions[indices[i + 1]]), glm::dvec3(positions[indices[i + 2]]))) /
+               6;
+    return sum;
+}
+
+// A polyhedron whose vertices lie on a sphere is inside of it: fitted, it loses at most a third of that volume.
+TEST(Pyramid, LevelsOfASphereKeepItsVolume) {
+    const Pyramid pyramid = buildPyramid(sphere(96, 48));
+    const double whole = volume(pyramid.vertices.positions, levelIndices(pyramid, 0));
+    ASSERT_GT(pyramid.levels.size(), 5u);
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+        const double inscribed = whole - volume(pyramid.vertices.positions, indices);
+        EXPECT_LT(std::abs(whole - volume(pyramid.levels[l].positions, indices)), inscribed / 3) << "level " << l;
+    }
+}
+
+// A square sheet of thickness 0.004 with both sides and its rim in smooth normals, as scans and sculpted fins have
+// them.
+Mesh thinSheet(std::uint32_t cells) {
+    Mesh mesh = parametricSurface(2 * cells + 2, cells, [=](std::uint32_t i, std::uint32_t j) {
+        const std::uint32_t around = i % (2 * cells + 2);
+        const bool front = around <= cells;
+        const double x = front ? around : 2.0 * cells + 1 - around;
+        return glm::dvec3(x / cells, static_cast<double>(j) / cells, front ? 0.002 : -0.002);
+    });
+    mesh.vertices.normals = smoothNormals(mesh.vertices.positions, mesh.primitives[0].indices);
+    return mesh;
+}
+
+TEST(Pyramid, BothSidesOfAThinSheetKeepTheirNormals) {
+    const Pyramid pyramid = buildPyramid(thinSheet(64));
+    ASSERT_LE(pyramid.levels.back().triangleCount, 256u);
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        const PyramidLevel& level = pyramid.levels[l];
+        const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            const glm::vec3& a = level.positions[indices[i]];
+            const glm::vec3 cross =
+                glm::cross(level.positions[indices[i + 1]] - a, level.positions[indices[i + 2]] - a);
+            if (glm::length(cross) < 1e-3f || std::abs(glm::normalize(cross).z) < 0.9f) continue;  // of the rim
+            glm::vec3 mean(0);
+            for (std::size_t k = 0; k < 3; ++k) mean += level.normals[indices[i + k]] / 3.0f;
+            EXPECT_GT(glm::dot(mean, glm::normalize(cross)), 0.6f) << "level " << l;
+        }
+    }
+}
+
+// The rim is next to no area, but all of the outline.
+TEST(Pyramid, AThinSheetIsNotCutBackAtItsRim) {
+    const Pyramid pyramid = buildPyramid(thinSheet(64));
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, levelIndices(pyramid, l)), 2, 0.04) << "level " << l;
 }
 
 TEST(Pyramid, DrawsNoTriangleAcrossASeam) {
@@ -126,7 +185,7 @@ TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         SCOPED_TRACE(testing::Message() << "level " << l);
-        EXPECT_TRUE(isClosed(pyramid.vertices.positions, levelIndices(pyramid, l)));
+        EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l)));
         for (std::size_t p = 0; p < 2; ++p) {
             const IndexRange& range = pyramid.levels[l].primitives[p];
             EXPECT_GT(range.count, 0u);
@@ -143,7 +202,7 @@ TEST(Pyramid, FlatSquareIsTiledAtEveryLevel) {
     EXPECT_LE(pyramid.levels.back().triangleCount, 64u);
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         SCOPED_TRACE(testing::Message() << "level " << l);
-        EXPECT_NEAR(surfaceArea(pyramid.vertices.positions, levelIndices(pyramid, l)), 1, 1e-6);
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, levelIndices(pyramid, l)), 1, 1e-6);
         for (const glm::vec3& normal : pyramid.levels[l].normals) ASSERT_NEAR(normal.z, 1, 1e-6);
         if (l == 0) continue;
         EXPECT_NEAR(pyramid.levels[l].error, std::sqrt(2.0) * 1e-6 * std::pow(1.25, l - 1), 1e-12);
@@ -213,8 +272,8 @@ TEST(Pyramid, CubeWithHardEdgesStaysACube) {
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
         const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
-        EXPECT_TRUE(isClosed(pyramid.vertices.positions, indices)) << "level " << l;
-        EXPECT_NEAR(surfaceArea(pyramid.vertices.positions, indices), 6, 1e-5) << "level " << l;
+        EXPECT_TRUE(isClosed(pyramid.levels[l].positions, indices)) << "level " << l;
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, indices), 6, 1e-5) << "level " << l;
         for (const std::uint32_t v : indices)
             ASSERT_NEAR(glm::dot(pyramid.levels[l].normals[v], pyramid.vertices.normals[v]), 1, 1e-5) << "level " << l;
     }

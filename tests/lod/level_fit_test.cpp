@@ -1,4 +1,4 @@
-#include "lod/level_attributes.h"
+#include "lod/level_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,6 @@ TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
 // One triangle (vertices 0, 1, 2 of the level) stands for 3 + `inner` vertices at the barycentric places below.
 struct OneTriangle {
     Vertices vertices;
-    std::vector<std::uint32_t> positions;
     std::vector<Anchor> anchors;
 };
 
@@ -39,16 +38,56 @@ OneTriangle oneTriangle() {
         }
     std::vector<Anchor> corners = {{{0, 0, 0}, {1, 0, 0}}, {{1, 1, 1}, {1, 0, 0}}, {{2, 2, 2}, {1, 0, 0}}};
     result.anchors.insert(result.anchors.begin(), corners.begin(), corners.end());
-    for (std::uint32_t v = 0; v < result.anchors.size(); ++v) {
-        result.positions.push_back(v);
-        result.vertices.positions.emplace_back(float(v), 0, 0);
+    const glm::vec3 corner[3] = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}};
+    for (const Anchor& anchor : result.anchors) {
+        glm::vec3 position(0);
+        for (int k = 0; k < 3; ++k) position += anchor.weight[k] * corner[anchor.vertex[k]];
+        result.vertices.positions.push_back(position);
         result.vertices.normals.push_back(up);
         result.vertices.colors.emplace_back(0, 0, 0, 255);
     }
     return result;
 }
 
-TEST(LevelAttributes, colourThatIsLinearOverTheTriangleIsKept) {
+defocus::LevelFit fitOf(const OneTriangle& t) {
+    const std::vector<std::uint32_t> indices = {0, 1, 2};
+    const Welded positions = weldPositions(t.vertices.positions);
+    FitSource source = prepareFit(t.vertices, positions, t.anchors.size(), indices);
+    source.areas.assign(t.anchors.size(), 1);  // level 0's triangles are nowhere written down: all alike
+    source.bounds.extend({0, 0, 1});
+    return fitLevel(source, t.anchors, indices);
+}
+
+TEST(LevelFit, flatTriangleStaysWhereItIs) {
+    const OneTriangle t = oneTriangle();
+    const defocus::LevelFit fitted = fitOf(t);
+    for (std::size_t v = 0; v < 3; ++v)
+        EXPECT_NEAR(glm::distance(fitted.positions[v], t.vertices.positions[v]), 0, 1e-6);
+}
+
+// All but the corners lie 0.3 above the triangle: least squares takes it nearly all the way up.
+TEST(LevelFit, triangleRisesToTheBulgeItStandsFor) {
+    OneTriangle t = oneTriangle();
+    for (std::size_t v = 3; v < t.vertices.positions.size(); ++v) t.vertices.positions[v].z = 0.3f;
+    const defocus::LevelFit fitted = fitOf(t);
+    const float mean = (fitted.positions[0].z + fitted.positions[1].z + fitted.positions[2].z) / 3;
+    EXPECT_GT(mean, 0.25f);
+    EXPECT_LT(mean, 0.3f);
+}
+
+TEST(LevelFit, farFromTheOriginNothingIsLost) {
+    OneTriangle t = oneTriangle();
+    for (std::size_t v = 0; v < t.vertices.positions.size(); ++v) {
+        t.vertices.positions[v] += glm::vec3(4096, -4096, 0);  // floats are 0.0005 apart there
+        if (v >= 3) t.vertices.positions[v].z = 0.3f;
+    }
+    const defocus::LevelFit fitted = fitOf(t);
+    EXPECT_GT((fitted.positions[0].z + fitted.positions[1].z + fitted.positions[2].z) / 3, 0.25f);
+    for (std::size_t v = 0; v < 3; ++v)
+        EXPECT_NEAR(glm::distance(glm::vec2(fitted.positions[v]), glm::vec2(t.vertices.positions[v])), 0, 0.01);
+}
+
+TEST(LevelFit, colourThatIsLinearOverTheTriangleIsKept) {
     OneTriangle t = oneTriangle();
     const float corner[3] = {40, 120, 220};
     for (std::size_t v = 0; v < t.anchors.size(); ++v) {
@@ -56,41 +95,40 @@ TEST(LevelAttributes, colourThatIsLinearOverTheTriangleIsKept) {
         for (int k = 0; k < 3; ++k) value += t.anchors[v].weight[k] * corner[t.anchors[v].vertex[k]];
         t.vertices.colors[v].r = static_cast<std::uint8_t>(std::lround(value));
     }
-    const LevelAttributes fitted = fitAttributes(t.vertices, t.positions, t.anchors);
+    const defocus::LevelFit fitted = fitOf(t);
     for (std::size_t v = 0; v < 3; ++v) EXPECT_NEAR(fitted.colors[v].r, corner[v], 4);
     EXPECT_EQ(fitted.colors[0].a, 255);
 }
 
 // A survivor that happens to sit on a dark spot must not make the whole triangle dark.
-TEST(LevelAttributes, colourOfOneSpotIsOutvoted) {
+TEST(LevelFit, colourOfOneSpotIsOutvoted) {
     OneTriangle t = oneTriangle();
     for (auto& color : t.vertices.colors) color.r = 200;
     t.vertices.colors[0].r = 0;
-    EXPECT_GT(fitAttributes(t.vertices, t.positions, t.anchors).colors[0].r, 120);
+    EXPECT_GT(fitOf(t).colors[0].r, 120);
 }
 
-TEST(LevelAttributes, normalsOfAReliefAveragedGetShorter) {
+TEST(LevelFit, normalsOfAReliefAveragedGetShorter) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)
         t.vertices.normals[v] = glm::normalize(glm::vec3(v % 2 == 0 ? 0.5f : -0.5f, 0, 1));
-    const LevelAttributes fitted = fitAttributes(t.vertices, t.positions, t.anchors);
+    const defocus::LevelFit fitted = fitOf(t);
     glm::vec3 mean(0);
     for (std::size_t v = 0; v < 3; ++v) mean += fitted.normals[v] / 3.0f;
     EXPECT_NEAR(mean.z, 1 / std::sqrt(1.25), 0.01);  // the mean of the two slopes points up and is that long
     EXPECT_NEAR(mean.x, 0, 0.1);
 }
 
-TEST(LevelAttributes, equalNormalsStayUnitLength) {
+TEST(LevelFit, equalNormalsStayUnitLength) {
     const OneTriangle t = oneTriangle();
-    for (const glm::vec3& normal : fitAttributes(t.vertices, t.positions, t.anchors).normals)
-        EXPECT_NEAR(glm::distance(normal, up), 0, 1e-5);
+    for (const glm::vec3& normal : fitOf(t).normals) EXPECT_NEAR(glm::distance(normal, up), 0, 1e-5);
 }
 
-TEST(LevelAttributes, verticesThatNobodyNamesKeepTheirOwn) {
+TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     OneTriangle t = oneTriangle();
     t.vertices.colors[7] = {9, 8, 7, 6};
     t.vertices.normals[7] = right;
-    const LevelAttributes fitted = fitAttributes(t.vertices, t.positions, t.anchors);
+    const defocus::LevelFit fitted = fitOf(t);
     EXPECT_EQ(fitted.colors[7], t.vertices.colors[7]);
     EXPECT_EQ(fitted.normals[7], right);
 }

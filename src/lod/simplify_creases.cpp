@@ -1,0 +1,105 @@
+// Where the two sides of a thin sheet meet after their rim has collapsed, one normal cannot serve both: it would point
+// sideways and darken either side. Such a wedge is split, as Hoppe 1998 allows at any corner.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "lod/simplify_state.h"
+
+namespace defocus {
+
+namespace {
+
+// Resultant of the unit normals around a wedge, as a share of their number (by angle), below which it is split: a cone
+// of 60° at its tip is kept.
+constexpr double leastAgreement = 0.5;
+constexpr int rounds = 3;  // of two means
+
+struct CornerNormal {
+    std::uint32_t corner;
+    glm::dvec3 normal;  // of the face, as long as the corner's angle
+};
+
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+CornerNormal cornerNormal(const Simplifier& s, std::uint32_t corner) {
+    const std::uint32_t first = corner / 3 * 3;
+    const glm::dvec3& p = s.points[s.corners.vertex[corner]];
+    const glm::dvec3 a = s.points[s.corners.vertex[first + (corner + 1 - first) % 3]] - p;
+    const glm::dvec3 b = s.points[s.corners.vertex[first + (corner + 2 - first) % 3]] - p;
+    const glm::dvec3 normal = glm::cross(a, b);
+    const double length = glm::length(normal);
+    return {corner, length > 0 ? normal * (angleBetween(a, b) / length) : glm::dvec3(0)};
+}
+
+// Moves the corners of one of the two sides behind the returned place; all stay before it where one side is enough.
+std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
+    glm::dvec3 sum(0);
+    double angles = 0;
+    for (const CornerNormal& c : corners) {
+        sum += c.normal;
+        angles += glm::length(c.normal);
+    }
+    if (glm::length(sum) >= leastAgreement * angles) return corners.size();
+
+    // Two means, from the corner of the largest angle and the one that looks away from it most.
+    const auto longer = [](const CornerNormal& a, const CornerNormal& b) {
+        return glm::dot(a.normal, a.normal) < glm::dot(b.normal, b.normal);
+    };
+    glm::dvec3 front = std::max_element(corners.begin(), corners.end(), longer)->normal;
+    glm::dvec3 back =
+        std::min_element(corners.begin(), corners.end(), [&](const CornerNormal& a, const CornerNormal& b) {
+            return glm::dot(a.normal, front) < glm::dot(b.normal, front);
+        })->normal;
+    const auto isFront = [&](const CornerNormal& c) {
+        return glm::dot(c.normal, front) * glm::length(back) >= glm::dot(c.normal, back) * glm::length(front);
+    };
+    for (int round = 0; round < rounds; ++round) {
+        glm::dvec3 nextFront(0);
+        glm::dvec3 nextBack(0);
+        for (const CornerNormal& c : corners) (isFront(c) ? nextFront : nextBack) += c.normal;
+        front = nextFront;
+        back = nextBack;
+    }
+    // The side that the vertex's own normal agrees with better keeps it.
+    if (glm::dot(front, own) * glm::length(back) < glm::dot(back, own) * glm::length(front)) std::swap(front, back);
+    const auto border = std::stable_partition(corners.begin(), corners.end(), isFront);
+    return static_cast<std::size_t>(border - corners.begin());
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> creasedWedges(Simplifier& s) {
+    std::vector<std::uint32_t> wedges = s.corners.wedge;
+
+    // The live corners of each wedge, one wedge after the other.
+    std::vector<std::uint32_t> first(s.firstCorner.size() + 1, 0);
+    const auto forEachCorner = [&](const auto& visit) {
+        for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face)
+            if (!s.mesh.status(OpenMesh::FaceHandle(static_cast<int>(face))).deleted())
+                for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) visit(corner);
+    };
+    forEachCorner([&](std::uint32_t corner) { ++first[wedges[corner] + 1]; });
+    for (std::size_t w = 1; w < first.size(); ++w) first[w] += first[w - 1];
+    std::vector<CornerNormal> corners(first.back());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    forEachCorner([&](std::uint32_t corner) { corners[next[wedges[corner]]++] = cornerNormal(s, corner); });
+
+    for (std::uint32_t wedge = 0; wedge + 1 < first.size(); ++wedge) {
+        const std::span<CornerNormal> around(corners.data() + first[wedge], corners.data() + first[wedge + 1]);
+        if (around.size() < 2) continue;
+        const std::size_t kept = splitSides(around, s.corners.attributes[wedge].normal);
+        if (kept == around.size() || kept == 0) continue;
+        const auto [twin, isNew] =
+            s.twinOf.try_emplace(wedge, static_cast<std::uint32_t>(s.firstCorner.size() + s.twins.size()));
+        if (isNew) s.twins.push_back(wedge);
+        for (const CornerNormal& c : around.subspan(kept)) wedges[c.corner] = twin->second;
+    }
+    return wedges;
+}
+
+}  // namespace defocus
