@@ -161,9 +161,16 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     if (mesh.colors) mesh.vertexArray.bind(colorLocation, mesh.colors, level.colorOffset, sizeof(glm::u8vec4));
     glBindVertexArray(mesh.vertexArray.name());
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
-    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT,
-                                        reinterpret_cast<const void*>(level.indexOffsets[item.primitive]),
-                                        static_cast<GLsizei>(end - begin), begin);
+    const std::uint64_t triangles = static_cast<std::uint64_t>(item.indexCount) / 3;
+    const std::uint64_t most = pacer_.mostTriangles();
+    const std::uint64_t step = most == 0 ? end - begin : std::max<std::uint64_t>(1, most / triangles);
+    for (std::uint64_t at = begin; at < end; at += step) {
+        const std::uint64_t instances = std::min(step, end - at);
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT,
+                                            reinterpret_cast<const void*>(level.indexOffsets[item.primitive]),
+                                            static_cast<GLsizei>(instances), static_cast<GLuint>(at));
+        pacer_.submitted(instances * triangles);
+    }
 }
 
 void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "gl/pacer.h"
 #include "gl/program.h"
 #include "render/frame_uniforms.h"
 #include "render/gpu_scene.h"
@@ -63,6 +64,7 @@ private:
     GpuScene* scene_;
     SurfacePassInfo info_;
     std::map<std::string, Program> programs_;
+    SubmissionPacer pacer_;
     Program sky_;
     VertexArray skyArray_;
     const FrameUniforms* frame_ = nullptr;
