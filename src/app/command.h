@@ -27,6 +27,9 @@ Progress terminalProgress(const GlobalOptions& global);
 void addRenderCommand(CLI::App& program, const GlobalOptions& global);
 void addPlanCommand(CLI::App& program, const GlobalOptions& global);
 void addInfoCommand(CLI::App& program, const GlobalOptions& global);
+void addPyramidCommand(CLI::App& program, const GlobalOptions& global);
 void addCompareCommand(CLI::App& program, const GlobalOptions& global);
+void addBenchCommand(CLI::App& program, const GlobalOptions& global);
+void addCacheCommand(CLI::App& program);
 
 }  // namespace defocus

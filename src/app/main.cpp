@@ -55,15 +55,17 @@ std::vector<std::string> optionsOf(const CLI::App& app) {
     return names;
 }
 
-// The command that was given, or the program itself.
+// The command that was given (the innermost, of "bench speedup"), or the program itself.
 const CLI::App& chosenCommand(const CLI::App& program) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
-    return chosen.empty() ? program : *chosen.front();
+    return chosen.empty() ? program : chosenCommand(*chosen.front());
 }
 
 std::string helpHint(const CLI::App& program) {
-    const CLI::App& command = chosenCommand(program);
-    return &command == &program ? "see defocus --help" : fmt::format("see defocus {} --help", command.get_name());
+    std::string names;
+    for (const CLI::App* app = &chosenCommand(program); app != &program; app = app->get_parent())
+        names = ' ' + app->get_name() + names;
+    return fmt::format("see defocus{} --help", names);
 }
 
 // A line for words that nothing expected: an option or command that isn't there, or one word too many.
@@ -73,14 +75,14 @@ std::string unexpected(const CLI::App& program, const std::vector<std::string>& 
     const auto option = std::find_if(words.begin(), words.end(), isOption);
     const std::string word = option != words.end() ? *option : words.front();
 
-    std::vector<std::string> known = namesOf(program);
+    std::vector<std::string> known = namesOf(command);
     std::string what = "command";
     if (option != words.end()) {
         what = "option";
         known = optionsOf(program);
         const std::vector<std::string> own = optionsOf(command);
         known.insert(known.end(), own.begin(), own.end());
-    } else if (&command != &program) {
+    } else if (known.empty()) {
         return fmt::format("unexpected argument '{}'; {}", word, helpHint(program));
     }
     const std::string nearest = nearestWord(word.substr(0, word.find('=')), known);
@@ -90,11 +92,13 @@ std::string unexpected(const CLI::App& program, const std::vector<std::string>& 
 }
 
 std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
-    const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || program.get_subcommands().empty();
+    const CLI::App& command = chosenCommand(program);
+    const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a command must follow
+    const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
     const std::vector<std::string> words = program.remaining(true);
     if (strange && !words.empty()) return unexpected(program, words);
-    if (program.get_subcommands().empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
-        return fmt::format("which command? There are: {}; see defocus --help", fmt::join(namesOf(program), ", "));
+    if (unfinished && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+        return fmt::format("which command? There are: {}; {}", fmt::join(namesOf(command), ", "), helpHint(program));
     return fmt::format("{}; {}", error.what(), helpHint(program));
 }
 
@@ -109,7 +113,10 @@ int run(int argc, char** argv) {
     addRenderCommand(program, global);
     addPlanCommand(program, global);
     addInfoCommand(program, global);
+    addPyramidCommand(program, global);
     addCompareCommand(program, global);
+    addBenchCommand(program, global);
+    addCacheCommand(program);
     program.footer(
         "defocus COMMAND --help explains a command.\n\nExample:\n"
         "  defocus render scene.glb -o out.exr -o out.png --fstop 1.4 --focus-distance 2.5");

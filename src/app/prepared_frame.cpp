@@ -1,7 +1,10 @@
 #include "app/prepared_frame.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
@@ -11,6 +14,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "image/image_io.h"
+#include "lod/pyramid_cache.h"
 #include "scene/fish_school.h"
 #include "scene/gltf.h"
 #include "scene/pick.h"
@@ -156,6 +160,12 @@ RenderSettings chosenSettings(const SceneOptions& options) {
     return settings;
 }
 
+// Levels of full detail are not worth storing.
+std::filesystem::path chosenCacheFolder(const SceneOptions& options) {
+    if (options.noCache || options.lod == LodMode::off) return {};
+    return options.cacheFolder.empty() ? defaultCacheFolder() : options.cacheFolder;
+}
+
 std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const Progress& progress) {
     std::vector<Pyramid> pyramids(meshes.size());
     std::mutex reporting;
@@ -195,6 +205,7 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
     frame.world.environment = chosenEnvironment(options, *frame.scene);
     frame.settings = chosenSettings(options);
+    frame.cacheFolder = chosenCacheFolder(options);
     frame.loadMilliseconds = loading.milliseconds();
     return frame;
 }
@@ -202,8 +213,14 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
 void addPyramids(PreparedFrame& frame, const Progress& progress) {
     const Stopwatch building;
     const std::vector<Mesh>& meshes = frame.scene->meshes;
-    frame.world.pyramids =
-        frame.settings.lod == LodMode::off ? fullDetailPyramids(meshes, progress) : buildPyramids(meshes, {}, progress);
+    if (frame.settings.lod == LodMode::off) {
+        frame.world.pyramids = fullDetailPyramids(meshes, progress);
+    } else {
+        CachedPyramids cached = cachedPyramids(meshes, frame.cacheFolder, {}, progress);
+        frame.world.pyramids = std::move(cached.pyramids);
+        frame.pyramidsLoaded = cached.loaded;
+        frame.cacheFailure = std::move(cached.failure);
+    }
     frame.pyramidMilliseconds = building.milliseconds();
 }
 
@@ -211,6 +228,14 @@ PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress
     PreparedFrame frame = placeFrame(options, progress);
     addPyramids(frame, progress);
     return frame;
+}
+
+void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global) {
+    if (global.verbose && !frame.cacheFolder.empty())
+        fmt::print(stderr, "{} of {} pyramids from the cache in {}\n", frame.pyramidsLoaded,
+                   frame.world.pyramids.size(), frame.cacheFolder.string());
+    if (!global.quiet && !frame.cacheFailure.empty())
+        fmt::print(stderr, "warning: simplified meshes are not kept for the next run: {}\n", frame.cacheFailure);
 }
 
 }  // namespace defocus

@@ -1,9 +1,11 @@
 #pragma once
 // From options to a world and a view that can be planned and rendered.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
+#include "app/command.h"
 #include "app/scene_options.h"
 #include "core/progress.h"
 #include "plan/view.h"
@@ -19,16 +21,23 @@ struct PreparedFrame {
     std::string cameraName;
     double loadMilliseconds = 0;
     double pyramidMilliseconds = 0;
+    std::filesystem::path cacheFolder;  // of the pyramids; empty: none is used
+    std::size_t pyramidsLoaded = 0;     // from it
+    std::string cacheFailure;           // why a pyramid couldn't be stored there
 };
 
 // Loads the scene and places camera, lens and lights; the world has no pyramids yet. Throws Error for whatever the
 // options ask for and the scene doesn't have.
 PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress = {});
 
-// Simplifies the meshes, or only brings them into the pyramids' form when the settings use no other level.
+// Simplifies the meshes where the cache doesn't have them, or only brings them into the pyramids' form when the
+// settings use no other level.
 void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 
 // Both.
 PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress = {});
+
+// On stderr: that pyramids couldn't be stored, unless --quiet; with --verbose, how many came from the cache.
+void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global);
 
 }  // namespace defocus

@@ -156,6 +156,11 @@ void addLevels(CLI::App& command, SceneOptions& options) {
     command
         .add_flag("--keep-all", options.keepAll, "Leave out nothing, not even what cannot be seen (same image, slower)")
         ->group(group);
+    CLI::Option* folder = addCacheFolder(command, options.cacheFolder);
+    command.add_flag("--no-cache", options.noCache, "Simplify the meshes anew and store nothing")
+        ->excludes(folder)
+        ->group(group);
+    folder->group(group);
 }
 
 void addMethod(CLI::App& command, SceneOptions& options) {
@@ -179,6 +184,13 @@ void addMethod(CLI::App& command, SceneOptions& options) {
 }
 
 }  // namespace
+
+CLI::Option* addCacheFolder(CLI::App& command, std::filesystem::path& folder) {
+    return command
+        .add_option("--cache-dir", folder,
+                    "Where simplified meshes are kept; without it, $XDG_CACHE_HOME/defocus or ~/.cache/defocus")
+        ->type_name("FOLDER");
+}
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     addScene(command, options);

@@ -56,12 +56,17 @@ struct SceneOptions {
     std::optional<double> blurThreshold;  // default: defaultThresholds
     std::optional<double> sizeThreshold;
     bool keepAll = false;
+    std::filesystem::path cacheFolder;  // of pyramids; empty: defaultCacheFolder
+    bool noCache = false;
 
     // Method.
     std::string method = "accumulation";
     LayerFormat layerFormat = LayerFormat::automatic;
     std::uint32_t wave = 0;  // 0: as memory allows
 };
+
+// --cache-dir, by itself. `folder` must outlive the parse.
+CLI::Option* addCacheFolder(CLI::App& command, std::filesystem::path& folder);
 
 // Adds the options in groups. `options` must outlive the parse.
 void addSceneOptions(CLI::App& command, SceneOptions& options);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double referenceSamples = 64;
 constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 samples
-constexpr LodThresholds referenceError{0.025, 0.25};  // px of deviation at 64 samples
+constexpr LodThresholds referenceError{0.018, 0.18};  // px of deviation at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
 
@@ -43,9 +43,8 @@ const char* lodModeName(LodMode mode) {
 
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
     const LodThresholds& reference = metric == LodMetric::size ? referenceSize : referenceError;
-    const double factor =
-        std::min(largestFactor, std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent));
-    return {reference.blur * factor, reference.size * factor};
+    const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
+    return {reference.blur * std::min(factor, largestFactor), reference.size * std::min(factor, 1.0)};
 }
 
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,

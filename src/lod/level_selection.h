@@ -27,8 +27,9 @@ struct LodThresholds {
 };
 
 // Defaults that follow the number of samples N, so that the error of the levels stays below the sampling error and both
-// vanish as N grows: (64/N)^(2/3) times the thresholds at N = 64, at most twice those (N ≤ 22). The exponent: the
-// levels' error grows about as threshold^1.2, and Halton points err about as N^(−3/4).
+// vanish as N grows: (64/N)^(2/3) times the thresholds at N = 64, for `blur` at most twice those (N ≤ 22), for `size`
+// no more than those: few samples don't blur what is in focus. The exponent: the levels' error grows about as
+// threshold^1.2, and Halton points err about as N^(−3/4).
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 struct LevelQuery {

@@ -11,6 +11,7 @@
 #include "lod/level_fit.h"
 #include "lod/level_order.h"
 #include "lod/simplify.h"
+#include "lod/surface_distance.h"
 #include "lod/weld.h"
 
 namespace defocus {
@@ -21,6 +22,11 @@ constexpr double leastEdgeGrowth = 1.05;   // from level to level
 constexpr double leastEdgeToError = 2;     // a level can't be as fine as its edges say where its error outgrew them
 constexpr double leastErrorGrowth = 1.25;  // from level to level, from level 1 on
 constexpr double errorFloor = 1e-6;        // of the box's diagonal
+// Points on each of two surfaces at which a level's distance to level 0 is measured: as many as the mesh has triangles,
+// within these bounds, so that it stays cheap beside the simplification.
+constexpr std::size_t leastErrorPoints = 256;
+constexpr std::size_t mostErrorPoints = 1024;
+constexpr double errorPercentile = 0.99;
 
 template <typename T>
 std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& order) {
@@ -83,6 +89,26 @@ PyramidLevel appendLevel(Pyramid& pyramid, const LevelTriangles& triangles, std:
     return level;
 }
 
+// The value that the 99th percentile of the distances that `sample` was drawn from does not exceed, but for the bad
+// luck of two standard deviations of the number of points beyond it.
+double upperPercentile(std::vector<double> sample) {
+    if (sample.empty()) return 0;
+    const auto count = static_cast<double>(sample.size());
+    const double deviation = std::sqrt(errorPercentile * (1 - errorPercentile) * count);
+    const auto rank = static_cast<std::ptrdiff_t>(std::min(errorPercentile * count + 2 * deviation, count - 1));
+    std::nth_element(sample.begin(), sample.begin() + rank, sample.end());
+    return sample[static_cast<std::size_t>(rank)];
+}
+
+// Of the level's surface from the mesh's, whichever way it is larger; at most the box's diagonal, where the level has
+// no area left.
+double levelError(const Surface& mesh, const Surface& level, double diagonal) {
+    const std::size_t points = std::clamp(mesh.triangles.size(), leastErrorPoints, mostErrorPoints);
+    return std::min(std::max(upperPercentile(sampleDistances(mesh, level, points)),
+                             upperPercentile(sampleDistances(level, mesh, points))),
+                    diagonal);
+}
+
 // Strictly growing, so that a level can be found for any target.
 void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     for (std::size_t l = 1; l < levels.size(); ++l) {
@@ -117,13 +143,16 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
     vertices = gathered(vertices, withTwins);
     for (const std::uint32_t v : simplification.twins) positions.id.push_back(positions.id[v]);
 
-    // Fit the levels' shape and looks to the mesh.
+    // Fit the levels' shape and looks to the mesh, and measure how far they are from it.
     const FitSource source = prepareFit(vertices, positions, ownCount, triangles.front().indices);
     std::vector<LevelFit> fits = {{vertices.positions, vertices.normals, vertices.colors}};
+    Surface surface;
+    if (!simplification.levels.empty()) surface = prepareSurface(vertices.positions, triangles.front().indices);
     for (SimplifiedLevel& level : simplification.levels) {
         fits.push_back(fitLevel(source, level.anchors, level.triangles.indices));
+        const Surface fitted = prepareSurface(fits.back().positions, level.triangles.indices);
+        errors.push_back(levelError(surface, fitted, glm::length(source.bounds.size())));
         triangles.push_back(std::move(level.triangles));
-        errors.push_back(level.error);
     }
 
     // Order triangles for the cache and vertices by survival.

@@ -35,8 +35,9 @@ struct PyramidLevel {
     // by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew them.
     double meanEdge = 0;
 
-    // Object units. Estimated distance to level 0 (99th percentile over its vertices), raised where needed so that
-    // e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0.
+    // Object units. The distance between the level's surface and level 0's (99th percentile over the area, whichever
+    // way it is larger), estimated on the safe side from 256 to 1,024 points each, and raised where needed so
+    // that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0. See surface_distance.h.
     double error = 0;
 };
 

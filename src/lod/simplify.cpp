@@ -149,7 +149,6 @@ SimplifiedLevel snapshot(Simplifier& s, std::size_t primitiveCount) {
         for (std::uint32_t i = 0; i < 3; ++i) level.triangles.indices.push_back(wedges[3 * face + i]);
         level.triangles.primitiveIndexCounts[s.corners.primitive[face]] += 3;
     }
-    level.error = deviation(s);
     level.anchors = anchors(s, wedges);
     return level;
 }

@@ -28,7 +28,6 @@ struct SimplifyOptions {
 
 struct SimplifiedLevel {
     LevelTriangles triangles;
-    double error = 0;             // estimated distance to the mesh (99th percentile), object units
     std::vector<Anchor> anchors;  // one a mesh vertex
 };
 

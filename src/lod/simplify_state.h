@@ -91,9 +91,7 @@ Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions, 
 double collapseCost(const Simplifier& s, OpenMesh::HalfedgeHandle edge);
 Fit judgeCollapse(Simplifier& s, OpenMesh::HalfedgeHandle edge);
 
-// simplify_deviation.cpp: estimated distance between the mesh and what is left of it, object units.
-double deviation(Simplifier& s);
-// simplify_deviation.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive;
+// simplify_anchors.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive;
 // `wedges` (one a corner) are the vertices that they name.
 std::vector<Anchor> anchors(Simplifier& s, const std::vector<std::uint32_t>& wedges);
 

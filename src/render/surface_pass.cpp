@@ -29,7 +29,7 @@ bool local(const PlacedLight& placed) {
 
 std::string keyOf(const ShaderDefines& defines) {
     std::string key;
-    for (const auto& [name, value] : defines) key += name + '=' + value + ';';
+    for (const auto& [name, value] : defines) key.append(name).append("=").append(value).append(";");
     return key;
 }
 
@@ -166,8 +166,9 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     const std::uint64_t step = most == 0 ? end - begin : std::max<std::uint64_t>(1, most / triangles);
     for (std::uint64_t at = begin; at < end; at += step) {
         const std::uint64_t instances = std::min(step, end - at);
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT,
-                                            reinterpret_cast<const void*>(level.indexOffsets[item.primitive]),
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
+        const auto* const offset = reinterpret_cast<const void*>(level.indexOffsets[item.primitive]);
+        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT, offset,
                                             static_cast<GLsizei>(instances), static_cast<GLuint>(at));
         pacer_.submitted(instances * triangles);
     }

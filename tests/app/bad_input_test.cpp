@@ -83,7 +83,20 @@ TEST_F(BadInput, wrongCommands) {
     EXPECT_NE(mistyped.err.find("did you mean 'render'"), std::string::npos) << mistyped.err;
     const Outcome unknown = run({"xyzzy"});
     expectOneLine(unknown, 2);
-    EXPECT_NE(unknown.err.find("render, plan, info, compare"), std::string::npos) << unknown.err;
+    for (const char* name : {"render", "plan", "info", "pyramid", "compare", "bench", "cache"})
+        EXPECT_NE(unknown.err.find(name), std::string::npos) << unknown.err;
+}
+
+TEST_F(BadInput, wrongCommandsWithinACommand) {
+    const Outcome none = run({"bench"});
+    expectOneLine(none, 2);
+    EXPECT_NE(none.err.find("speedup"), std::string::npos) << none.err;
+    const Outcome mistyped = run({"bench", "speedip"});
+    expectOneLine(mistyped, 2);
+    EXPECT_NE(mistyped.err.find("did you mean 'speedup'"), std::string::npos) << mistyped.err;
+    expectOneLine(run({"bench", "speedup", "--counts", "0"}), 2);
+    expectOneLine(run({"bench", "speedup", "--runs", "0"}), 2);
+    expectOneLine(run({"bench", "speedup", "--fstops", "-1"}), 2);
 }
 
 TEST_F(BadInput, namesThatAreNotInTheFileListThoseThatAre) {

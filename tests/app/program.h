@@ -1,5 +1,5 @@
 #pragma once
-// Runs the real program as a child process, in a folder of its own.
+// Runs the real program as a child process, in a folder of its own, with a cache of its own.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -37,6 +38,9 @@ protected:
 
     // Where the program runs: relative names in `arguments` lie here.
     [[nodiscard]] std::filesystem::path folder() const { return root_ / "work"; }
+
+    // Where the program keeps pyramids; outside `folder`, so that they aren't counted as its output.
+    [[nodiscard]] std::filesystem::path cacheFolder() const { return root_ / "caches" / "defocus"; }
 
     [[nodiscard]] std::size_t fileCount() const {
         using Files = std::filesystem::recursive_directory_iterator;
@@ -69,6 +73,7 @@ private:
             const rlimit limit{mostFileBytes, mostFileBytes};
             ::setrlimit(RLIMIT_FSIZE, &limit);
         }
+        ::setenv("XDG_CACHE_HOME", cacheFolder().parent_path().c_str(), 1);
         std::vector<std::string> words = {DEFOCUS_PROGRAM};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;

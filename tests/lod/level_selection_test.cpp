@@ -79,7 +79,7 @@ TEST(DefaultThresholds, ShrinkSteadilyToNothingAndStayModestForFewSamples) {
         const LodThresholds at64 = defaultThresholds(metric, 64);
         LodThresholds last = defaultThresholds(metric, 0);
         EXPECT_DOUBLE_EQ(last.blur, 2 * at64.blur);
-        EXPECT_DOUBLE_EQ(last.size, 2 * at64.size);
+        EXPECT_DOUBLE_EQ(last.size, at64.size);
         for (std::uint32_t count = 1; count <= 65'536; count *= 2) {
             const LodThresholds thresholds = defaultThresholds(metric, count);
             EXPECT_LE(thresholds.blur, last.blur);

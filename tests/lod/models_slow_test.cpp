@@ -9,6 +9,7 @@
 
 #include "invariants.h"
 #include "lod/pyramid.h"
+#include "lod/surface_distance.h"
 #include "models.h"
 #include "scene/gltf.h"
 
@@ -43,6 +44,36 @@ TEST(RealModels, AllBecomePyramids) {
             expectPyramidInvariants(scene.meshes[m], pyramids[m]);
         }
     }
+}
+
+// What a level stores is no less than 0.9 of what a far denser measurement finds, and rarely far more.
+TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
+    constexpr std::size_t points = 8'192;
+    const std::vector<fs::path> models = publicModels();
+    if (models.empty()) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
+    std::vector<double> ratios;
+    for (const fs::path& path : models) {
+        const Scene scene = loadGltf(path);
+        const std::vector<Pyramid> pyramids = buildPyramids(scene.meshes);
+        for (std::size_t m = 0; m < pyramids.size(); ++m) {
+            const Pyramid& pyramid = pyramids[m];
+            const Surface mesh = prepareSurface(pyramid.levels[0].positions, levelIndices(pyramid, 0));
+            for (const std::size_t l : {1u, 2u, 5u, 8u}) {
+                if (l >= pyramid.levels.size()) continue;
+                const PyramidLevel& level = pyramid.levels[l];
+                const Surface surface = prepareSurface(level.positions, levelIndices(pyramid, l));
+                const double measured = surfaceDistance(mesh, surface, points).both.percentile99;
+                EXPECT_GE(level.error, 0.9 * measured)
+                    << path.filename().string() << " mesh " << m << " " << scene.meshes[m].name << " level " << l;
+                if (measured > 0) ratios.push_back(level.error / measured);
+            }
+        }
+    }
+    ASSERT_FALSE(ratios.empty());
+    std::sort(ratios.begin(), ratios.end());
+    const double median = ratios[ratios.size() / 2];
+    RecordProperty("median_stored_to_measured", std::to_string(median));
+    EXPECT_LT(median, 1.3);
 }
 
 TEST(RealModels, ClosedScansStayClosedDownToTheFloor) {

@@ -218,14 +218,17 @@ TEST(Pyramid, FlatSquareGetsEvenTriangles) {
 }
 
 TEST(Pyramid, StoredErrorOfASphereCoversTheDistanceOfItsFaces) {
-    // A face with corners on the unit sphere is farthest from it near its middle: 1 − |centroid| for even triangles.
+    // A fitted face cuts the unit sphere: it is farthest outside at its corners, | |p| − 1 |, and inside near its
+    // middle.
     const Pyramid pyramid = buildPyramid(sphere(128, 64));
     for (std::size_t l = 3; l < pyramid.levels.size(); ++l) {
         std::vector<double> distances;
         const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
-        const auto& p = pyramid.vertices.positions;
-        for (std::size_t i = 0; i < indices.size(); i += 3)
+        const auto& p = pyramid.levels[l].positions;
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            for (std::size_t k = 0; k < 3; ++k) distances.push_back(std::abs(glm::length(p[indices[i + k]]) - 1));
             distances.push_back(1 - glm::length(p[indices[i]] + p[indices[i + 1]] + p[indices[i + 2]]) / 3);
+        }
         std::sort(distances.begin(), distances.end());
         const double median = distances[distances.size() / 2];
         EXPECT_GT(pyramid.levels[l].error, median) << "level " << l;

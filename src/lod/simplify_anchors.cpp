@@ -1,6 +1,5 @@
-// How far is what is left from the mesh? Every vertex that is gone has a survivor, near which the level's closest face
-// is looked for: what is found bounds the vertex's distance to the level. The 99th percentile over a sample of the
-// vertices stands for the level.
+// Where do the mesh's vertices lie on what is left of it? Every vertex that is gone has a survivor, near which the
+// level's closest face is looked for.
 
 #include <algorithm>
 #include <array>
@@ -14,9 +13,7 @@ namespace defocus {
 
 namespace {
 
-constexpr std::size_t mostSamples = 4096;  // vertices looked at a level
-constexpr std::size_t mostSteps = 12;      // vertices whose faces are looked at, on the way to the closest face
-constexpr double percentile = 0.99;
+constexpr std::size_t mostSteps = 12;  // vertices whose faces are looked at, on the way to the closest face
 
 std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
     while (s.survivors[v] != v) v = s.survivors[v] = s.survivors[s.survivors[v]];
@@ -53,8 +50,8 @@ std::uint32_t nearestUnseen(const Simplifier& s, std::uint32_t face, const glm::
 
 // The point of the level's surface closest to vertex `v`, near its survivor: from the faces around one vertex to those
 // around the corners of the closest, as long as that leads closer.
-// With a `side`, only faces that look that way count: a thin fin has two sides in one place.
-Closest closestTo(Simplifier& s, std::uint32_t v, const glm::dvec3* side = nullptr) {
+// Only faces that look to `side` count: a thin fin has two sides in one place.
+Closest closestTo(Simplifier& s, std::uint32_t v, const glm::dvec3& side) {
     Closest result;
     const glm::dvec3& p = s.points[v];
     std::uint32_t nearest = survivorOf(s, v);
@@ -69,7 +66,7 @@ Closest closestTo(Simplifier& s, std::uint32_t v, const glm::dvec3* side = nullp
             const glm::dvec3 offset = p - point;
             const double distance = glm::dot(offset, offset);
             if (!(distance < least)) continue;  // NaN of a degenerate face is passed over
-            if (side != nullptr && !looksAlong(s, corner, *side)) continue;
+            if (!looksAlong(s, corner, side)) continue;
             least = distance;
             result.point = point;
             result.face = face;
@@ -93,23 +90,13 @@ glm::vec3 barycentric(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3
 
 }  // namespace
 
-double deviation(Simplifier& s) {
-    std::vector<double> squaredDistances;
-    const std::size_t stride = std::max<std::size_t>(1, s.points.size() / mostSamples);
-    for (std::size_t v = 0; v < s.points.size(); v += stride)
-        squaredDistances.push_back(closestTo(s, static_cast<std::uint32_t>(v)).squaredDistance);
-    const auto rank = static_cast<std::ptrdiff_t>(percentile * static_cast<double>(squaredDistances.size() - 1));
-    std::nth_element(squaredDistances.begin(), squaredDistances.begin() + rank, squaredDistances.end());
-    return std::sqrt(squaredDistances[static_cast<std::size_t>(rank)]) * s.scale;
-}
-
 std::vector<Anchor> anchors(Simplifier& s, const std::vector<std::uint32_t>& wedges) {
     std::vector<Anchor> result(s.firstCorner.size());
     for (std::uint32_t wedge = 0; wedge < result.size(); ++wedge) {
         if (s.firstCorner[wedge] == EdgeSide::none) continue;
         Anchor& anchor = result[wedge];
         const glm::dvec3 side = s.corners.attributes[wedge].normal;
-        const Closest closest = closestTo(s, s.firstVertex[wedge], &side);
+        const Closest closest = closestTo(s, s.firstVertex[wedge], side);
         if (closest.face == EdgeSide::none) {
             if (closest.squaredDistance == 0) anchor = {{wedge, wedge, wedge}, {1, 0, 0}};
             continue;

@@ -1,0 +1,261 @@
+// Pyramids against their peers: how long they take, and how well their levels stand for the mesh.
+//
+// Time. Held equal: the mesh, one thread, levels of half the triangles each down to 64. "pyramid" is all that
+// buildPyramid does (repair, collapses, errors, order for the cache, fitted positions, normals and colours);
+// "meshoptimizer" is meshopt_simplify from level to level, "DecimaterT" OpenMesh's decimater with its quadric module on
+// a mesh of welded positions; neither of these two makes attributes.
+//
+// Looks. Held equal: the mesh, the triangle count of each level (meshoptimizer gets ours), camera, lens, 32 lens
+// samples, 512 x 384. Each level is drawn at the blur where the default thresholds would use it, and compared with
+// level 0 under the same blur. meshoptimizer's levels keep the surviving vertices' attributes, chosen with
+// meshopt_simplify alone.
+
+#include <fmt/format.h>
+#include <meshoptimizer.h>
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "lod/weld.h"
+#include "render/methods.h"
+#include "scene/defaults.h"
+#include "scene/fish_school.h"
+#include "scene/gltf.h"
+
+namespace {
+
+using namespace defocus;
+using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
+
+constexpr std::size_t leastTriangles = 64;
+constexpr std::uint32_t lensSamples = 32;
+
+double secondsOf(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The surface joined by position, which is all that either peer can use.
+struct Surface {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+};
+
+Surface joinedSurface(const Mesh& mesh) {
+    Surface surface;
+    const Welded welded = weldPositions(mesh.vertices.positions);
+    for (const std::uint32_t v : welded.first) surface.positions.push_back(mesh.vertices.positions[v]);
+    for (const Primitive& primitive : mesh.primitives)
+        for (const std::uint32_t v : primitive.indices) surface.indices.push_back(welded.id[v]);
+    return surface;
+}
+
+// At most `target` triangles of those in `indices`, if meshoptimizer gets there.
+std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
+                                      const std::vector<std::uint32_t>& indices, std::size_t target) {
+    std::vector<std::uint32_t> result(indices.size());
+    result.resize(meshopt_simplify(result.data(), indices.data(), indices.size(), &positions[0].x, positions.size(),
+                                   sizeof(glm::vec3), 3 * target, 1e9f));
+    return result;
+}
+
+// Triangles that are left.
+std::size_t meshoptimizerChain(const Surface& surface) {
+    std::vector<std::uint32_t> indices = surface.indices;
+    while (indices.size() / 3 > leastTriangles) {
+        std::vector<std::uint32_t> next =
+            simplified(surface.positions, indices, std::max(leastTriangles, indices.size() / 6));
+        if (next.size() > indices.size() * 3 / 4) break;
+        indices = std::move(next);
+    }
+    return indices.size() / 3;
+}
+
+std::size_t decimaterChain(const Surface& surface) {
+    DecimatedMesh mesh;
+    for (const glm::vec3& p : surface.positions) mesh.add_vertex({p.x, p.y, p.z});
+    const auto handle = [&](std::size_t i) { return OpenMesh::VertexHandle(static_cast<int>(surface.indices[i])); };
+    for (std::size_t i = 0; i + 2 < surface.indices.size(); i += 3)
+        mesh.add_face(handle(i), handle(i + 1), handle(i + 2));
+    OpenMesh::Decimater::DecimaterT<DecimatedMesh> decimater(mesh);
+    OpenMesh::Decimater::ModQuadricT<DecimatedMesh>::Handle quadric;
+    decimater.add(quadric);
+    decimater.module(quadric).unset_max_err();
+    decimater.initialize();
+    for (std::size_t target = mesh.n_faces() / 2; target > leastTriangles; target /= 2) {
+        if (decimater.decimate_to_faces(0, target) == 0) break;
+        mesh.garbage_collection();
+    }
+    return mesh.n_faces();
+}
+
+void timeRow(const std::string& name, const Mesh& mesh) {
+    const Surface surface = joinedSurface(mesh);
+    Pyramid pyramid;
+    std::size_t meshoptimizerLeft = 0;
+    const double own = secondsOf([&] { pyramid = buildPyramid(mesh); });
+    const double meshoptimizer = secondsOf([&] { meshoptimizerLeft = meshoptimizerChain(surface); });
+    fmt::print("{:<20} {:>9} {:>8.3f} {:>6} {:>8.3f} {:>6}", name, mesh.triangleCount(), own,
+               pyramid.levels.back().triangleCount, meshoptimizer, meshoptimizerLeft);
+    if (pyramid.repairedFaces > 0) {
+        fmt::print("  (DecimaterT cannot hold this mesh)\n");
+        return;
+    }
+    std::size_t decimaterLeft = 0;
+    const double decimater = secondsOf([&] { decimaterLeft = decimaterChain(surface); });
+    fmt::print(" {:>8.3f} {:>6} {:>8.1f}\n", decimater, decimaterLeft, decimater / own);
+    std::fflush(stdout);
+}
+
+// One mesh alone, without skin or animation, seen by a camera that frames it.
+struct Stage {
+    Scene scene;
+    World world;
+    View view;
+    double depth = 0;  // of the mesh's centre, m
+};
+
+void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {
+    stage.scene.meshes = {mesh};
+    stage.scene.materials = source.materials;
+    stage.scene.textures = source.textures;
+    stage.scene.images = source.images;
+    Node node;
+    node.mesh = 0;
+    stage.scene.nodes = {node};
+    stage.scene.roots = {0};
+    stage.world.scene = &stage.scene;
+    stage.world.pose = poseAt(stage.scene, 0);
+    stage.view.width = 512;
+    stage.view.height = 384;
+    const PlacedCamera placed = chooseCamera(stage.scene, stage.world.pose, "", 4.0 / 3.0);
+    stage.world.lights = lightsOrDefault(stage.scene, stage.world.pose, placed);
+    stage.world.environment = environmentOrDefault(stage.scene);
+    stage.view.worldFromCamera = placed.worldFromCamera;
+    stage.depth = glm::distance(glm::dvec3(placed.worldFromCamera[3]), mesh.bounds().centre());
+    stage.view.lens.focusDistance = 1e6;
+}
+
+double pixelsPerUnit(const Stage& stage) {
+    return stage.view.width / (2 * tanHalfHorizontalFov(stage.view.lens) * stage.depth);
+}
+
+// Focus at infinity, and the f-number that blurs the mesh's centre by `coc` px.
+void blurBy(Stage& stage, double coc) {
+    Lens& lens = stage.view.lens;
+    const double aperture = coc * stage.depth * 2 * tanHalfHorizontalFov(lens) / stage.view.width;
+    lens.fStop = lens.focalLength / (1000 * aperture);
+}
+
+Image drawn(const Stage& stage, std::uint32_t level) {
+    RenderSettings settings;
+    settings.sampleCount = lensSamples;
+    settings.lod = LodMode::off;
+    FramePlan plan = planFrame(stage.world, stage.view, settings);
+    for (ObjectPlan& object : plan.objects) {
+        object.fine.level = level;
+        object.fine.triangleCount = stage.world.pyramids[0].levels[level].triangleCount;
+        plan.levelsUsed[0][level] = true;
+    }
+    const auto renderer = methodNamed("accumulation").make(stage.world, {});
+    renderer->start(plan);
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+// The mesh with meshoptimizer's triangles, primitive by primitive.
+Mesh peerLevel(const Mesh& mesh, const PyramidLevel& level) {
+    Mesh peer = mesh;
+    for (std::size_t p = 0; p < peer.primitives.size(); ++p)
+        if (!peer.primitives[p].indices.empty())
+            peer.primitives[p].indices =
+                simplified(mesh.vertices.positions, mesh.primitives[p].indices, level.primitives[p].count / 3);
+    return peer;
+}
+
+void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
+    Stage stage;
+    furnish(stage, source, mesh);
+    stage.world.pyramids = buildPyramids(stage.scene.meshes);
+    const std::vector<PyramidLevel>& levels = stage.world.pyramids[0].levels;
+    const LodThresholds thresholds = defaultThresholds(LodMetric::size, 64);
+    for (std::uint32_t l = 1; l < levels.size(); ++l) {
+        const double coc = levels[l].meanEdge * pixelsPerUnit(stage) / thresholds.blur;
+        if (coc > 60) break;  // more than a ninth of the image
+        if (coc < 1) continue;
+        blurBy(stage, coc);
+        const Image truth = drawn(stage, 0);
+        const Difference own = compareImages(truth, drawn(stage, l));
+
+        Stage peer;
+        const Mesh peerMesh = peerLevel(mesh, levels[l]);
+        furnish(peer, source, peerMesh);
+        peer.view = stage.view;
+        peer.world.lights = stage.world.lights;
+        peer.world.pyramids = {fullDetail(peerMesh)};
+        const Difference theirs = compareImages(truth, drawn(peer, 0));
+        fmt::print("{:<24} {:>5} {:>9} {:>9} {:>7.1f} {:>9.2f} {:>9.2f} {:>9.4f} {:>9.4f}\n", name, l,
+                   levels[l].triangleCount, peerMesh.triangleCount(), coc, own.psnr, theirs.psnr, own.flip,
+                   theirs.flip);
+        std::fflush(stdout);
+    }
+}
+
+const Mesh& largestMesh(const Scene& scene) {
+    return *std::max_element(scene.meshes.begin(), scene.meshes.end(),
+                             [](const Mesh& a, const Mesh& b) { return a.triangleCount() < b.triangleCount(); });
+}
+
+int run(int argc, char** argv) {
+    bool million = false;
+    std::vector<std::filesystem::path> files;
+    for (int i = 1; i < argc; ++i) {
+        if (std::string(argv[i]) == "--million")
+            million = true;
+        else
+            files.emplace_back(argv[i]);
+    }
+    std::vector<std::pair<std::string, Scene>> scenes;
+    scenes.emplace_back("fish", fishSchool({.fishCount = 1}));
+    for (const auto& file : files) scenes.emplace_back(file.stem().string(), loadGltf(file));
+
+    fmt::print("{:<20} {:>9} {:>15} {:>15} {:>15} {:>8}\n", "seconds, one thread", "", "pyramid", "meshoptimizer",
+               "DecimaterT", "times as");
+    fmt::print("{:<20} {:>9} {:>8} {:>6} {:>8} {:>6} {:>8} {:>6} {:>8}\n", "mesh", "triangles", "s", "left", "s",
+               "left", "s", "left", "fast");
+    for (const auto& [name, scene] : scenes) timeRow(name, largestMesh(scene));
+    if (million) timeRow("fish", fishSchool({.fishCount = 1, .trianglesPerFish = 1'000'000}).meshes.front());
+
+    const auto context = createHeadlessContext();
+    fmt::print("\nagainst level 0 under the same blur\n{:<24} {:>5} {:>9} {:>9} {:>7} {:>9} {:>9} {:>9} {:>9}\n",
+               "mesh", "level", "triangles", "theirs", "CoC px", "PSNR dB", "theirs", "FLIP", "theirs");
+    for (const auto& [name, scene] : scenes) looksRows(name, scene, largestMesh(scene));
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "defocus_pyramid_bench: {}\n", error.what());
+        return 1;
+    }
+}

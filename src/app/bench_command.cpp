@@ -1,0 +1,125 @@
+// defocus bench: how fast and how right, measured on the machine at hand.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "app/command.h"
+#include "app/prepared_frame.h"
+#include "app/scene_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "eval/speedup_text.h"
+#include "gl/context.h"
+
+namespace defocus {
+
+namespace {
+
+struct SpeedupArguments {
+    SceneOptions scene;
+    SpeedupOptions speedup;
+    std::filesystem::path folder;  // empty: only the table
+};
+
+void makeFolder(const std::filesystem::path& folder) {
+    if (folder.empty()) return;
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+    checkWritable(folder / "speedup.csv");
+    checkWritable(folder / "speedup.json");
+}
+
+void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) {
+    makeFolder(arguments.folder);
+    Progress progress = terminalProgress(global);
+    SceneOptions scene = arguments.scene;
+    scene.noCache = true;  // the time that pyramids take is part of the result
+    PreparedFrame frame = placeFrame(scene, progress);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    addPyramids(frame, progress);
+
+    SpeedupOptions options = arguments.speedup;
+    options.metric = arguments.scene.metric;
+    options.renderer.layerFormat = arguments.scene.layerFormat;
+    options.renderer.wave = arguments.scene.wave;
+    options.renderer.shaderFolder = global.shaderDir;
+    const BenchSubject subject{"defocus " + programVersion(), frame.sceneName,  context->device(), context->driver(),
+                               context->software(),           frame.view.width, frame.view.height, options.runs,
+                               frame.pyramidMilliseconds};
+    fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
+               subject.runs, subject.device, speedupHeader());
+
+    // Each row is kept as it comes: a run that is cut off loses nothing.
+    std::vector<SpeedupRow> rows;
+    measureSpeedup(
+        frame.world, frame.view, options,
+        [&](const SpeedupRow& row) {
+            rows.push_back(row);
+            fmt::print("{}", speedupLine(row));
+            std::fflush(stdout);
+            if (arguments.folder.empty()) return;
+            writeFile(arguments.folder / "speedup.csv", speedupCsv(rows));
+            writeFile(arguments.folder / "speedup.json", speedupJson(rows, subject));
+        },
+        progress);
+}
+
+void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<SpeedupArguments>();
+    CLI::App* command = bench.add_subcommand(
+        "speedup", "A fixed camera: frame time and image of full detail, nearest and fractional levels");
+    const char* group = "Measurement";
+    SpeedupOptions& options = arguments->speedup;
+    command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 65'536))
+        ->type_name("N,N,…")
+        ->default_str("16,32,64,128,256,512")
+        ->group(group);
+    command->add_option("--fstops", options.fStops, "Further f-numbers, at 64 samples")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->type_name("N,N,…")
+        ->group(group);
+    command->add_option("--focus-distances", options.focusDistances, "Further focus distances, at 64 samples")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->type_name("M,M,…")
+        ->group(group);
+    command->add_option("--runs", options.runs, "Runs of each mode; the median counts")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N")
+        ->default_str("3")
+        ->group(group);
+    command
+        ->add_option("--reference-samples", options.referenceSamples,
+                     "Also compare with a full-detail reference of this many lens samples of its own; 0: don't")
+        ->check(CLI::Range(0, 65'536))
+        ->type_name("N")
+        ->default_str("0")
+        ->group(group);
+    command->add_option("-o,--output", arguments->folder, "Folder for speedup.csv and speedup.json")
+        ->type_name("FOLDER")
+        ->group("Output");
+    addSceneOptions(*command, arguments->scene);
+    command->footer(
+        "Examples:\n"
+        "  defocus bench speedup --counts 16,64 -o bench-fish\n"
+        "  defocus bench speedup scene.glb --fstops 1.4,2.8,5.6 --reference-samples 1024");
+    command->callback([arguments, &global] { runSpeedup(*arguments, global); });
+}
+
+}  // namespace
+
+void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
+    CLI::App* bench = program.add_subcommand("bench", "Measure time and image error on this machine");
+    bench->require_subcommand(1);
+    addSpeedup(*bench, global);
+}
+
+}  // namespace defocus

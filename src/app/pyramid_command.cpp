@@ -1,0 +1,349 @@
+// defocus pyramid: the levels of each mesh, how far they really are from it, and their export.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "app/option_text.h"
+#include "app/suggestion.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/parallel.h"
+#include "lod/pyramid.h"
+#include "lod/surface_distance.h"
+#include "scene/fish_school.h"
+#include "scene/gltf.h"
+#include "scene/gltf_write.h"
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct PyramidArguments {
+    std::string scene;         // empty: the built-in fish school
+    FishSchoolOptions school;  // without a scene
+    std::string mesh;          // empty: all
+    fs::path exportFolder;     // empty: no export
+    std::size_t points = 16'384;
+    bool noMeasure = false;
+    bool json = false;
+};
+
+constexpr std::size_t longestStem = 80;  // bytes; file systems hold 255
+
+struct LevelReport {
+    std::optional<SurfaceDistance> measured;  // from level 0 and back; not of level 0 itself
+    fs::path file;                            // empty: not exported
+};
+
+struct MeshReport {
+    std::size_t mesh = 0;  // into Scene::meshes
+    Pyramid pyramid;
+    double seconds = 0;  // of the build, on one core
+    std::vector<LevelReport> levels;
+};
+
+// "1234567" → "1,234,567".
+std::string grouped(std::uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
+        digits.insert(static_cast<std::size_t>(i), 1, ',');
+    return digits;
+}
+
+// As `defocus info` calls it.
+std::string shownName(const Scene& scene, std::size_t mesh) {
+    return scene.meshes[mesh].name.empty() ? fmt::format("(mesh {})", mesh) : scene.meshes[mesh].name;
+}
+
+std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name) {
+    std::vector<MeshReport> chosen;
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        names.push_back(shownName(scene, m));
+        if (!name.empty() && names.back() != name) continue;
+        chosen.emplace_back().mesh = m;
+    }
+    if (!chosen.empty() || name.empty()) return chosen;
+    const std::string nearest = nearestWord(name, names);
+    if (!nearest.empty()) fail("there is no mesh '{}'; did you mean '{}'?", name, nearest);
+    fail("there is no mesh '{}' among {}; defocus info lists them", name, names.size());
+}
+
+// ---- work ---------------------------------------------------------------------------------------
+
+void buildAll(const Scene& scene, std::vector<MeshReport>& reports, const Progress& progress) {
+    std::mutex mutex;
+    std::uint64_t done = 0;
+    parallelFor(reports.size(), [&](std::size_t i) {
+        using Clock = std::chrono::steady_clock;
+        const Clock::time_point start = Clock::now();
+        reports[i].pyramid = buildPyramid(scene.meshes[reports[i].mesh]);
+        reports[i].seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        reports[i].levels.resize(reports[i].pyramid.levels.size());
+        const std::scoped_lock lock(mutex);
+        report(progress, "pyramids", ++done, reports.size());
+    });
+}
+
+Surface surfaceOf(const Pyramid& pyramid, std::size_t level) {
+    std::vector<std::uint32_t> indices;
+    for (const IndexRange& range : pyramid.levels[level].primitives) {
+        const auto first = pyramid.indices.begin() + static_cast<std::ptrdiff_t>(range.first);
+        indices.insert(indices.end(), first, first + static_cast<std::ptrdiff_t>(range.count));
+    }
+    return prepareSurface(pyramid.levels[level].positions, indices);
+}
+
+void measureAll(std::vector<MeshReport>& reports, std::size_t points, const Progress& progress) {
+    struct Job {
+        MeshReport* report;
+        const Surface* mesh;
+        std::size_t level;
+    };
+    std::vector<Surface> surfaces(reports.size());
+    parallelFor(reports.size(), [&](std::size_t i) { surfaces[i] = surfaceOf(reports[i].pyramid, 0); });
+    std::vector<Job> jobs;
+    for (std::size_t i = 0; i < reports.size(); ++i)
+        for (std::size_t l = 1; l < reports[i].levels.size(); ++l) jobs.push_back({&reports[i], &surfaces[i], l});
+
+    std::mutex mutex;
+    std::uint64_t done = 0;
+    parallelFor(jobs.size(), [&](std::size_t j) {
+        const Job& job = jobs[j];
+        job.report->levels[job.level].measured =
+            surfaceDistance(*job.mesh, surfaceOf(job.report->pyramid, job.level), points);
+        const std::scoped_lock lock(mutex);
+        report(progress, "measuring", ++done, jobs.size());
+    });
+}
+
+// ---- export -------------------------------------------------------------------------------------
+
+// Letters, digits and "-_." of ASCII; no leading dot.
+std::string safeStem(const std::string& name) {
+    std::string stem;
+    for (const char c : name) {
+        const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+        stem += safe && static_cast<unsigned char>(c) < 0x80 ? c : '_';
+    }
+    stem.resize(std::min(stem.size(), longestStem));
+    if (!stem.empty() && stem.front() == '.') stem.front() = '_';
+    return stem.empty() ? "mesh" : stem;
+}
+
+// One a mesh of the scene, whatever is exported of it; they differ in more than case, which some file systems ignore.
+std::vector<std::string> fileStems(const Scene& scene) {
+    std::vector<std::string> stems;
+    std::set<std::string> taken;
+    for (const Mesh& mesh : scene.meshes) {
+        const auto free = [&](std::string stem) {
+            for (char& c : stem) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            return taken.insert(stem).second;
+        };
+        const std::string plain = safeStem(mesh.name);
+        std::string stem = plain;
+        for (int number = 2; !free(stem); ++number) stem = fmt::format("{}-{}", plain, number);
+        stems.push_back(stem);
+    }
+    return stems;
+}
+
+fs::path levelFile(const fs::path& folder, const std::string& stem, std::size_t level) {
+    return folder / fmt::format("{}-level-{:02}.glb", stem, level);
+}
+
+// Before the work that ends in it.
+void prepareFolder(const fs::path& folder, const fs::path& firstFile) {
+    std::error_code status;
+    if (fs::exists(folder, status) && !fs::is_directory(folder, status))
+        fail("{}: is not a folder to export to", folder.string());
+    fs::create_directories(folder, status);
+    if (status) fail("{}: the folder cannot be made: {}", folder.string(), status.message());
+    checkWritable(firstFile);
+}
+
+template <typename T>
+std::vector<T> prefix(const std::vector<T>& values, std::size_t count) {
+    return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), count))};
+}
+
+Mesh levelMesh(const Pyramid& pyramid, std::size_t l, const std::string& name) {
+    const PyramidLevel& level = pyramid.levels[l];
+    Mesh mesh;
+    mesh.name = fmt::format("{} level {}", name, l);
+    mesh.vertices.positions = level.positions;
+    mesh.vertices.normals = level.normals;
+    mesh.vertices.colors = level.colors;
+    mesh.vertices.uv0 = prefix(pyramid.vertices.uv0, level.vertexCount);
+    mesh.vertices.uv1 = prefix(pyramid.vertices.uv1, level.vertexCount);
+    for (const IndexRange& range : level.primitives) {
+        const auto first = pyramid.indices.begin() + static_cast<std::ptrdiff_t>(range.first);
+        mesh.primitives.push_back({-1, {first, first + static_cast<std::ptrdiff_t>(range.count)}});
+    }
+    return mesh;
+}
+
+// Returns how many files were written; levels without triangles have none.
+std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, const fs::path& folder,
+                      const std::vector<std::string>& stems) {
+    std::size_t files = 0;
+    for (MeshReport& report : reports)
+        for (std::size_t l = 0; l < report.levels.size(); ++l) {
+            if (report.pyramid.levels[l].triangleCount == 0) continue;
+            report.levels[l].file = levelFile(folder, stems[report.mesh], l);
+            writeGlb(report.levels[l].file, levelMesh(report.pyramid, l, shownName(scene, report.mesh)));
+            ++files;
+        }
+    return files;
+}
+
+// ---- what is said -------------------------------------------------------------------------------
+
+Json distancesJson(const Distances& distances) {
+    return {{"mean", distances.mean}, {"percentile99", distances.percentile99}, {"maximum", distances.maximum}};
+}
+
+Json levelJson(const PyramidLevel& level, const LevelReport& report) {
+    Json json = {{"triangles", level.triangleCount},
+                 {"vertices", level.vertexCount},
+                 {"meanEdge", level.meanEdge},
+                 {"error", level.error}};
+    if (report.measured) {
+        json["measured"] = distancesJson(report.measured->both);
+        json["measured"]["fromLevel0"] = distancesJson(report.measured->forward);
+        json["measured"]["toLevel0"] = distancesJson(report.measured->backward);
+    }
+    if (!report.file.empty()) json["file"] = report.file.string();
+    return json;
+}
+
+Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std::vector<MeshReport>& reports) {
+    Json json = {{"file", arguments.scene}};
+    if (!arguments.noMeasure) json["points"] = arguments.points;
+    json["meshes"] = Json::array();
+    for (const MeshReport& report : reports) {
+        Json mesh = {{"name", scene.meshes[report.mesh].name},
+                     {"index", report.mesh},
+                     {"buildSeconds", report.seconds},
+                     {"diagonal", glm::length(report.pyramid.bounds.size())},
+                     {"repairedFaces", report.pyramid.repairedFaces},
+                     {"levels", Json::array()}};
+        for (std::size_t l = 0; l < report.levels.size(); ++l)
+            mesh["levels"].push_back(levelJson(report.pyramid.levels[l], report.levels[l]));
+        json["meshes"].push_back(std::move(mesh));
+    }
+    return json;
+}
+
+// "0.52 s", "3.1 ms".
+std::string timeText(double seconds) {
+    return seconds >= 0.1 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.1f} ms", 1000 * seconds);
+}
+
+void printLevels(const MeshReport& report) {
+    const bool measured = report.levels.back().measured.has_value();
+    if (measured) fmt::print("{:>60}  {:>34}\n", "stored", "measured distance to level 0");
+    fmt::print("{:>7}  {:>12}  {:>11}  {:>12}  {:>10}", "level", "triangles", "vertices", "mean edge", "error");
+    fmt::print("{}\n", measured ? fmt::format("  {:>10}  {:>10}  {:>10}", "mean", "99 %", "max") : "");
+    for (std::size_t l = 0; l < report.levels.size(); ++l) {
+        const PyramidLevel& level = report.pyramid.levels[l];
+        fmt::print("{:>7}  {:>12}  {:>11}  {:>12.4g}  {:>10.3g}", l, grouped(level.triangleCount),
+                   grouped(level.vertexCount), level.meanEdge, level.error);
+        if (const auto& d = report.levels[l].measured)
+            fmt::print("  {:>10.3g}  {:>10.3g}  {:>10.3g}", d->both.mean, d->both.percentile99, d->both.maximum);
+        fmt::print("\n");
+    }
+}
+
+void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
+    if (reports.empty()) fmt::print("the scene has no meshes\n");
+    for (const MeshReport& report : reports) {
+        const Pyramid& pyramid = report.pyramid;
+        if (&report != &reports.front()) fmt::print("\n");
+        fmt::print("{}: {} triangle{}, box diagonal {:.4g}", shownName(scene, report.mesh),
+                   grouped(pyramid.levels[0].triangleCount), pyramid.levels[0].triangleCount == 1 ? "" : "s",
+                   glm::length(pyramid.bounds.size()));
+        fmt::print("; {} in {}",
+                   report.levels.size() == 1 ? "one level only" : fmt::format("{} levels", report.levels.size()),
+                   timeText(report.seconds));
+        if (pyramid.repairedFaces > 0)
+            fmt::print("; {} face{} repaired", grouped(pyramid.repairedFaces), pyramid.repairedFaces == 1 ? "" : "s");
+        fmt::print("\n");
+        if (report.levels.size() > 1) printLevels(report);
+    }
+}
+
+void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) {
+    const Progress progress = terminalProgress(global);
+    const Scene scene =
+        arguments.scene.empty() ? fishSchool(arguments.school, progress) : loadGltf(arguments.scene, progress);
+    std::vector<MeshReport> reports = chooseMeshes(scene, arguments.mesh);
+    const std::vector<std::string> stems = fileStems(scene);
+    if (!arguments.exportFolder.empty() && !reports.empty())
+        prepareFolder(arguments.exportFolder, levelFile(arguments.exportFolder, stems[reports.front().mesh], 0));
+
+    buildAll(scene, reports, progress);
+    if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
+    std::size_t files = 0;
+    if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);
+
+    if (arguments.json) {
+        fmt::print("{}\n", reportJson(arguments, scene, reports).dump(2, ' ', false, Json::error_handler_t::replace));
+    } else {
+        printReport(scene, reports);
+        if (!arguments.exportFolder.empty())
+            fmt::print("\n{} file{} in {}\n", files, files == 1 ? "" : "s", arguments.exportFolder.string());
+    }
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<PyramidArguments>();
+    CLI::App* command = program.add_subcommand(
+        "pyramid", "Simplify each mesh, and say what its levels of detail are and how far they are from it");
+    CLI::Option* scene =
+        command
+            ->add_option("SCENE", arguments->scene, "glTF file (.gltf, .glb); without one, the built-in school of fish")
+            ->type_name("FILE");
+    addWhole(*command, "--fish", arguments->school.fishCount, 1, 10'000, "Number of fish in the built-in school")
+        ->excludes(scene);
+    addWhole(*command, "--fish-triangles", arguments->school.trianglesPerFish, 200, 10'000'000,
+             "Triangles a fish, about")
+        ->excludes(scene);
+    command->add_option("--mesh", arguments->mesh, "Only the mesh of this name, as defocus info lists it")
+        ->type_name("NAME");
+    addWhole(*command, "--points", arguments->points, 100, 100'000'000,
+             "Points on each of two surfaces at which their distance is measured");
+    command->add_flag("--no-measure", arguments->noMeasure,
+                      "Don't measure distances, which takes longer than the rest");
+    command->add_option("--export", arguments->exportFolder, "Write each level into this folder as a .glb of its own")
+        ->type_name("FOLDER");
+    command->add_flag("--json", arguments->json,
+                      "JSON for programs, with distances in both directions, instead of text");
+    command->footer(
+        "Lengths are in the mesh's own units. A level's error is the 99th percentile of its distance from level 0 or\n"
+        "back, whichever is larger, on the safe side; the measured figures are the larger of the two as well.\n\n"
+        "Example:\n  defocus pyramid scene.glb --mesh Body --export levels");
+    command->callback([arguments, &global] { runPyramid(*arguments, global); });
+}
+
+}  // namespace defocus

@@ -1,0 +1,53 @@
+#pragma once
+// The benchmark of Jeong, Kim and Lee 2011 (their Figure 2): a fixed camera, and how much faster a frame is with levels
+// of detail than at full detail, over the number of lens samples, the f-number and the focus distance.
+//
+// Held equal within a row's group: scene, camera, lens, lens samples, image size, layers drawn at once, process,
+// renderer. Runs of the three modes alternate, so that a machine that slows down slows all of them.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "eval/spread.h"
+#include "image/metrics.h"
+#include "plan/view.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+struct SpeedupOptions {
+    std::vector<std::uint32_t> sampleCounts = {16, 32, 64, 128, 256, 512};  // with the view's own lens
+    std::vector<double> fStops;                                             // further f-numbers, at `sweepSamples`
+    std::vector<double> focusDistances;  // further focus distances, m, at `sweepSamples`
+    std::uint32_t sweepSamples = 64;
+    int runs = 3;  // of each mode; 1 or more
+    std::uint32_t referenceSamples =
+        0;  // of a full-detail reference with its own samples, for the view's lens; 0: none
+    LodMetric metric = LodMetric::size;  // thresholds are the defaults for each number of samples
+    RendererOptions renderer;
+};
+
+struct SpeedupRow {
+    std::string sweep;  // "samples", "aperture" or "focus"
+    std::uint32_t samples = 0;
+    double fStop = 0;
+    double focusDistance = 0;  // m
+    LodMode mode = LodMode::off;
+    Spread milliseconds;     // a frame, wall clock
+    Spread gpuMilliseconds;  // timer queries; on a software driver these miss vertex work
+    double speedUp = 1;      // full detail's median over this one's
+    std::uint64_t triangles = 0;
+    std::uint64_t gpuBytes = 0;  // resources held by the renderer, at their peak
+    Difference fromFullDetail;   // at the same number of samples
+    std::optional<Difference> fromReference;
+};
+
+// Calls `visit` with each row as soon as it is measured: full detail, nearest level, fractional level for each setting.
+// Needs a current GL context. Throws Error as planning and rendering do.
+void measureSpeedup(const World& world, const View& view, const SpeedupOptions& options,
+                    const std::function<void(const SpeedupRow&)>& visit, const Progress& progress = {});
+
+}  // namespace defocus

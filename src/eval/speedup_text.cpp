@@ -1,0 +1,106 @@
+#include "eval/speedup_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace defocus {
+
+namespace {
+
+using nlohmann::json;
+
+json number(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json spreadJson(const Spread& spread) {
+    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
+}
+
+json differenceJson(const Difference& difference) {
+    return {{"rmse", difference.rmse},
+            {"psnr", number(difference.psnr)},
+            {"ssim", difference.ssim},
+            {"flip", difference.flip}};
+}
+
+json rowJson(const SpeedupRow& row) {
+    return {{"sweep", row.sweep},
+            {"samples", row.samples},
+            {"fStop", row.fStop},
+            {"focusDistance", row.focusDistance},
+            {"lod", lodModeName(row.mode)},
+            {"milliseconds", spreadJson(row.milliseconds)},
+            {"gpuMilliseconds", spreadJson(row.gpuMilliseconds)},
+            {"speedUp", row.speedUp},
+            {"triangles", row.triangles},
+            {"gpuBytes", row.gpuBytes},
+            {"fromFullDetail", differenceJson(row.fromFullDetail)},
+            {"fromReference", row.fromReference ? differenceJson(*row.fromReference) : json(nullptr)}};
+}
+
+std::string csvDifference(const Difference& d) {
+    return fmt::format("{:.8g},{:.6g},{:.6g},{:.6g}", d.rmse, d.psnr, d.ssim, d.flip);
+}
+
+}  // namespace
+
+std::string speedupHeader() {
+    return fmt::format(
+        "{:<9} {:>7} {:>7} {:>7} {:<10} {:>9} {:>17} {:>6} {:>9}  {:^22}  {:^15}\n"
+        "{:<9} {:>7} {:>7} {:>7} {:<10} {:>9} {:>17} {:>6} {:>9}  {:>7} {:>6} {:>7}  {:>7} {:>7}\n",
+        "", "", "", "focus", "", "frame", "10-90 %", "times", "triangles", "from full detail", "from reference",
+        "sweep", "samples", "f-stop", "m", "levels", "ms", "ms", "fast", "millions", "PSNR", "SSIM", "FLIP", "PSNR",
+        "FLIP");
+}
+
+std::string speedupLine(const SpeedupRow& row) {
+    const Difference& full = row.fromFullDetail;
+    std::string line =
+        fmt::format("{:<9} {:>7} {:>7.3g} {:>7.3g} {:<10} {:>9.1f} {:>17} {:>6.2f} {:>9.2f}  ", row.sweep, row.samples,
+                    row.fStop, row.focusDistance, lodModeName(row.mode), row.milliseconds.median,
+                    fmt::format("{:.0f} to {:.0f}", row.milliseconds.low, row.milliseconds.high), row.speedUp,
+                    static_cast<double>(row.triangles) / 1e6);
+    if (row.mode == LodMode::off && !row.fromReference) return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+    line += row.mode == LodMode::off ? fmt::format("{:>22}", "")
+                                     : fmt::format("{:>7.2f} {:>6.4f} {:>7.4f}", full.psnr, full.ssim, full.flip);
+    if (row.fromReference) line += fmt::format("  {:>7.2f} {:>7.4f}", row.fromReference->psnr, row.fromReference->flip);
+    return line + '\n';
+}
+
+std::string speedupCsv(std::span<const SpeedupRow> rows) {
+    std::string text =
+        "sweep,samples,fStop,focusDistance,lod,milliseconds,low,high,gpuMilliseconds,speedUp,triangles,gpuBytes,"
+        "rmseFull,psnrFull,ssimFull,flipFull,rmseReference,psnrReference,ssimReference,flipReference\n";
+    for (const SpeedupRow& row : rows)
+        text += fmt::format("{},{},{:.8g},{:.8g},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f},{},{},{},{}\n", row.sweep,
+                            row.samples, row.fStop, row.focusDistance, lodModeName(row.mode), row.milliseconds.median,
+                            row.milliseconds.low, row.milliseconds.high, row.gpuMilliseconds.median, row.speedUp,
+                            row.triangles, row.gpuBytes, csvDifference(row.fromFullDetail),
+                            row.fromReference ? csvDifference(*row.fromReference) : ",,,");
+    return text;
+}
+
+std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject) {
+    json list = json::array();
+    for (const SpeedupRow& row : rows) list.push_back(rowJson(row));
+    const json document = {{"bench", "speedup"},
+                           {"program", subject.program},
+                           {"scene", subject.scene},
+                           {"device", subject.device},
+                           {"driver", subject.driver},
+                           {"gpuTimesCoverVertexWork", !subject.software},
+                           {"width", subject.width},
+                           {"height", subject.height},
+                           {"runs", subject.runs},
+                           {"pyramidMilliseconds", subject.pyramidMilliseconds},
+                           {"heldEqual",
+                            "scene, camera, lens, lens samples, image size, layers drawn at once, renderer, "
+                            "process; runs alternate between the modes"},
+                           {"rows", std::move(list)}};
+    return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace defocus

@@ -1,0 +1,219 @@
+// Cignoni, Rocchini and Scopigno 1998, Metro: Measuring Error on Simplified Surfaces; the R2 sequence after Roberts
+// 2018, The Unreasonable Effectiveness of Quasirandom Sequences; triangles in Morton order after Lauterbach et al.
+// 2009, Fast BVH Construction on GPUs.
+
+#include "lod/surface_distance.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+
+#include "lod/triangle_distance.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::size_t mostTrianglesPerLeaf = 4;
+constexpr double mortonCells = 1023;  // an axis: 10 bits each
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// 1/g and 1/g², g³ = g + 1.
+constexpr double stepU = 0.7548776662466927;
+constexpr double stepV = 0.5698402909980532;
+
+using Triangle = std::array<glm::vec3, 3>;
+
+bool finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+double areaOf(const Triangle& t) {
+    const glm::dvec3 a = t[0];
+    return 0.5 * glm::length(glm::cross(glm::dvec3(t[1]) - a, glm::dvec3(t[2]) - a));
+}
+
+Box around(const Box& a, const Box& b) {
+    return {glm::min(a.minimum, b.minimum), glm::max(a.maximum, b.maximum)};
+}
+
+Box boxOf(const Triangle& t) {
+    return {glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))};
+}
+
+// The triangles that have a place and an area.
+std::vector<Triangle> properTriangles(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(indices.size() / 3);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const Triangle t = {positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]};
+        if (finite(t[0]) && finite(t[1]) && finite(t[2]) && areaOf(t) > 0) triangles.push_back(t);
+    }
+    return triangles;
+}
+
+// The low 10 bits, two zeros between each and the next.
+std::uint32_t spread(std::uint32_t bits) {
+    bits = (bits | bits << 16) & 0x030000ffu;
+    bits = (bits | bits << 8) & 0x0300f00fu;
+    bits = (bits | bits << 4) & 0x030c30c3u;
+    return (bits | bits << 2) & 0x09249249u;
+}
+
+std::vector<Triangle> inMortonOrder(const std::vector<Triangle>& triangles) {
+    Box whole{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(-std::numeric_limits<float>::infinity())};
+    for (const Triangle& t : triangles) whole = around(whole, boxOf(t));
+    const glm::dvec3 size = glm::dvec3(whole.maximum) - glm::dvec3(whole.minimum);
+    const double longest = std::max({size.x, size.y, size.z});
+    std::vector<std::uint64_t> keys(triangles.size());
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const glm::dvec3 centre =
+            (glm::dvec3(triangles[i][0]) + glm::dvec3(triangles[i][1]) + glm::dvec3(triangles[i][2])) / 3.0;
+        const glm::uvec3 cell(glm::clamp((centre - glm::dvec3(whole.minimum)) * (mortonCells / longest), glm::dvec3(0),
+                                         glm::dvec3(mortonCells)));
+        const std::uint32_t code = spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
+        keys[i] = std::uint64_t{code} << 32 | i;
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<Triangle> sorted;
+    sorted.reserve(triangles.size());
+    for (const std::uint64_t key : keys) sorted.push_back(triangles[key & 0xffffffffu]);
+    return sorted;
+}
+
+// The first triangle of a leaf; the leaf after the last gives the end.
+std::size_t leafStart(const Surface& surface, std::size_t leaf) {
+    return leaf * surface.triangles.size() / (surface.boxes.size() / 2);
+}
+
+void buildBoxes(Surface& surface) {
+    const std::size_t leaves =
+        std::bit_ceil((surface.triangles.size() + mostTrianglesPerLeaf - 1) / mostTrianglesPerLeaf);
+    surface.boxes.resize(2 * leaves);
+    for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+        const std::size_t first = leafStart(surface, leaf);
+        Box box = boxOf(surface.triangles[first]);
+        for (std::size_t t = first + 1; t < leafStart(surface, leaf + 1); ++t)
+            box = around(box, boxOf(surface.triangles[t]));
+        surface.boxes[leaves + leaf] = box;
+    }
+    for (std::size_t i = leaves - 1; i > 0; --i)
+        surface.boxes[i] = around(surface.boxes[2 * i], surface.boxes[2 * i + 1]);
+}
+
+double squaredDistance(const Box& box, const glm::dvec3& p) {
+    const glm::dvec3 outside =
+        glm::max(glm::max(glm::dvec3(box.minimum) - p, p - glm::dvec3(box.maximum)), glm::dvec3(0));
+    return glm::dot(outside, outside);
+}
+
+double squaredDistance(const Triangle& t, const glm::dvec3& p) {
+    const glm::dvec3 offset = p - closestPoint(p, glm::dvec3(t[0]), glm::dvec3(t[1]), glm::dvec3(t[2]));
+    return glm::dot(offset, offset);
+}
+
+struct Nearest {
+    double squaredDistance = infinity;
+    std::size_t triangle = 0;
+};
+
+// `guess`: a triangle that is likely near.
+Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t guess) {
+    struct Entry {
+        std::size_t node;
+        double squaredDistance;
+    };
+    std::array<Entry, 66> stack;  // one for each level of the tree, at most 64, and one
+    std::size_t size = 0;
+    const std::size_t leaves = surface.boxes.size() / 2;
+    Nearest nearest{squaredDistance(surface.triangles[guess], p), guess};
+    if (!std::isfinite(nearest.squaredDistance)) nearest.squaredDistance = infinity;
+    stack[size++] = {1, squaredDistance(surface.boxes[1], p)};
+    while (size > 0) {
+        const Entry entry = stack[--size];
+        if (!(entry.squaredDistance < nearest.squaredDistance)) continue;
+        if (entry.node >= leaves) {
+            const std::size_t leaf = entry.node - leaves;
+            for (std::size_t t = leafStart(surface, leaf); t < leafStart(surface, leaf + 1); ++t)
+                if (const double squared = squaredDistance(surface.triangles[t], p); squared < nearest.squaredDistance)
+                    nearest = {squared, t};
+            continue;
+        }
+        Entry nearer{2 * entry.node, squaredDistance(surface.boxes[2 * entry.node], p)};
+        Entry farther{2 * entry.node + 1, squaredDistance(surface.boxes[2 * entry.node + 1], p)};
+        if (farther.squaredDistance < nearer.squaredDistance) std::swap(nearer, farther);
+        if (farther.squaredDistance < nearest.squaredDistance) stack[size++] = farther;
+        if (nearer.squaredDistance < nearest.squaredDistance) stack[size++] = nearer;
+    }
+    return nearest;
+}
+
+// Uniform over the triangle for (u, v) uniform in the unit square (Osada et al. 2002).
+glm::dvec3 pointOf(const Triangle& t, double u, double v) {
+    const double root = std::sqrt(u);
+    return (1 - root) * glm::dvec3(t[0]) + root * (1 - v) * glm::dvec3(t[1]) + root * v * glm::dvec3(t[2]);
+}
+
+Distances summary(std::vector<double> distances) {
+    Distances result;
+    if (distances.empty()) return result;
+    const auto count = static_cast<double>(distances.size());
+    result.mean = std::accumulate(distances.begin(), distances.end(), 0.0) / count;
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * count)) - 1;
+    std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
+    result.percentile99 = distances[static_cast<std::size_t>(rank)];
+    result.maximum = *std::max_element(distances.begin() + rank, distances.end());
+    return result;
+}
+
+}  // namespace
+
+Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
+    Surface surface;
+    surface.triangles = inMortonOrder(properTriangles(positions, indices));
+    if (surface.empty()) return surface;
+    double area = 0;
+    surface.areas.reserve(surface.triangles.size());
+    for (const Triangle& t : surface.triangles) surface.areas.push_back(area += areaOf(t));
+    buildBoxes(surface);
+    return surface;
+}
+
+double distanceTo(const Surface& surface, const glm::dvec3& point) {
+    return surface.empty() ? infinity : std::sqrt(nearestTriangle(surface, point, 0).squaredDistance);
+}
+
+std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count) {
+    if (from.empty()) return {};
+    if (to.empty()) return std::vector<double>(count, infinity);
+    std::vector<double> distances;
+    distances.reserve(count);
+    std::size_t triangle = 0;
+    std::size_t nearest = 0;  // of the point before, which lies close by
+    for (std::size_t i = 0; i < count; ++i) {
+        const double area = (static_cast<double>(i) + 0.5) / static_cast<double>(count) * from.areas.back();
+        while (triangle + 1 < from.areas.size() && from.areas[triangle] < area) ++triangle;
+        const double u = (static_cast<double>(i) + 0.5) * stepU;
+        const double v = (static_cast<double>(i) + 0.5) * stepV;
+        const glm::dvec3 point = pointOf(from.triangles[triangle], u - std::floor(u), v - std::floor(v));
+        const Nearest found = nearestTriangle(to, point, nearest);
+        nearest = found.triangle;
+        distances.push_back(std::sqrt(found.squaredDistance));
+    }
+    return distances;
+}
+
+SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count) {
+    SurfaceDistance result;
+    result.forward = summary(sampleDistances(first, second, count));
+    result.backward = summary(sampleDistances(second, first, count));
+    result.both = {std::max(result.forward.mean, result.backward.mean),
+                   std::max(result.forward.percentile99, result.backward.percentile99),
+                   std::max(result.forward.maximum, result.backward.maximum)};
+    return result;
+}
+
+}  // namespace defocus

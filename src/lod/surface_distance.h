@@ -1,0 +1,61 @@
+#pragma once
+// How far two triangle surfaces are apart, measured as Cignoni, Rocchini and Scopigno do (1998, Metro: Measuring Error
+// on Simplified Surfaces): at points spread evenly over the area of one, each to the closest point of the other, which
+// a tree of boxes finds.
+//
+// Lengths are object units. A triangle without area, or with a corner that isn't finite, is no part of a surface. A
+// surface may be empty: nothing is measured from it, and everything is infinitely far from it. Deterministic; equal
+// surfaces scaled by a power of two give distances scaled by it, bit for bit.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace defocus {
+
+struct Box {
+    glm::vec3 minimum;
+    glm::vec3 maximum;
+};
+
+// Made by prepareSurface, then only read (from any number of threads).
+struct Surface {
+    std::vector<std::array<glm::vec3, 3>> triangles;  // sorted along a Morton curve: neighbours are near in space
+    std::vector<double> areas;                        // of the triangles up to and with each one
+    // A complete binary tree, root at 1, children of i at 2i and 2i + 1; the last half are leaves of up to 4 triangles,
+    // which share the triangles evenly in their order.
+    std::vector<Box> boxes;
+
+    [[nodiscard]] bool empty() const { return triangles.empty(); }
+};
+
+// `indices` are three a triangle (a rest of one or two is passed over), all below positions.size().
+Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
+
+// From `point` (finite) to the closest point of the surface; infinite for an empty one.
+double distanceTo(const Surface& surface, const glm::dvec3& point);
+
+// Distances to `to` from `count` points of `from`, each of which stands for an equal share of its area: one a stratum
+// of the running area, within its triangle by the R2 sequence. None where `from` is empty.
+std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
+
+struct Distances {
+    double mean = 0;
+    double percentile99 = 0;  // nearest rank
+    double maximum = 0;
+};
+
+struct SurfaceDistance {
+    Distances forward;   // from points of the first to the second
+    Distances backward;  // from points of the second to the first
+    Distances both;      // the larger of the two, figure by figure, as the two-sided Hausdorff distance is
+};
+
+// From `count` points on each. The mean's error falls with about 1 / count; the maximum is of these points only, a
+// lower bound of the Hausdorff distance.
+SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count);
+
+}  // namespace defocus
