@@ -205,6 +205,11 @@ void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
 
         Stage peer;
         const Mesh peerMesh = peerLevel(mesh, levels[l]);
+        if (peerMesh.triangleCount() > levels[l].triangleCount * 5 / 4) {
+            fmt::print("{:<24} {:>5} {:>9} {:>9} {:>7.1f} {:>9.2f} {:>9} {:>9.4f}  (meshoptimizer stops before)\n",
+                       name, l, levels[l].triangleCount, peerMesh.triangleCount(), coc, own.psnr, "", own.flip);
+            continue;
+        }
         furnish(peer, source, peerMesh);
         peer.view = stage.view;
         peer.world.lights = stage.world.lights;

@@ -7,17 +7,17 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "lod/quadric.h"
+
 namespace defocus {
 
 constexpr std::size_t attributeCount = 8;  // normal, colour, uv
 using AttributeRow = std::array<float, attributeCount>;
 
 struct AttributeQuadric {
-    // Of Σ w·(g·p + d − s)² over faces and attributes: Σ w·g·gᵀ, Σ w·d·g, Σ w·d², Σ w; then Σ w·g and Σ w·d of each.
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-    glm::dvec3 b{0};
-    double c = 0;
-    double weight = 0;
+    // Of Σ w·(g·p + d − s)² over faces and attributes: the part without s (its weight is Σ w); then Σ w·g and Σ w·d of
+    // each attribute.
+    Quadric squares;
     std::array<glm::dvec3, attributeCount> gradient{};
     std::array<double, attributeCount> offset{};
 
@@ -29,35 +29,19 @@ struct AttributeQuadric {
         const double square = glm::dot(normal, normal);
         const glm::dvec3 along1 = glm::cross(e2, normal) / square;
         const glm::dvec3 along2 = glm::cross(normal, e1) / square;
-        weight += faceWeight;
+        squares.weight += faceWeight;
         for (std::size_t j = 0; j < attributeCount; ++j) {
             const double s0 = (*s[0])[j];
             const glm::dvec3 g = ((*s[1])[j] - s0) * along1 + ((*s[2])[j] - s0) * along2;
             const double d = s0 - glm::dot(g, *p[0]);
-            const glm::dvec3 weighted = faceWeight * g;
-            xx += weighted.x * g.x;
-            xy += weighted.x * g.y;
-            xz += weighted.x * g.z;
-            yy += weighted.y * g.y;
-            yz += weighted.y * g.z;
-            zz += weighted.z * g.z;
-            b += d * weighted;
-            c += faceWeight * d * d;
-            gradient[j] += weighted;
+            squares.addSquare(g, d, faceWeight);
+            gradient[j] += faceWeight * g;
             offset[j] += faceWeight * d;
         }
     }
 
     void add(const AttributeQuadric& other) {
-        xx += other.xx;
-        xy += other.xy;
-        xz += other.xz;
-        yy += other.yy;
-        yz += other.yz;
-        zz += other.zz;
-        b += other.b;
-        c += other.c;
-        weight += other.weight;
+        squares.add(other.squares);
         for (std::size_t j = 0; j < attributeCount; ++j) {
             gradient[j] += other.gradient[j];
             offset[j] += other.offset[j];
@@ -65,10 +49,9 @@ struct AttributeQuadric {
     }
 
     [[nodiscard]] double at(const glm::dvec3& p, const AttributeRow& s) const {
-        double sum = p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z)) + p.y * (yy * p.y + 2 * yz * p.z) + zz * p.z * p.z +
-                     2 * glm::dot(b, p) + c;
+        double sum = squares.at(p);
         for (std::size_t j = 0; j < attributeCount; ++j)
-            sum += s[j] * (weight * s[j] - 2 * (glm::dot(gradient[j], p) + offset[j]));
+            sum += s[j] * (squares.weight * s[j] - 2 * (glm::dot(gradient[j], p) + offset[j]));
         return std::max(0.0, sum);
     }
 };

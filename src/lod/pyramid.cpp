@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "lod/gathered.h"
 #include "lod/level_fit.h"
 #include "lod/level_order.h"
 #include "lod/simplify.h"
@@ -27,28 +28,6 @@ constexpr double errorFloor = 1e-6;        // of the box's diagonal
 constexpr std::size_t leastErrorPoints = 256;
 constexpr std::size_t mostErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
-
-template <typename T>
-std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-    std::vector<T> result;
-    if (values.empty()) return result;
-    result.reserve(order.size());
-    for (const std::uint32_t i : order) result.push_back(values[i]);
-    return result;
-}
-
-Vertices gathered(const Vertices& vertices, const std::vector<std::uint32_t>& order) {
-    Vertices result;
-    result.positions = gathered(vertices.positions, order);
-    result.normals = gathered(vertices.normals, order);
-    result.tangents = gathered(vertices.tangents, order);
-    result.uv0 = gathered(vertices.uv0, order);
-    result.uv1 = gathered(vertices.uv1, order);
-    result.colors = gathered(vertices.colors, order);
-    result.joints = gathered(vertices.joints, order);
-    result.weights = gathered(vertices.weights, order);
-    return result;
-}
 
 LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertexIds) {
     LevelTriangles level;

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/hash.h"
+#include "lod/gathered.h"
 
 namespace defocus {
 
@@ -102,28 +103,6 @@ public:
 private:
     std::span<const std::byte> rest_;
 };
-
-template <typename T>
-std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& source) {
-    std::vector<T> result;
-    if (values.empty()) return result;
-    result.reserve(source.size());
-    for (const std::uint32_t v : source) result.push_back(values[v]);
-    return result;
-}
-
-Vertices gathered(const Vertices& vertices, const std::vector<std::uint32_t>& source) {
-    Vertices result;
-    result.positions = gathered(vertices.positions, source);
-    result.normals = gathered(vertices.normals, source);
-    result.tangents = gathered(vertices.tangents, source);
-    result.uv0 = gathered(vertices.uv0, source);
-    result.uv1 = gathered(vertices.uv1, source);
-    result.colors = gathered(vertices.colors, source);
-    result.joints = gathered(vertices.joints, source);
-    result.weights = gathered(vertices.weights, source);
-    return result;
-}
 
 bool allBelow(std::span<const std::uint32_t> values, std::size_t limit) {
     std::uint32_t largest = 0;

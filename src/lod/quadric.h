@@ -16,17 +16,21 @@ struct Quadric {
 
     // The plane through `point` with the unit normal `normal`.
     void addPlane(const glm::dvec3& normal, const glm::dvec3& point, double planeWeight) {
-        const double offset = -glm::dot(normal, point);
-        const glm::dvec3 weighted = planeWeight * normal;
-        xx += weighted.x * normal.x;
-        xy += weighted.x * normal.y;
-        xz += weighted.x * normal.z;
-        yy += weighted.y * normal.y;
-        yz += weighted.y * normal.z;
-        zz += weighted.z * normal.z;
-        b += weighted * offset;
-        c += planeWeight * offset * offset;
+        addSquare(normal, -glm::dot(normal, point), planeWeight);
         weight += planeWeight;
+    }
+
+    // squareWeight · (gᵀp + offset)², without counting towards `weight`.
+    void addSquare(const glm::dvec3& g, double offset, double squareWeight) {
+        const glm::dvec3 weighted = squareWeight * g;
+        xx += weighted.x * g.x;
+        xy += weighted.x * g.y;
+        xz += weighted.x * g.z;
+        yy += weighted.y * g.y;
+        yz += weighted.y * g.z;
+        zz += weighted.z * g.z;
+        b += weighted * offset;
+        c += squareWeight * offset * offset;
     }
 
     void add(const Quadric& other) {

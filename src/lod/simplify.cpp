@@ -99,7 +99,7 @@ void collapse(Simplifier& s, HalfedgeHandle edge) {
         if (s.mesh.face_handle(side).is_valid()) --s.liveFaces;
     for (const Retarget& retarget : s.retargets) {
         const std::uint32_t old = s.corners.wedge[retarget.corner];
-        if (old != retarget.wedge && s.attributeQuadrics[old].weight > 0) {
+        if (old != retarget.wedge && s.attributeQuadrics[old].squares.weight > 0) {
             s.attributeQuadrics[retarget.wedge].add(s.attributeQuadrics[old]);
             s.attributeQuadrics[old] = {};
         }

@@ -95,6 +95,17 @@ double seamConstraint(const Corners& corners, const Manifold& manifold, std::uin
     return 0;
 }
 
+// The same for an edge where the surface turns by more than 60°: without it the rim of a thin sheet, whose own area is
+// next to nothing, would cost nothing to cut back.
+double rimConstraint(const Simplifier& s, const Manifold& manifold, std::uint32_t e) {
+    const std::uint32_t twin = manifold.twins[e];
+    if (twin == Manifold::none) return 0;
+    const glm::dvec3 mine = faceCross(s, e / 3);
+    const glm::dvec3 theirs = faceCross(s, twin / 3);
+    const double lengths = glm::length(mine) * glm::length(theirs);
+    return lengths > 0 ? rimWeight * std::max(0.0, 0.5 - glm::dot(mine, theirs) / lengths) : 0;
+}
+
 // Attributes in lengths of the unit frame.
 void buildAttributeRows(Simplifier& s) {
     s.rows.reserve(s.corners.attributes.size());
@@ -125,17 +136,6 @@ void buildAttributeQuadrics(Simplifier& s) {
         quadric.addFace(points, rows, doubleArea / 6);
         for (std::size_t i = 0; i < 3; ++i) s.attributeQuadrics[s.corners.wedge[first + i]].add(quadric);
     }
-}
-
-// The same for an edge where the surface turns by more than 60°: without it the rim of a thin sheet, whose own area is
-// next to nothing, would cost nothing to cut back.
-double rimConstraint(const Simplifier& s, const Manifold& manifold, std::uint32_t e) {
-    const std::uint32_t twin = manifold.twins[e];
-    if (twin == Manifold::none) return 0;
-    const glm::dvec3 mine = faceCross(s, e / 3);
-    const glm::dvec3 theirs = faceCross(s, twin / 3);
-    const double lengths = glm::length(mine) * glm::length(theirs);
-    return lengths > 0 ? rimWeight * std::max(0.0, 0.5 - glm::dot(mine, theirs) / lengths) : 0;
 }
 
 void buildQuadrics(Simplifier& s, const Manifold& manifold) {
