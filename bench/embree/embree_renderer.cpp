@@ -193,7 +193,11 @@ std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, EmbreeSampling 
 void registerEmbree() {
     static const bool registered = [] {
         const auto add = [](const char* name, const char* description, EmbreeSampling sampling) {
-            registerMethod({name, description, false, [sampling](const World& world, const RendererOptions&) {
+            registerMethod({.name = name,
+                            .description = description,
+                            .needsGl = false,
+                            .settings = {},
+                            .make = [sampling](const World& world, const RendererOptions&) {
                                 return makeEmbreeRenderer(world, sampling);
                             }});
         };

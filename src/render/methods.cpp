@@ -11,8 +11,10 @@ namespace {
 
 std::vector<Method>& table() {
     static std::vector<Method> methods = {
-        {"accumulation", "lens samples accumulated from a pyramid of levels (Jeong, Kim and Lee 2011)", true,
-         makeAccumulationRenderer},
+        {.name = "accumulation",
+         .description = "lens samples accumulated from a pyramid of levels (Jeong, Kim and Lee 2011)",
+         .settings = {},
+         .make = makeAccumulationRenderer},
     };
     return methods;
 }
@@ -33,6 +35,27 @@ const Method& methodNamed(std::string_view name) {
     std::string known;
     for (const Method& method : table()) known += (known.empty() ? "" : ", ") + method.name;
     fail("no method is called '{}'; there are: {}", name, known);
+}
+
+std::string MethodUse::text() const {
+    const std::string differing = settingsText(method->settings, settings);
+    return differing.empty() ? method->name : method->name + ":" + differing;
+}
+
+MethodUse parseMethodUse(std::string_view text) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const Method& method = methodNamed(text.substr(0, colon));
+    MethodSettings given;
+    for (std::size_t begin = colon + 1; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string_view part = text.substr(begin, end - begin);
+        const std::size_t equals = part.find('=');
+        if (equals == std::string_view::npos)
+            fail("'{}': '{}' is not SETTING=VALUE, as in {}:setting=value,setting=value", text, part, method.name);
+        given[std::string(part.substr(0, equals))] = part.substr(equals + 1);
+        begin = end + 1;
+    }
+    return {&method, completeSettings(method.name, method.settings, given)};
 }
 
 }  // namespace defocus

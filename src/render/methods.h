@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "render/method_settings.h"
 #include "render/renderer.h"
 
 namespace defocus {
@@ -28,18 +29,31 @@ struct RendererOptions {
     std::uint64_t waveBytes = 256ull << 20;  // memory for a wave's layers
     bool geometryShaderLayers = false;       // pick layers in a geometry shader even where the vertex shader may
     std::filesystem::path shaderFolder;      // overrides the embedded shaders; empty: none
+    MethodSettings settings;                 // of the method (Method::settings); what is not said is standard
 };
 
 struct Method {
     std::string name;
     std::string description;
-    bool needsGl = true;  // a current GL context
+    bool needsGl = true;          // a current GL context
+    bool usesLensSamples = true;  // false: the plan's number of samples means nothing to it (post-process methods)
+    std::vector<MethodSetting> settings;
+    // Throws Error for settings that the method doesn't take.
     std::function<std::unique_ptr<Renderer>(const World&, const RendererOptions&)> make;
+};
+
+// A method with its settings, complete.
+struct MethodUse {
+    const Method* method = nullptr;
+    MethodSettings settings;
+    [[nodiscard]] std::string text() const;  // "name" or "name:setting=value,…": what differs from the standard
 };
 
 const std::vector<Method>& methods();
 void registerMethod(Method method);
 // Throws Error listing the known names for an unknown one.
 const Method& methodNamed(std::string_view name);
+// The inverse of MethodUse::text. Throws Error for an unknown method or setting and for a value out of range.
+MethodUse parseMethodUse(std::string_view text);
 
 }  // namespace defocus

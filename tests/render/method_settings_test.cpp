@@ -1,0 +1,51 @@
+#include "render/method_settings.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "render/methods.h"
+
+namespace defocus {
+namespace {
+
+const std::vector<MethodSetting> known = {
+    {.name = "taps", .standard = "8", .description = "", .choices = {}, .least = 8, .most = 64},
+    {.name = "coc", .standard = "published", .description = "", .choices = {"published", "thin-lens"}},
+    {.name = "bias", .standard = "1", .description = "", .choices = {}, .least = 0, .most = 4, .whole = false},
+};
+
+std::string faultOf(const MethodSettings& given) {
+    try {
+        completeSettings("m", known, given);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(MethodSettings, whatIsNotSaidIsStandard) {
+    const MethodSettings settings = completeSettings("m", known, {{"coc", "thin-lens"}});
+    EXPECT_EQ(settings.at("coc"), "thin-lens");
+    EXPECT_EQ(numberOf(settings, "taps"), 8);
+    EXPECT_EQ(settingsText(known, settings), "coc=thin-lens");
+}
+
+TEST(MethodSettings, faultsNameTheMethodAndWhatItTakes) {
+    EXPECT_EQ(faultOf({{"tap", "9"}}), "method m has no setting 'tap'; it has: taps, coc, bias");
+    EXPECT_EQ(faultOf({{"coc", "x"}}), "method m: coc is one of published, thin-lens, not 'x'");
+    EXPECT_EQ(faultOf({{"taps", "7"}}), "method m: taps is a whole number from 8 to 64, not '7'");
+    for (const char* bad : {"8.5", "", "nan", "inf", "8x", "1e9"}) EXPECT_NE(faultOf({{"taps", bad}}), "") << bad;
+    EXPECT_EQ(faultOf({{"bias", "0.5"}}), "");
+}
+
+TEST(MethodSettings, methodsAreReadAsTheyAreWritten) {
+    registerMethod({.name = "settings-test", .description = "", .settings = known, .make = {}});
+    for (const char* text : {"settings-test", "settings-test:taps=16", "settings-test:taps=16,coc=thin-lens"})
+        EXPECT_EQ(parseMethodUse(text).text(), text);
+    EXPECT_EQ(parseMethodUse("accumulation").text(), "accumulation");
+    for (const char* bad : {"settings-test:", "settings-test:taps", "settings-test:taps=16,", "accumulation:x=1", ""})
+        EXPECT_THROW(parseMethodUse(bad), Error) << bad;
+}
+
+}  // namespace
+}  // namespace defocus
