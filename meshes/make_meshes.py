@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf and fish.glb. Python's standard library only.
+"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, fish.glb and artefact-*.gltf. Python's standard
+library only.
 
     make_meshes.py            write them beside this file
     make_meshes.py --check    compare them with what would be written; exit code 1 when one differs
@@ -227,6 +228,96 @@ def staircase():
     return document.gltf()
 
 
+# ---- artefacts ------------------------------------------------------------------------------------------------------
+
+# What image-space methods get wrong, a scene each: unlit, so that nothing but the blur shows. 50 mm on 36 mm at 3:2, so
+# a plane at depth d is 0.72 d wide and 0.48 d high.
+
+
+def unlit(document, name, color, strength=None):
+    material = {"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"baseColorFactor": color + [1]}}
+    if strength:
+        material = {"emissiveFactor": color, "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+                    "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": strength}}}
+    return document.material(name, **material)
+
+
+def add_board(document, name, material, depth, left, right, bottom, top, columns=1, rows=1, colors=None):
+    """An upright board at `depth`; sides in parts of the image's width and height, from its middle; checks if asked."""
+    surface = Surface()
+    wide, high = 0.72 * depth, 0.48 * depth
+    origin = (left * wide, bottom * high, -depth)
+    checkered(surface, origin, ((right - left) * wide, 0, 0), (0, (top - bottom) * high, 0), columns, rows,
+              *(colors or (linear(255, 255, 255), linear(255, 255, 255))))
+    document.node(name, mesh=document.mesh(name, surface, material))
+
+
+def artefact_camera(document, f_stop, focus):
+    document.camera(2 * math.atan(0.24), 1.5, {"fStop": f_stop, "focusDistance": focus, "horizontalAperture": 36.0})
+
+
+def leaking():
+    """A bright sharp post in front of a dark, strongly blurred wall, beside a less blurred one."""
+    document = Document()
+    white = unlit(document, "Paper", [1.0, 1.0, 1.0])
+    add_board(document, "Wall", white, 12.0, -0.7, 0.7, -0.7, 0.7, 14, 12, (linear(30, 40, 62), linear(40, 56, 84)))
+    add_board(document, "Panel", white, 3.0, -0.42, -0.12, -0.4, 0.4, 6, 12, (linear(228, 84, 52), linear(250, 190, 70)))
+    add_board(document, "Post", white, 2.0, 0.1, 0.26, -0.6, 0.6, 4, 30, (linear(255, 246, 220), linear(252, 226, 120)))
+    artefact_camera(document, 0.7, 2.0)
+    return document.gltf()
+
+
+def lost_background():
+    """Thin bars close to the lens in front of a sharp chart: through their blurred edges one sees what no pinhole saw."""
+    document = Document()
+    white = unlit(document, "Paper", [1.0, 1.0, 1.0])
+    add_board(document, "Chart", white, 3.0, -0.7, 0.7, -0.7, 0.7, 30, 30, (linear(244, 240, 228), linear(36, 60, 120)))
+    for x in (-0.25, 0.25):
+        add_board(document, f"Bar {x}", white, 0.7, x - 0.05, x + 0.05, -0.8, 0.8, 1, 1,
+                  (linear(40, 120, 60), linear(40, 120, 60)))
+    artefact_camera(document, 1.0, 3.0)
+    return document.gltf()
+
+
+def half_discs():
+    """Lights far behind a sharp edge, some of them just hidden: their disks reach past it."""
+    document = Document()
+    dark = unlit(document, "Night", [0.006, 0.008, 0.014])
+    grey = unlit(document, "Sill", [0.12, 0.11, 0.1])
+    add_board(document, "Night", dark, 14.0, -0.7, 0.7, -0.7, 0.7)
+    add_board(document, "Sill", grey, 2.0, -0.7, 0.7, -0.6, -0.06)
+    lamps = [unlit(document, name, color, 120) for name, color in
+             (("Amber", [1.0, 0.6, 0.25]), ("Sky", [0.4, 0.7, 1.0]), ("White", [1.0, 0.9, 0.8]))]
+    for row, y in enumerate((0.3, 0.12, -0.055, -0.075)):
+        for column in range(6):
+            light = lamps[column % 3]
+            x = -0.4 + 0.16 * column + 0.03 * row
+            add_board(document, f"Light {row}.{column}", light, 10.0, x - 0.003, x + 0.003, y - 0.0045, y + 0.0045)
+    artefact_camera(document, 0.8, 2.0)
+    return document.gltf()
+
+
+def ghosting():
+    """A patterned board close to the lens, in front of a sharp plain one: under its blurred edge its sharp self shows."""
+    document = Document()
+    white = unlit(document, "Paper", [1.0, 1.0, 1.0])
+    add_board(document, "Back", white, 3.0, -0.7, 0.7, -0.7, 0.7, 8, 6, (linear(206, 214, 220), linear(182, 194, 204)))
+    add_board(document, "Near board", white, 0.9, -0.22, 0.22, -0.24, 0.24, 8, 8, (linear(20, 20, 24), linear(250, 120, 30)))
+    artefact_camera(document, 1.0, 3.0)
+    return document.gltf()
+
+
+def resolution_loss():
+    """A fine chart that slants away from the focus: blurs of a few pixels, where small images show their pixels."""
+    document = Document()
+    white = unlit(document, "Paper", [1.0, 1.0, 1.0])
+    surface = Surface()
+    checkered(surface, (-1.1, -0.62, -1.6), (2.2, 0, 0), (0, 1.2, -1.6), 44, 36, linear(250, 246, 236), linear(60, 24, 40))
+    document.node("Chart", mesh=document.mesh("Chart", surface, white))
+    artefact_camera(document, 1.0, 2.2)
+    return document.gltf()
+
+
 # ---- fish.glb -------------------------------------------------------------------------------------------------------
 
 
@@ -334,7 +425,10 @@ def main():
     if sys.argv[1:] and not check:
         sys.exit(__doc__)
     differing = []
-    for name, make in (("bokeh.gltf", bokeh), ("staircase.gltf", staircase), ("fish.glb", fish)):
+    for name, make in (("bokeh.gltf", bokeh), ("staircase.gltf", staircase), ("fish.glb", fish),
+                       ("artefact-leaking.gltf", leaking), ("artefact-lost-background.gltf", lost_background),
+                       ("artefact-half-discs.gltf", half_discs), ("artefact-ghosting.gltf", ghosting),
+                       ("artefact-resolution-loss.gltf", resolution_loss)):
         path, data = HERE / name, make()
         if not check:
             path.write_bytes(data)

@@ -32,6 +32,7 @@ public:
     void start(const FramePlan& plan) override;
     bool advance() override;
     [[nodiscard]] std::uint32_t samples() const override { return samples_; }
+    [[nodiscard]] std::uint32_t sampleTotal() const override { return sampleCount(); }
     [[nodiscard]] Image image() override;
     [[nodiscard]] RenderStats stats() const override;
 

@@ -12,7 +12,13 @@ layout(location = 0) out vec4 layerOut;
 #endif
 
 void main() {
+#if ENVIRONMENT == 3
     vec4 radiance = vec4(environmentRadiance(normalize(mat3(frame.worldFromView) * viewDirection), 0.0), 1.0);
+#elif ENVIRONMENT == 2
+    vec4 radiance = vec4(gradientRadiance(normalize(mat3(frame.worldFromView) * viewDirection).y), 1.0);
+#else
+    vec4 radiance = vec4(frame.environment[0].rgb, 1.0);
+#endif
 #ifdef LAYER_LARGEST
     radiance = min(radiance, vec4(LAYER_LARGEST));
 #endif

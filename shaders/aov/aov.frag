@@ -1,6 +1,7 @@
 // Depth (m), signed circle of confusion (px) and fractional level of the nearest surface through the pinhole.
 
 #include "include/frame.glsl"
+#include "include/lens.glsl"
 
 in Surface {
 #include "include/surface_varyings.glsl"
@@ -27,6 +28,6 @@ void main() {
 #endif
     float w = 1.0 / gl_FragCoord.w;
     depthOut = w;
-    cocOut = (frame.coc.x / w + frame.coc.y) * frame.coc.z;
+    cocOut = circleOfConfusion(gl_FragCoord.z);
     levelOut = object.values.x;
 }

@@ -9,7 +9,7 @@ struct LightData {
 
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
-    vec4 coc;             // a, b of C(w) = a + b·w
+    vec4 coc;             // a, b of C(w) = a + b·w; image width (px)
     mat4 worldFromView;   // rotation
     vec4 environment[3];  // zenith, horizon, nadir radiance
     vec4 irradiance[9];   // E(n)/π in the real spherical harmonics of Ramamoorthi and Hanrahan 2001, world space

@@ -8,3 +8,9 @@ vec4 projectedThroughLens(vec3 viewPosition, vec4 lensAndJitter) {
     vec2 pinhole = viewPosition.xy * frame.projection.xy;
     return vec4(pinhole + c * lensAndJitter.xy + w * lensAndJitter.zw, frame.projection.z, w);
 }
+
+// Signed diameter of the circle of confusion in px, > 0 behind the focus plane, at a value of the depth buffer (1/w times the
+// near plane; 0 is infinity).
+float circleOfConfusion(float depth) {
+    return (frame.coc.x * depth / frame.projection.z + frame.coc.y) * frame.coc.z;
+}

@@ -84,7 +84,7 @@ void checkOutputs(const RenderArguments& arguments) {
 Image renderImage(Renderer& renderer, const FramePlan& plan, const Progress& progress) {
     renderer.start(plan);
     do {
-        report(progress, "samples", renderer.samples(), plan.samples.size());
+        report(progress, "samples", renderer.samples(), renderer.sampleTotal());
     } while (renderer.advance());
     return renderer.image();
 }
@@ -116,10 +116,11 @@ void printChoices(const GlContext* context, const FramePlan& plan, const RenderR
 }
 
 void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
-    // Faults first: outputs, scene, lens, device; only then the long work.
+    // Faults first: method, outputs, scene, lens, device; only then the long work.
     const Clock::time_point start = Clock::now();
+    const MethodUse use = chosenMethod(arguments.scene);
+    const Method& method = *use.method;
     checkOutputs(arguments);
-    const Method& method = methodNamed(arguments.scene.method);
     Progress progress = terminalProgress(global);
     PreparedFrame frame = placeFrame(arguments.scene, progress);
     std::unique_ptr<GlContext> context;
@@ -132,6 +133,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     options.layerFormat = arguments.scene.layerFormat;
     options.wave = arguments.scene.wave;
     options.shaderFolder = global.shaderDir;
+    options.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
     const Image image = renderImage(*renderer, plan, progress);
     progress = {};
@@ -139,7 +141,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     // Write.
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     const bool software = context == nullptr || context->software();
-    const RenderReport report{arguments.scene, frame, plan, renderer->stats(), software, milliseconds};
+    const RenderReport report{arguments.scene, use.text(), frame, plan, renderer->stats(), software, milliseconds};
     const Metadata metadata = renderMetadata(report);
     for (const std::filesystem::path& path : arguments.outputs) writeImage(path, image, metadata, arguments.write);
     if (arguments.aovs.any()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);

@@ -12,6 +12,7 @@ namespace defocus {
 
 struct RenderReport {
     const SceneOptions& options;
+    std::string method;  // MethodUse::text
     const PreparedFrame& frame;
     const FramePlan& plan;
     RenderStats stats;

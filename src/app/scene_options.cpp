@@ -1,6 +1,7 @@
 #include "app/scene_options.h"
 
 #include <limits>
+#include <map>
 
 #include "app/option_text.h"
 
@@ -163,12 +164,43 @@ void addLevels(CLI::App& command, SceneOptions& options) {
     folder->group(group);
 }
 
+std::string valuesOf(const MethodSetting& setting) {
+    if (!setting.choices.empty()) return fmt::format("{}", fmt::join(setting.choices, "|"));
+    return setting.whole ? "N" : "R";
+}
+
+// An option for each setting of each method; methods may share one.
+void addMethodSettings(CLI::App& command, SceneOptions& options) {
+    std::map<std::string, std::string> owners;
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings)
+            owners[setting.name] += (owners[setting.name].empty() ? "" : ", ") + method.name;
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings) {
+            const auto owner = owners.extract(setting.name);
+            if (owner.empty()) continue;  // added with an earlier method
+            command
+                .add_option_function<std::string>(
+                    "--" + setting.name,
+                    [&options, name = setting.name](const std::string& text) { options.methodSettings[name] = text; },
+                    setting.description)
+                ->type_name(valuesOf(setting))
+                ->default_str(setting.standard)
+                ->group("Method " + owner.mapped());
+        }
+}
+
 void addMethod(CLI::App& command, SceneOptions& options) {
     const char* group = "Method";
     std::vector<std::string> names;
     for (const Method& method : methods()) names.push_back(method.name);
-    addParsed(command, "--method", "NAME", fmt::format("How the image is made: {}", fmt::join(names, ", ")),
-              [&options, names](const std::string& text) { options.method = names[parseChoice(text, names)]; })
+    addParsed(command, "--method", "NAME",
+              fmt::format("How the image is made: {}; also NAME:SETTING=VALUE,… with the method's settings",
+                          fmt::join(names, ", ")),
+              [&options, names](const std::string& text) {
+                  static_cast<void>(parseChoice(text.substr(0, text.find(':')), names));
+                  options.method = parseMethodUse(text).text();
+              })
         ->default_str(options.method)
         ->group(group);
     addChoice<LayerFormat>(command, "--layer-format", options.layerFormat,
@@ -181,9 +213,19 @@ void addMethod(CLI::App& command, SceneOptions& options) {
         ->group(group);
     addWhole(command, "--wave", options.wave, 0, 64, "Samples drawn at once; 0: as memory allows (same image)")
         ->group(group);
+    addMethodSettings(command, options);
 }
 
 }  // namespace
+
+MethodUse chosenMethod(const SceneOptions& options) try {
+    MethodUse use = parseMethodUse(options.method);
+    for (const auto& [name, value] : options.methodSettings) use.settings[name] = value;
+    use.settings = completeSettings(use.method->name, use.method->settings, use.settings);
+    return use;
+} catch (const Error& error) {
+    throw CLI::ValidationError(error.what());  // a fault of the command line
+}
 
 CLI::Option* addCacheFolder(CLI::App& command, std::filesystem::path& folder) {
     return command

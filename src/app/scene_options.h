@@ -60,13 +60,17 @@ struct SceneOptions {
     bool noCache = false;
 
     // Method.
-    std::string method = "accumulation";
+    std::string method = "accumulation";  // its name, or with settings as MethodUse::text has it
+    MethodSettings methodSettings;        // of options by their names, beyond those in `method`
     LayerFormat layerFormat = LayerFormat::automatic;
     std::uint32_t wave = 0;  // 0: as memory allows
 };
 
 // --cache-dir, by itself. `folder` must outlive the parse.
 CLI::Option* addCacheFolder(CLI::App& command, std::filesystem::path& folder);
+
+// The method with its settings. Throws CLI::ValidationError for settings that it doesn't take.
+MethodUse chosenMethod(const SceneOptions& options);
 
 // Adds the options in groups. `options` must outlive the parse.
 void addSceneOptions(CLI::App& command, SceneOptions& options);

@@ -135,8 +135,8 @@ private:
         if (context_ == EGL_NO_CONTEXT) return failed("eglCreateContext (OpenGL 4.5 core)");
         if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
             return failed("eglMakeCurrent without a surface");
-        device_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-        driver_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+        device_ = currentDevice();
+        driver_ = currentDriver();
         software_ = device_.find("llvmpipe") != std::string::npos || device_.find("softpipe") != std::string::npos ||
                     device_.find("SWR") != std::string::npos;
         return {};
@@ -160,6 +160,14 @@ private:
 };
 
 }  // namespace
+
+std::string currentDevice() {
+    return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+}
+
+std::string currentDriver() {
+    return reinterpret_cast<const char*>(glGetString(GL_VERSION));
+}
 
 std::unique_ptr<GlContext> createHeadlessContext() {
     auto context = std::make_unique<HeadlessContext>();

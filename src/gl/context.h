@@ -21,4 +21,8 @@ public:
 // Creates a context and makes it current on this thread. Throws Error with every reason when none can be had.
 std::unique_ptr<GlContext> createHeadlessContext();
 
+// GL_RENDERER and GL_VERSION of the current context.
+std::string currentDevice();
+std::string currentDriver();
+
 }  // namespace defocus

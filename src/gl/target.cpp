@@ -25,7 +25,7 @@ const char* inWords(GLenum status) {
 
 }  // namespace
 
-Target::Target(std::initializer_list<const GlTexture*> colors, const GlTexture* depth) {
+Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth) {
     GLuint name = 0;
     glCreateFramebuffers(1, &name);
     handle_ = GlHandle<destroyFramebuffer>(name);

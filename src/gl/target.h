@@ -2,7 +2,7 @@
 // A framebuffer over textures that it doesn't own: colour attachments in order and an optional depth texture. Array
 // textures are attached with all their layers (gl_Layer picks one).
 
-#include <initializer_list>
+#include <vector>
 
 #include "gl/texture.h"
 
@@ -11,8 +11,8 @@ namespace defocus {
 class Target {
 public:
     Target() = default;
-    // Throws Error in words when the driver can't render to this combination.
-    Target(std::initializer_list<const GlTexture*> colors, const GlTexture* depth = nullptr);
+    // At most 8 colours. Throws Error in words when the driver can't render to this combination.
+    explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
 
     // Makes it current with its whole area as viewport.
     void bind() const;

@@ -26,6 +26,8 @@ FormatRow row(TextureFormat format) {
             return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 8};
         case TextureFormat::rgba8:
             return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+        case TextureFormat::rgb10A2:
+            return {GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4};
         case TextureFormat::srgb8Alpha8:
             return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
         case TextureFormat::r32ui:

@@ -12,6 +12,7 @@ enum class TextureFormat {
     rgba32f,
     rgba16f,
     rgba8,
+    rgb10A2,
     srgb8Alpha8,
     r32ui,  // integer: 32 packed bits
     depth32f,

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <glm/common.hpp>
 #include <optional>
 
 #include "core/error.h"
+#include "gl/context.h"
 #include "gl/timer.h"
 #include "render/layer_sum.h"
 #include "render/surface_pass.h"
@@ -23,34 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-std::string glString(GLenum name) {
-    const auto* text = reinterpret_cast<const char*>(glGetString(name));
-    return text != nullptr ? text : "";
-}
-
-float largest(const glm::vec3& v) {
-    return std::max({v.x, v.y, v.z});
-}
-
-// Radiance that a half float cannot hold: layers must be 32-bit floats then.
-bool beyondHalfFloat(const World& world) {
-    constexpr float limit = 6e4f;
-    const Environment& e = world.environment;
-    return std::any_of(world.scene->materials.begin(), world.scene->materials.end(),
-                       [&](const Material& m) { return largest(m.emissiveFactor) > limit; }) ||
-           std::max({largest(e.zenith), largest(e.horizon), largest(e.nadir)}) > limit;
-}
-
-LayerFormat chosenFormat(const World& world, const FramePlan& plan, LayerFormat asked) {
-    if (asked == LayerFormat::automatic) return beyondHalfFloat(world) ? LayerFormat::rgba32f : LayerFormat::rgba16f;
-    if (asked == LayerFormat::rgb9e5 && (plan.usesBlending || plan.needsAlpha))
-        fail(
-            "layer format {}: it holds no alpha, which blended materials and a transparent background need; choose "
-            "rgba16f",
-            layerFormatName(asked));
-    return asked;
 }
 
 // As many layers as the memory allows, at most a block.
@@ -85,7 +57,7 @@ public:
 
     bool advance() override {
         const std::uint32_t first = sum_->samples();
-        const auto total = static_cast<std::uint32_t>(plan_.samples.size());
+        const std::uint32_t total = sampleTotal();
         if (first >= total) return false;
         const std::uint32_t count = std::min({sum_->info().layers, total - first, blockSamples - first % blockSamples});
         timer_.begin();
@@ -99,6 +71,9 @@ public:
     }
 
     [[nodiscard]] std::uint32_t samples() const override { return sum_ ? sum_->samples() : 0; }
+    [[nodiscard]] std::uint32_t sampleTotal() const override {
+        return static_cast<std::uint32_t>(plan_.samples.size());
+    }
     [[nodiscard]] Image image() override { return sum_->mean(); }
 
     [[nodiscard]] RenderStats stats() const override {
@@ -107,15 +82,15 @@ public:
         stats.gpuMilliseconds = timer_.milliseconds();
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
-        stats.device = glString(GL_RENDERER);
-        stats.driver = glString(GL_VERSION);
+        stats.device = currentDevice();
+        stats.driver = currentDriver();
         return stats;
     }
 
 private:
     // The sums and the pass that fills them, made anew only when size or format change.
     void prepareTarget() {
-        const LayerFormat format = chosenFormat(scene_.world(), plan_, options_.layerFormat);
+        const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
         const LayerSumInfo info{plan_.view.width, plan_.view.height, chosenWave(plan_, options_, format), format,
                                 options_.shaderFolder};
         const bool same = sum_ && sum_->info().width == info.width && sum_->info().height == info.height &&
@@ -135,7 +110,8 @@ private:
     void drawWave(std::uint32_t first, std::uint32_t count) {
         sum_->beginWave();
         surfaces_->drawOpaque(first, count);
-        if (scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha) surfaces_->drawSky(first, count);
+        if (scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha)
+            surfaces_->drawSky(first, count);
         surfaces_->drawBlended(first, count);
         sum_->endWave(frame_, count);
         for (const ObjectPlan& object : plan_.objects)

@@ -9,26 +9,11 @@
 #include "gl/read_back.h"
 #include "gl/target.h"
 #include "image/colour_map.h"
-#include "render/surface_pass.h"
+#include "render/pinhole_pass.h"
 
 namespace defocus {
 
 namespace {
-
-// The same objects, each at the whole level nearest to its λ, for one sample in the middle of lens and pixel.
-FramePlan pinholePlan(const World& world, const FramePlan& plan) {
-    FramePlan pinhole = plan;
-    pinhole.samples.assign(1, LensSample{});
-    for (ObjectPlan& object : pinhole.objects) {
-        const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
-        const auto last = static_cast<double>(pyramid.levels.size() - 1);
-        const auto level = static_cast<std::uint32_t>(std::min(std::round(object.lambda), last));
-        object.coarse = {};
-        object.fine = {level, 0, 1, pyramid.levels[level].triangleCount};
-        pinhole.levelsUsed[static_cast<std::size_t>(object.mesh)][level] = true;
-    }
-    return pinhole;
-}
 
 GlTexture floatTexture(const View& view, TextureFormat format) {
     return GlTexture({.format = format, .width = view.width, .height = view.height});
@@ -37,7 +22,7 @@ GlTexture floatTexture(const View& view, TextureFormat format) {
 }  // namespace
 
 AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder) {
-    const FramePlan pinhole = pinholePlan(world, plan);
+    const FramePlan pinhole = pinholePlan(world, plan, 1);
     const GlTexture depth = floatTexture(plan.view, TextureFormat::r32f);
     const GlTexture coc = floatTexture(plan.view, TextureFormat::r32f);
     const GlTexture level = floatTexture(plan.view, TextureFormat::r32f);

@@ -9,51 +9,12 @@ namespace defocus {
 
 namespace {
 
-TextureFormat textureFormat(LayerFormat format) {
-    switch (format) {
-        case LayerFormat::rgb9e5:
-            return TextureFormat::r32ui;
-        case LayerFormat::rgba32f:
-            return TextureFormat::rgba32f;
-        case LayerFormat::rgba8:
-            return TextureFormat::rgba8;
-        default:
-            return TextureFormat::rgba16f;
-    }
-}
-
 GlTexture layerTexture(const LayerSumInfo& info, TextureFormat format) {
     return GlTexture(
         {.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(info.layers)});
 }
 
 }  // namespace
-
-ShaderDefines layerFormatDefines(LayerFormat format) {
-    if (format == LayerFormat::rgb9e5) return {{"LAYER_RGB9E5", "1"}};
-    if (format == LayerFormat::rgba16f) return {{"LAYER_LARGEST", "65504.0"}};
-    return {};
-}
-
-const char* layerFormatName(LayerFormat format) {
-    switch (format) {
-        case LayerFormat::automatic:
-            return "automatic";
-        case LayerFormat::rgb9e5:
-            return "rgb9e5";
-        case LayerFormat::rgba16f:
-            return "rgba16f";
-        case LayerFormat::rgba32f:
-            return "rgba32f";
-        case LayerFormat::rgba8:
-            return "rgba8";
-    }
-    return "";
-}
-
-std::size_t layerPixelBytes(LayerFormat format) {
-    return pixelBytes(textureFormat(format)) + pixelBytes(TextureFormat::depth32f);
-}
 
 LayerSum::Sum::Sum(int width, int height) {
     for (int i = 0; i < 2; ++i) {
@@ -65,14 +26,13 @@ LayerSum::Sum::Sum(int width, int height) {
 
 LayerSum::LayerSum(const LayerSumInfo& info)
     : info_(info),
-      layers_(layerTexture(info, textureFormat(info.format))),
+      layers_(layerTexture(info, layerTextureFormat(info.format))),
       depth_(layerTexture(info, TextureFormat::depth32f)),
       layerTarget_({&layers_}, &depth_),
       block_(info.width, info.height),
       frame_(info.width, info.height) {
     const auto pass = [&](const char* fragment) {
-        return Program(
-            {{"accumulation/fullscreen.vert", fragment}, layerFormatDefines(info.format), info.shaderFolder});
+        return Program({{fullscreenShader, fragment}, layerFormatDefines(info.format), info.shaderFolder});
     };
     addBlock_ = pass("accumulation/add_block.frag");
     resolve_ = pass("accumulation/resolve.frag");
@@ -101,8 +61,7 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t count) {
         addDefines_ = frame.defines();
         ShaderDefines defines = addDefines_;
         for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
-        addLayers_ =
-            Program({{"accumulation/fullscreen.vert", "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
+        addLayers_ = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     }
     block_.target[1 - block_.current].bind();
     frame.bind(samples_);
@@ -111,7 +70,7 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t count) {
     block_.compensation[block_.current].attach(2);
     glProgramUniform1i(addLayers_.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(samples_ % blockSamples));
-    drawFullscreen(addLayers_);
+    fullscreen_.draw(addLayers_);
     block_.flip();
     samples_ += count;
     if (samples_ % blockSamples == 0) {
@@ -127,16 +86,7 @@ void LayerSum::addBlockTo(Sum& frame, bool startsFrame) {
     frame.sum[frame.current].attach(2);
     frame.compensation[frame.current].attach(3);
     glProgramUniform1i(addBlock_.name(), 0, startsFrame ? 1 : 0);
-    drawFullscreen(addBlock_);
-}
-
-void LayerSum::drawFullscreen(const Program& program) {
-    glDisable(GL_BLEND);
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    program.use();
-    glBindVertexArray(noVertices_.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    fullscreen_.draw(addBlock_);
 }
 
 Image LayerSum::mean() {
@@ -152,7 +102,7 @@ Image LayerSum::mean() {
     frame_.sum[latest].attach(0);
     frame_.compensation[latest].attach(1);
     glProgramUniform1f(resolve_.name(), 0, static_cast<float>(samples_));
-    drawFullscreen(resolve_);
+    fullscreen_.draw(resolve_);
     return readBack(result, 4);
 }
 

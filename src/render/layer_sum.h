@@ -7,12 +7,11 @@
 
 #include <cstdint>
 
-#include "gl/buffer.h"
-#include "gl/program.h"
+#include "gl/fullscreen.h"
 #include "gl/target.h"
 #include "image/image.h"
 #include "render/frame_uniforms.h"
-#include "render/methods.h"
+#include "render/layer_format.h"
 
 namespace defocus {
 
@@ -32,6 +31,8 @@ public:
     void reset();
     // Clears the layers to nothing (black, transparent, infinitely far) and makes them the render target.
     void beginWave();
+    // The layers as a target, which beginWave makes current.
+    [[nodiscard]] const Target& layers() const { return layerTarget_; }
     // Adds layers [0, count), each composed over the environment of `frame`; `count` ≤ K and not beyond the block's
     // end.
     void endWave(const FrameUniforms& frame, std::uint32_t count);
@@ -52,7 +53,6 @@ private:
         int current = 0;  // holds the latest values
     };
     void addBlockTo(Sum& frame, bool startsFrame);
-    void drawFullscreen(const Program& program);
 
     LayerSumInfo info_;
     GlTexture layers_;
@@ -64,14 +64,8 @@ private:
     ShaderDefines addDefines_;  // that addLayers_ was built with
     Program addBlock_;
     Program resolve_;
-    VertexArray noVertices_;
+    Fullscreen fullscreen_;
     std::uint32_t samples_ = 0;
 };
-
-// The defines that make shaders write or read `format`.
-ShaderDefines layerFormatDefines(LayerFormat format);
-const char* layerFormatName(LayerFormat format);
-// Bytes a pixel of one layer, depth included.
-std::size_t layerPixelBytes(LayerFormat format);
 
 }  // namespace defocus

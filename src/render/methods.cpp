@@ -4,6 +4,8 @@
 
 #include "core/error.h"
 #include "render/accumulation.h"
+#include "render/circular.h"
+#include "render/scheuermann.h"
 
 namespace defocus {
 
@@ -15,6 +17,8 @@ std::vector<Method>& table() {
          .description = "lens samples accumulated from a pyramid of levels (Jeong, Kim and Lee 2011)",
          .settings = {},
          .make = makeAccumulationRenderer},
+        scheuermannMethod(),
+        circularMethod(),
     };
     return methods;
 }

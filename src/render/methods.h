@@ -9,19 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "render/layer_format.h"
 #include "render/method_settings.h"
 #include "render/renderer.h"
 
 namespace defocus {
-
-// How one lens sample's radiance is kept until it is summed.
-enum class LayerFormat {
-    automatic,  // rgba16f, or rgba32f where the scene's radiance may exceed 6e4
-    rgba16f,    // half floats: 2⁻¹¹ relative error a sample
-    rgba32f,    // references
-    rgb9e5,     // 32 bits with a shared exponent, dithered over the samples: half the memory; opaque scenes only
-    rgba8,      // clips at 1: a bound for the table of formats, not for pictures
-};
 
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;

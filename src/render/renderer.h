@@ -33,6 +33,8 @@ public:
     virtual bool advance() = 0;
     // Samples in the sum so far.
     [[nodiscard]] virtual std::uint32_t samples() const = 0;
+    // Samples in the sum once the frame that was started is done.
+    [[nodiscard]] virtual std::uint32_t sampleTotal() const = 0;
     // The sum divided by samples(): linear, RGBA premultiplied, row 0 at the top. At least one sample must be in.
     [[nodiscard]] virtual Image image() = 0;
     [[nodiscard]] virtual RenderStats stats() const = 0;

@@ -217,6 +217,13 @@ void SurfacePass::drawBlended(std::uint32_t first, std::uint32_t count) {
     glDisable(GL_BLEND);
 }
 
+void SurfacePass::drawBlendedDepth(std::uint32_t first, std::uint32_t count) {
+    if (blended_.empty()) return;
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    drawSolid(blended_, first, count);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
     if (!sky_) {
         std::vector<std::string> shaders = {"accumulation/sky.vert", "accumulation/sky.frag"};

@@ -30,10 +30,12 @@ public:
     void drawOpaque(std::uint32_t first, std::uint32_t count);
     // The same for alpha-blended surfaces, back to front (blending onto premultiplied colours).
     void drawBlended(std::uint32_t first, std::uint32_t count);
+    // Only the depth of the alpha-blended surfaces.
+    void drawBlendedDepth(std::uint32_t first, std::uint32_t count);
     // All surfaces, blended ones too, as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
-    // An environment map behind everything, where no surface was drawn (simpler skies are composed when layers are
-    // added).
+    // The environment behind everything, where no surface was drawn. (The accumulation composes skies that are simpler
+    // than maps when it adds layers.)
     void drawSky(std::uint32_t first, std::uint32_t count);
 
     [[nodiscard]] std::size_t bytes() const;

@@ -1,0 +1,382 @@
+// Fits the separable complex kernels of src/render/circular_kernel.h to the disk, by least squares over the square of
+// the taps, and prints them as the table of circular_kernel.cpp and beside the published kernels.
+//
+// Variable projection (Golub and Pereyra 1973): for given decays and frequencies the weights A and B are a linear least
+// squares problem with one linear constraint, ∫K = ∫D, so that only 2n unknowns remain for Levenberg (1944) and
+// Marquardt's (1963) method. Starts: frequencies evenly spread, and the kernel of one component less with one added.
+//
+// Held equal: extent and disk radius 1, gain (∫K = ∫D), measure. The published kernels get the extent and the disk
+// radius that suit them best.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/error.h"
+#include "render/circular_kernel.h"
+
+namespace {
+
+using namespace defocus;
+using Kernel = std::vector<CircularComponent>;
+using Values = std::vector<double>;
+
+constexpr double pi = std::numbers::pi;
+
+// Niemitalo 2010.
+const std::array<Kernel, 2> publishedKernels = {
+    {{{0.862325, 1.624835, 0.767583, 1.862321}},
+     {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}}}};
+
+// ---- one kernel's weights ---------------------------------------------------------------------------------------
+
+struct Problem {
+    double extent;
+    std::vector<RadialNode> nodes;  // of the square
+    Values guarded;                 // the nodes' weights with the corners' guard
+};
+
+Problem problemOf(double extent, double guard) {
+    Problem problem{extent, squareNodes(extent, 1), {}};
+    for (const RadialNode& node : problem.nodes) {
+        // A ring's area over the area of its arcs inside the square: 4·arccos(extent/r) of the 2π are hidden.
+        const double outward = std::max(1.0, std::sqrt(node.squaredRadius) / extent);
+        const double ring = pi / (pi - 4 * std::acos(1 / outward));
+        problem.guarded.push_back(node.weight * (outward > 1 ? 1 + guard * ring : 1));
+    }
+    return problem;
+}
+
+struct Fit {
+    Values shape;  // decay, frequency of each component
+    Kernel kernel;
+    Values residual;
+    double squares = std::numeric_limits<double>::infinity();  // |residual|²
+};
+
+double dot(const Values& a, const Values& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+void addScaled(Values& to, double scale, const Values& from) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += scale * from[i];
+}
+
+// Columns √weight·e^(−a·u)·cos b·u, √weight·e^(−a·u)·sin b·u for each component, and each column's ∫ over the square.
+struct Basis {
+    std::vector<Values> columns;
+    Values energies;
+};
+
+Basis basisOf(const Problem& problem, const Values& shape) {
+    Basis basis{std::vector<Values>(shape.size(), Values(problem.nodes.size())), Values(shape.size())};
+    for (std::size_t c = 0; c < shape.size(); c += 2) {
+        for (std::size_t i = 0; i < problem.nodes.size(); ++i) {
+            const double u = problem.nodes[i].squaredRadius;
+            const double size = std::exp(-shape[c] * u);
+            const double cosine = size * std::cos(shape[c + 1] * u);
+            const double sine = size * std::sin(shape[c + 1] * u);
+            const double root = std::sqrt(problem.guarded[i]);
+            basis.columns[c][i] = root * cosine;
+            basis.columns[c + 1][i] = root * sine;
+            basis.energies[c] += problem.nodes[i].weight * cosine;
+            basis.energies[c + 1] += problem.nodes[i].weight * sine;
+        }
+    }
+    return basis;
+}
+
+// x of least |basis·x − target|² with energies·x = energy: QR by Gram and Schmidt (modified); in y = R·x the constraint
+// is (R⁻ᵀ·energies)·y = energy, and the shortest way there from the free optimum is along R⁻ᵀ·energies.
+Values constrainedLeastSquares(const Basis& basis, Values target, double energy) {
+    const std::size_t n = basis.columns.size();
+    std::vector<Values> q = basis.columns;
+    std::vector<Values> r(n, Values(n));
+    Values y(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        r[k][k] = std::sqrt(dot(q[k], q[k]));
+        for (double& value : q[k]) value /= r[k][k];
+        for (std::size_t j = k + 1; j < n; ++j) {
+            r[k][j] = dot(q[k], q[j]);
+            addScaled(q[j], -r[k][j], q[k]);
+        }
+        y[k] = dot(q[k], target);
+        addScaled(target, -y[k], q[k]);
+    }
+    Values along(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        along[k] = basis.energies[k];
+        for (std::size_t j = 0; j < k; ++j) along[k] -= r[j][k] * along[j];
+        along[k] /= r[k][k];
+    }
+    addScaled(y, (energy - dot(along, y)) / dot(along, along), along);
+    for (std::size_t k = n; k-- > 0;) {
+        for (std::size_t j = k + 1; j < n; ++j) y[k] -= r[k][j] * y[j];
+        y[k] /= r[k][k];
+    }
+    return y;
+}
+
+Fit fitWeights(const Problem& problem, const Values& shape) {
+    Values target;
+    for (std::size_t i = 0; i < problem.nodes.size(); ++i) {
+        target.push_back(problem.nodes[i].squaredRadius < 1 ? std::sqrt(problem.guarded[i]) : 0);
+    }
+    const Basis basis = basisOf(problem, shape);
+    const Values weights = constrainedLeastSquares(basis, target, pi);
+    Fit fit{shape, {}, target, 0};
+    for (double& value : fit.residual) value = -value;
+    for (std::size_t k = 0; k < weights.size(); ++k) addScaled(fit.residual, weights[k], basis.columns[k]);
+    fit.squares = dot(fit.residual, fit.residual);
+    for (std::size_t c = 0; c < shape.size(); c += 2) {
+        fit.kernel.push_back({shape[c], shape[c + 1], weights[c], weights[c + 1]});
+    }
+    return fit;
+}
+
+// ---- decays and frequencies -------------------------------------------------------------------------------------
+
+// M·x = b for a positive definite M (Gauss's elimination).
+Values solved(std::vector<Values> m, Values b) {
+    const std::size_t n = b.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = k + 1; i < n; ++i) {
+            const double factor = m[i][k] / m[k][k];
+            addScaled(m[i], -factor, m[k]);
+            b[i] -= factor * b[k];
+        }
+    }
+    for (std::size_t k = n; k-- > 0;) {
+        for (std::size_t j = k + 1; j < n; ++j) b[k] -= m[k][j] * b[j];
+        b[k] /= m[k][k];
+    }
+    return b;
+}
+
+// Levenberg and Marquardt's method with differences as derivatives, until three steps in a row gain less than
+// `tolerance`, relatively.
+Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
+    constexpr double difference = 1e-6;
+    constexpr double stuck = 1e12;
+    Fit best = fitWeights(problem, start);
+    double damping = 1e-3;
+    for (int idle = 0; idle < 3 && damping < stuck;) {
+        const std::size_t n = best.shape.size();
+        std::vector<Values> slopes;
+        for (std::size_t k = 0; k < n; ++k) {
+            Values moved = best.shape;
+            moved[k] += difference;
+            Values slope = fitWeights(problem, moved).residual;
+            addScaled(slope, -1, best.residual);
+            for (double& value : slope) value /= difference;
+            slopes.push_back(std::move(slope));
+        }
+        std::vector<Values> normal(n, Values(n));
+        Values downhill(n);
+        for (std::size_t k = 0; k < n; ++k) {
+            for (std::size_t j = 0; j < n; ++j) normal[k][j] = dot(slopes[k], slopes[j]);
+            downhill[k] = -dot(slopes[k], best.residual);
+        }
+        const double before = best.squares;
+        for (; damping < stuck && best.squares == before; damping *= 4) {
+            std::vector<Values> damped = normal;
+            for (std::size_t k = 0; k < n; ++k) damped[k][k] *= 1 + damping;
+            Values moved = best.shape;
+            addScaled(moved, 1, solved(damped, downhill));
+            Fit next = fitWeights(problem, moved);
+            if (next.squares < before) {  // false for NaN
+                best = std::move(next);
+                damping /= 64;
+            }
+        }
+        idle = before - best.squares > tolerance * before ? 0 : idle + 1;
+    }
+    return best;
+}
+
+// In the order of their frequencies, which are made positive, and rounded to the digits that are printed.
+Kernel tidied(Kernel kernel) {
+    const auto rounded = [](double value) { return std::round(value * 1e6) / 1e6; };
+    for (CircularComponent& c : kernel) {
+        const double sign = c.frequency < 0 ? -1 : 1;
+        c = {rounded(c.decay), rounded(sign * c.frequency), rounded(c.cosine), rounded(sign * c.sine)};
+    }
+    std::ranges::sort(kernel, {}, &CircularComponent::frequency);
+    return kernel;
+}
+
+// The best kernels of 1, 2, … `count` components.
+std::vector<Kernel> fitKernels(double extent, double guard, int count) {
+    constexpr double rough = 1e-4;
+    constexpr double fine = 1e-10;
+    const Problem problem = problemOf(extent, guard);
+    std::vector<Kernel> kernels;
+    Fit before;
+    for (int n = 1; n <= count; ++n) {
+        Fit best;
+        const auto attempt = [&](const Values& start) {
+            Fit fit = fitShape(problem, start, rough);
+            if (fit.squares < best.squares) best = std::move(fit);
+        };
+        for (const double spacing : {3.0, 4.5, 6.0, 7.5}) {
+            for (const double decay : {0.5, 2.0}) {
+                Values start;
+                for (int k = 0; k < n; ++k) start.insert(start.end(), {decay, spacing * (k + 0.5)});
+                attempt(start);
+            }
+        }
+        for (const double frequency : {1.0, 6.0 * n}) {
+            Values start = before.shape;
+            start.insert(start.end(), {0.5, frequency});
+            attempt(start);
+        }
+        before = fitShape(problem, best.shape, fine);
+        kernels.push_back(tidied(before.kernel));
+    }
+    return kernels;
+}
+
+// ---- tables -----------------------------------------------------------------------------------------------------
+
+struct Ripple {
+    double insideMost = 0;  // largest |K − 1|, r < 0.9
+    double insideRms = 0;   // root mean square of K − 1, r < 0.9
+    double highest = 0;     // of K, r > 1.1 within the square
+    double lowest = 0;
+};
+
+Ripple rippleOf(const Kernel& kernel, double extent) {
+    constexpr double inside = 0.9 * 0.9;
+    constexpr double outside = 1.1 * 1.1;
+    constexpr double step = 1e-4;
+    Ripple ripple;
+    double squares = 0;
+    for (int i = 0; i * step <= 2 * extent * extent; ++i) {
+        const double u = i * step;
+        const double value = circularProfile(kernel, u);
+        if (u < inside) {
+            squares += (value - 1) * (value - 1) * step / inside;
+            ripple.insideMost = std::max(ripple.insideMost, std::abs(value - 1));
+        } else if (u > outside) {
+            ripple.highest = std::max(ripple.highest, value);
+            ripple.lowest = std::min(ripple.lowest, value);
+        }
+    }
+    ripple.insideRms = std::sqrt(squares);
+    return ripple;
+}
+
+struct Suited {
+    double error = std::numeric_limits<double>::infinity();
+    double extent = 0;
+    double diskRadius = 0;
+};
+
+// The extent in [from, to] and the disk radius in [0.8, 1.5] of the least error, to 0.001.
+Suited suitedTo(const Kernel& kernel, double from, double to) {
+    constexpr int reach = 20;
+    Suited best;
+    Suited centre{0, (from + to) / 2, 1.15};
+    for (double step = 0.025; step > 0.0005; step /= 5, centre = best) {
+        for (int i = -reach; i <= reach; ++i) {
+            for (int j = -reach; j <= reach; ++j) {
+                const double extent = std::clamp(centre.extent + i * step, from, to);
+                const double radius = centre.diskRadius + j * step;
+                const double error = diskProfileError(kernel, extent, radius);
+                if (error < best.error) best = {error, extent, radius};
+            }
+        }
+    }
+    return best;
+}
+
+// The same kernel in radii of its disk and with ∫K = ∫D; its extent is then suited.extent / suited.diskRadius.
+Kernel inRadii(Kernel kernel, const Suited& suited) {
+    const double gain = energyGain(kernel, suited.extent, suited.diskRadius);
+    const double square = suited.diskRadius * suited.diskRadius;
+    for (CircularComponent& c : kernel) c = {square * c.decay, square * c.frequency, gain * c.cosine, gain * c.sine};
+    return kernel;
+}
+
+double weightSum(const Kernel& kernel) {
+    double sum = 0;
+    for (const CircularComponent& c : kernel) sum += std::hypot(c.cosine, c.sine);
+    return sum;
+}
+
+void printConstants(const std::vector<Kernel>& kernels) {
+    fmt::print("The table of circular_kernel.cpp: decay, frequency, cosine, sine\n\n");
+    for (const Kernel& kernel : kernels) {
+        fmt::print("    // {}\n", kernel.size());
+        for (const CircularComponent& c : kernel) {
+            fmt::print("    {{{:.6f}, {:.6f}, {:.6f}, {:.6f}}},\n", c.decay, c.frequency, c.cosine, c.sine);
+        }
+    }
+}
+
+void printHead(const char* title) {
+    fmt::print("\n{}\n\n{:32}{:>17}{:>18}\n", title, "", "inside r < 0.9", "outside r > 1.1");
+    fmt::print("{:>2} {:>6} {:>7} {:>8}{:>8} {:>7} {:>8} {:>8} {:>8}\n", "n", "extent", "error", "rounding", "weights",
+               "max", "rms", "highest", "lowest");
+}
+
+void printRow(const Kernel& kernel, double extent) {
+    const Ripple ripple = rippleOf(kernel, extent);
+    fmt::print("{:>2} {:>6.3f} {:>7.5f} {:>8.2f}{:>8.2f} {:>7.3f} {:>8.3f} {:>8.3f} {:>8.3f}\n", kernel.size(), extent,
+               diskProfileError(kernel, extent, 1), roundingAmplification(kernel, extent, 1), weightSum(kernel),
+               ripple.insideMost, ripple.insideRms, ripple.highest, ripple.lowest);
+}
+
+void printTables(const std::vector<Kernel>& kernels) {
+    constexpr double extent = circularKernelExtent;
+    fmt::print(
+        "\nLengths in radii of the disk, weights at the gain that keeps the disk's energy.\n"
+        "error: RMS over the square relative to the disk; rounding: roundingAmplification; weights: their sum\n");
+    printHead("With the corners' guard: the table above");
+    for (const Kernel& kernel : kernels) printRow(kernel, extent);
+    printHead("Without the guard");
+    for (const Kernel& kernel : fitKernels(extent, 0, circularKernelLimit)) printRow(kernel, extent);
+    printHead("With the guard, larger extents (the cost of a pass grows with the extent)");
+    for (const double larger : {1.03, 1.06, 1.1, 1.2}) {
+        for (const Kernel& kernel : fitKernels(larger, circularCornerGuard, 5)) printRow(kernel, larger);
+    }
+    printHead("Published: extent and disk radius that suit best, then the disk radius that suits extent 1 of theirs");
+    for (const Kernel& kernel : publishedKernels) {
+        for (const Suited& suited : {suitedTo(kernel, 1, 2), suitedTo(kernel, 1, 1)}) {
+            printRow(inRadii(kernel, suited), suited.extent / suited.diskRadius);
+            fmt::print("   in its own units extent {:.3f}, disk radius {:.3f}\n", suited.extent, suited.diskRadius);
+        }
+    }
+}
+
+// The committed kernels are these, but for the last digits.
+bool agreesWithCommitted(const std::vector<Kernel>& kernels) {
+    return std::ranges::all_of(kernels, [](const Kernel& kernel) {
+        const auto committed = circularKernel(static_cast<int>(kernel.size()));
+        return std::abs(diskProfileError(committed, circularKernelExtent, 1) -
+                        diskProfileError(kernel, circularKernelExtent, 1)) < 1e-5;
+    });
+}
+
+}  // namespace
+
+int main() {
+    try {
+        const auto kernels = fitKernels(circularKernelExtent, circularCornerGuard, circularKernelLimit);
+        printConstants(kernels);
+        printTables(kernels);
+        if (!agreesWithCommitted(kernels)) fail("the table of circular_kernel.cpp differs from this one");
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "circular_fit: {}\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,16 @@
+// The radius at which a pixel gathers the near field: that of the near surfaces that may reach it.
+layout(binding = 0) uniform sampler2D ownRadii;
+layout(binding = 1) uniform sampler2D reach;    // a value a tile
+#ifdef COMBINED
+layout(binding = 2) uniform sampler2D farRadii;
+#endif
+
+layout(location = 0) out float radius;
+
+void main() {
+    vec2 place = gl_FragCoord.xy / (float(TILE) * vec2(textureSize(reach, 0)));
+    radius = max(texelFetch(ownRadii, ivec2(gl_FragCoord.xy), 0).r, textureLod(reach, place, 0.0).r);
+#ifdef COMBINED
+    radius = max(radius, texelFetch(farRadii, ivec2(gl_FragCoord.xy), 0).r);
+#endif
+}

@@ -1,0 +1,18 @@
+// The largest near radius whose disk reaches into this tile or one beside it: the near field bleeds over its edges.
+layout(binding = 0) uniform sampler2D tiles;
+layout(location = 0) uniform int farthest;   // tiles that the largest radius reaches
+
+layout(location = 0) out float reaching;
+
+void main() {
+    ivec2 here = ivec2(gl_FragCoord.xy);
+    ivec2 first = max(here - farthest, ivec2(0));
+    ivec2 last = min(here + farthest, textureSize(tiles, 0) - 1);
+    reaching = 0.0;
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
+            float radius = texelFetch(tiles, ivec2(x, y), 0).r;
+            vec2 gap = float(TILE) * max(vec2(abs(ivec2(x, y) - here)) - 2.0, 0.0);
+            if (radius > 0.0 && length(gap) <= radius) reaching = max(reaching, radius);
+        }
+}

@@ -1,0 +1,48 @@
+// The pinhole image as fields: what lies behind the focus plane and what lies in front of it, each as radiance times weight and the
+// weight, with the radius of its blur in the field's pixels. REDUCTION pixels a side make one of the field.
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+
+layout(binding = 0) uniform sampler2D pinholeColor;
+layout(binding = 1) uniform sampler2D pinholeDepth;
+layout(location = 0) uniform float largestRadius;   // px
+layout(location = 1) uniform float perFarDiameter;  // 1 / the largest diameter behind the focus plane, px
+
+layout(location = 0) out vec4 farField;             // COMBINED: both
+layout(location = 1) out float farRadius;
+layout(location = 2) out float nearRadius;
+#ifndef COMBINED
+layout(location = 3) out vec4 nearField;
+#endif
+
+void main() {
+    ivec2 first = REDUCTION * ivec2(gl_FragCoord.xy);
+    ivec2 last = min(first + REDUCTION, textureSize(pinholeColor, 0)) - 1;
+    vec4 farSum = vec4(0.0);
+    vec4 nearSum = vec4(0.0);
+    vec2 farBlur = vec2(0.0);   // weighted sum, weights
+    nearRadius = 0.0;
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
+            float diameter = circleOfConfusion(texelFetch(pinholeDepth, ivec2(x, y), 0).r);
+            vec4 color = vec4(texelFetch(pinholeColor, ivec2(x, y), 0).rgb, 1.0);
+            // A blur of less than a pixel belongs to the sharp image. Behind the focus the weight is the blur itself (Garcia's
+            // premultiplied far field): what is nearly sharp leaks little into the wide disks of what lies behind it.
+            float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
+            float before = clamp(-diameter, 0.0, 1.0);
+            farSum += behind * color;
+            nearSum += before * color;
+            farBlur += vec2(behind * min(0.5 * diameter, largestRadius), behind);
+            nearRadius = max(nearRadius, min(-0.5 * diameter, largestRadius));
+        }
+    ivec2 size = last - first + 1;
+    float perPixel = 1.0 / float(size.x * size.y);
+    farRadius = farBlur.y > 0.0 ? farBlur.x / farBlur.y / float(REDUCTION) : 0.0;
+    nearRadius /= float(REDUCTION);
+#ifdef COMBINED
+    farField = (farSum + nearSum) * perPixel;
+#else
+    farField = farSum * perPixel;
+    nearField = nearSum * perPixel;
+#endif
+}

@@ -1,0 +1,30 @@
+// Gathers TAPS taps of a Poisson disk as wide as the centre's blur.
+layout(binding = 0) uniform sampler2D sharpImage;   // rgb; alpha: blurriness and relative depth, 1/2 in focus
+layout(binding = 1) uniform sampler2D smallImage;   // the same, reduced and pre-blurred
+layout(std140, binding = 1) uniform TapBlock {
+    vec4 taps[MOST_TAPS];                           // xy in the unit disk
+};
+layout(location = 0) uniform float largestRadius;   // px
+
+layout(location = 0) out vec4 blurred;
+
+void main() {
+    vec2 perPixel = 1.0 / vec2(textureSize(sharpImage, 0));
+    vec2 perPixelSmall = 1.0 / (SMALL_PIXEL * vec2(textureSize(smallImage, 0)));   // a pixel of the sharp image
+    float centreDepth = texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).a;
+    float radius = abs(centreDepth * 2.0 - 1.0) * largestRadius;
+    float smallRadius = radius * SMALL_RADIUS * SMALL_PIXEL;
+
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < TAPS; ++i) {
+        vec4 sharpTap = textureLod(sharpImage, (gl_FragCoord.xy + taps[i].xy * radius) * perPixel, 0.0);
+        vec4 smallTap = textureLod(smallImage, (gl_FragCoord.xy + taps[i].xy * smallRadius) * perPixelSmall, 0.0);
+        vec4 tap = mix(sharpTap, smallTap, abs(sharpTap.a * 2.0 - 1.0));
+        // The leak stop: what lies nearer than the centre counts as much as it is blurred.
+        float weight = tap.a >= centreDepth ? 1.0 : abs(tap.a * 2.0 - 1.0);
+        sum += weight * tap.rgb;
+        weights += weight;
+    }
+    blurred = vec4(weights > 0.0 ? sum / weights : texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).rgb, 1.0);
+}

@@ -1,0 +1,25 @@
+#include "gl/fullscreen.h"
+
+namespace defocus {
+
+void Fullscreen::draw(const Program& program) const {
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    program.use();
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Fullscreen::drawAdding(const Program& program) const {
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    program.use();
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
+}
+
+}  // namespace defocus

@@ -1,0 +1,23 @@
+#pragma once
+// A triangle over the whole render target, for passes that compute a value at each pixel.
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+
+namespace defocus {
+
+// The vertex shader of such programs.
+inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
+
+class Fullscreen {
+public:
+    // Runs `program` on every pixel of the bound target, without depth test, culling or blending.
+    void draw(const Program& program) const;
+    // The same, adding to what the target holds.
+    void drawAdding(const Program& program) const;
+
+private:
+    VertexArray noVertices_;
+};
+
+}  // namespace defocus

@@ -1,0 +1,87 @@
+#pragma once
+// Blurs a field with a disk as wide as each pixel asks for, by separable complex kernels (circular_kernel.h).
+//
+// A field is radiance times weight with the weight as alpha. Rows, then columns are filtered at each pixel's own
+// radius; taps are normalised in every pass, so that a constant stays constant however the radius varies.
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "gl/fullscreen.h"
+#include "gl/target.h"
+#include "gl/texture.h"
+
+namespace defocus {
+
+// How the rows' complex sums are stored.
+enum class ComplexStorage {
+    float32,
+    half,  // kernels of more than five components take float32 all the same: rounding grows with their number
+    rgb10A2,  // Garcia's brackets: I = S·I′ + O·ΣJ with I′ and ΣJ in [0, 1], J divided by the field's largest value
+};
+
+enum class ComplexTaps {
+    exact,  // one a pixel
+    eight,  // eight on each side, spread over the radius (as published)
+    sets,   // 4, 8, 16 or 32 on each side, by the radius at the pixel
+};
+
+struct ComplexBlurInfo {
+    int width = 1;
+    int height = 1;
+    int components = 1;  // 1 … circularKernelLimit
+    ComplexStorage storage = ComplexStorage::half;
+    ComplexTaps taps = ComplexTaps::exact;
+    bool direct = false;  // gather the whole square instead: the same image, O(radius²)
+    std::filesystem::path shaderFolder;
+};
+
+class ComplexBlur {
+public:
+    // Needs a current GL context.
+    explicit ComplexBlur(const ComplexBlurInfo& info);
+
+    // `field` (RGBA) with the blur radius of each pixel in px in `radius` (R); both of the size given.
+    void blur(const GlTexture& field, const GlTexture& radius);
+    // The blurred field of the last call, 32-bit floats, sampled linearly.
+    [[nodiscard]] const GlTexture& result() const { return result_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    // Components [first, first + count) are filtered at a time: as many as there are render targets for.
+    struct Group {
+        int first = 0;
+        int count = 0;
+        Program horizontal;
+        Program vertical;
+    };
+
+    void makeGroups();
+    void findBrightest(const GlTexture& field);
+    [[nodiscard]] bool bracketed() const { return info_.storage == ComplexStorage::rgb10A2; }
+
+    ComplexBlurInfo info_;
+    std::vector<Group> groups_;
+    Program direct_;
+    Program reduce_, reduceColor_;
+    std::vector<GlTexture> brightest_;  // each a tile's largest value, down to one pixel
+    std::vector<GlTexture> sums_;
+    Target sumTarget_;
+    GlTexture result_;
+    Target resultTarget_;
+    Fullscreen fullscreen_;
+};
+
+// The least and the greatest tap of a component, real and imaginary, at any radius from half a pixel on. With a mean
+// ΣJ/n of values in [0, 1] under n taps, the bracketed sums (ΣF·J/n − least·ΣJ/n)/(greatest − least) lie in [0, 1].
+struct Bracket {
+    double leastReal = 0;
+    double greatestReal = 0;
+    double leastImaginary = 0;
+    double greatestImaginary = 0;
+};
+struct CircularComponent;
+Bracket bracketOf(const CircularComponent& component);
+
+}  // namespace defocus

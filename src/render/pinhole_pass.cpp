@@ -1,0 +1,65 @@
+// Hammersley 1960, Monte Carlo Methods for Solving Multivariable Problems (the points in the pixel).
+
+#include "render/pinhole_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace defocus {
+
+namespace {
+
+GlTexture texture(int width, int height, TextureFormat format) {
+    return GlTexture({.format = format, .width = width, .height = height});
+}
+
+}  // namespace
+
+FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count) {
+    FramePlan pinholes = plan;
+    pinholes.samples.assign(count, LensSample{});
+    for (std::uint32_t i = 0; i < count && count > 1; ++i)
+        pinholes.samples[i].pixel = glm::vec2((i + 0.5) / count - 0.5, radicalInverse(2, i) + 0.5 / count - 0.5);
+    pinholes.trianglesDrawn = 0;
+    for (ObjectPlan& object : pinholes.objects) {
+        const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
+        const auto last = static_cast<double>(pyramid.levels.size() - 1);
+        const auto level = static_cast<std::uint32_t>(std::min(std::round(object.lambda), last));
+        object.coarse = {};
+        object.fine = {level, 0, count, pyramid.levels[level].triangleCount};
+        pinholes.levelsUsed[static_cast<std::size_t>(object.mesh)][level] = true;
+        pinholes.trianglesDrawn += std::uint64_t{object.fine.triangleCount} * count;
+    }
+    return pinholes;
+}
+
+PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format,
+                         const std::filesystem::path& shaderFolder)
+    : color_(texture(width, height, layerTextureFormat(format))),
+      depth_(texture(width, height, TextureFormat::depth32f)),
+      target_({&color_}, &depth_),
+      surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
+                        .defines = layerFormatDefines(format),
+                        .vertexShaderLayers = vertexShaderMayPickLayer(),
+                        .shaderFolder = shaderFolder}) {
+    color_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+}
+
+void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame) {
+    surfaces_.prepare(pinholes, frame);
+}
+
+void PinholePass::draw(std::uint32_t index) {
+    target_.bind();
+    glDepthMask(GL_TRUE);
+    constexpr float farthest = 0;  // reversed depth
+    constexpr float black[4] = {0, 0, 0, 1};
+    glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
+    glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, black);
+    surfaces_.drawOpaque(index, 1);
+    surfaces_.drawSky(index, 1);
+    surfaces_.drawBlended(index, 1);
+    surfaces_.drawBlendedDepth(index, 1);
+}
+
+}  // namespace defocus

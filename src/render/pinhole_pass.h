@@ -1,0 +1,43 @@
+#pragma once
+// What post-process methods start from: the scene through the middle of the lens, its sky included, with the depth of
+// each pixel.
+
+#include <optional>
+
+#include "gl/target.h"
+#include "render/layer_format.h"
+#include "render/surface_pass.h"
+
+namespace defocus {
+
+// The objects of `plan`, each at the whole level nearest to its λ, for `count` samples in the middle of the lens. They
+// are spread over the pixel by Hammersley's points; one alone lies in its middle. The plan's lens (its CoC) is kept.
+FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count);
+
+class PinholePass {
+public:
+    // `format` holds alpha (rgba16f, rgba32f). Needs a current GL context.
+    PinholePass(GpuScene& scene, int width, int height, LayerFormat format, const std::filesystem::path& shaderFolder);
+
+    // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing.
+    void prepare(const FramePlan& pinholes, const FrameUniforms& frame);
+    // Draws sample `index`. Alpha-blended surfaces leave their depth too, in a pass of its own: what lies behind them
+    // is blurred as they are (Scheuermann 2004).
+    void draw(std::uint32_t index);
+
+    // Of the sample drawn last: linear radiance with alpha 1, and reversed depth (near plane over distance; 0 is
+    // infinity).
+    [[nodiscard]] const GlTexture& color() const { return color_; }
+    [[nodiscard]] const GlTexture& depth() const { return depth_; }
+    [[nodiscard]] int width() const { return color_.info().width; }
+    [[nodiscard]] int height() const { return color_.info().height; }
+    [[nodiscard]] std::size_t bytes() const { return color_.bytes() + depth_.bytes() + surfaces_.bytes(); }
+
+private:
+    GlTexture color_;
+    GlTexture depth_;
+    Target target_;
+    SurfacePass surfaces_;
+};
+
+}  // namespace defocus

@@ -1,0 +1,182 @@
+// What every post-process method must satisfy, whatever its settings.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class PostProcesses : public testing::TestWithParam<const char*> {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> PostProcesses::context_;
+
+RenderSettings settingsOf(LodMode lod = LodMode::off) {
+    RenderSettings settings;
+    settings.lod = lod;
+    settings.keepAll = true;  // the lens too, even where nothing is blurred
+    return settings;
+}
+
+Image rendered(const SmallWorld& small, const char* method, const RendererOptions& options = {}) {
+    const MethodUse use = parseMethodUse(method);
+    RendererOptions complete = options;
+    complete.settings = use.settings;
+    const auto renderer = use.method->make(small.world, complete);
+    renderer->start(planFrame(small.world, small.view, settingsOf()));
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+double largestDifference(const Image& a, const Image& b, int left = 0, int right = std::numeric_limits<int>::max()) {
+    double largest = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = left; x < std::min(right, a.width); ++x)
+            for (int c = 0; c < 4; ++c) {
+                const double difference = std::abs(double(a.at(x, y)[c]) - double(b.at(x, y)[c]));
+                largest =
+                    std::isnan(difference) ? std::numeric_limits<double>::infinity() : std::max(largest, difference);
+            }
+    return largest;
+}
+
+// Unlit boards, upright at a depth, in front of one another; a uniform sky behind.
+struct Board {
+    double depth = 2;
+    glm::dvec2 centre{0};    // m
+    glm::dvec2 halfSize{1};  // m
+    glm::vec4 color{1};
+};
+
+std::unique_ptr<SmallWorld> boards(const std::vector<Board>& list, const glm::vec3& sky) {
+    auto small = std::make_unique<SmallWorld>();
+    for (const Board& board : list) {
+        const int index = static_cast<int>(small->scene.materials.size());
+        small->scene.materials.push_back(unlitMaterial(board.color));
+        small->scene.meshes.push_back(quad(index));
+        place(*small, index,
+              glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(board.centre, -board.depth)),
+                         glm::dvec3(board.halfSize, 1)));
+    }
+    small->world.environment = {EnvironmentType::uniform, sky, {}, {}, nullptr, 1};
+    small->view.width = 96;
+    small->view.height = 64;
+    small->view.lens.fStop = 1;
+    small->view.lens.focusDistance = 2;
+    finish(*small);
+    return small;
+}
+
+TEST_P(PostProcesses, apertureZeroIsThePinhole) {
+    const auto small = fiveSpheres();
+    small->view.lens.blurScale = 0;
+    const Image image = rendered(*small, GetParam());
+    // The same pinholes through the other method's passes.
+    small->view.lens.dofEnabled = false;
+    const std::string pinholes = std::string(GetParam()).starts_with("circular") ? "scheuermann" : "circular";
+    EXPECT_LT(largestDifference(image, rendered(*small, pinholes.c_str())), 2e-3);
+
+    // One pinhole is the accumulation's single sample.
+    RenderSettings one = settingsOf();
+    one.sampleCount = 1;
+    const auto accumulation = methodNamed("accumulation").make(small->world, {});
+    accumulation->start(planFrame(small->world, small->view, one));
+    accumulation->advance();
+    const std::string single =
+        std::string(GetParam()) + (std::string(GetParam()).find(':') == std::string::npos ? ":" : ",");
+    EXPECT_LT(largestDifference(accumulation->image(), rendered(*small, (single + "pinholes=1").c_str())), 2e-3);
+}
+
+TEST_P(PostProcesses, aConstantSceneStaysConstant) {
+    const glm::vec4 color(0.1f, 0.7f, 1.0f / 3, 1);
+    const auto small = boards({{1.2, {-0.2, 0}, {0.1, 0.3}, color},
+                               {2, {0.2, 0}, {0.2, 0.2}, color},
+                               {4, {0, 0}, {1, 0.5}, color},
+                               {9, {0, 1}, {9, 2}, color}},
+                              glm::vec3(color));
+    const Image image = rendered(*small, GetParam());
+    small->view.lens.dofEnabled = false;  // the same constant as half floats hold it
+    const bool tenBits = std::string(GetParam()).find("r10g10b10a2") != std::string::npos;
+    EXPECT_LT(largestDifference(image, rendered(*small, GetParam())), tenBits ? 6e-3 : 1e-3);
+}
+
+TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
+    // A bright square on a black wall, both behind the focus plane at one depth, blurred by 16 px.
+    const auto small =
+        boards({{6, {0, 0}, {0.2, 0.2}, {8, 4, 2, 1}}, {6.0001, {0, 0}, {9, 9}, {0, 0, 0, 1}}}, glm::vec3(0));
+    small->view.lens.blurScale = 16 / (0.05 * (1.0 / 2 - 1.0 / 6) * 96 / 0.72);
+    const Image image = rendered(*small, GetParam());
+    small->view.lens.dofEnabled = false;
+    const Image sharp = rendered(*small, GetParam());
+    double blurredEnergy = 0;
+    double sharpEnergy = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+        blurredEnergy += image.pixels[i];
+        sharpEnergy += sharp.pixels[i];
+    }
+    ASSERT_GT(sharpEnergy, 100);
+    EXPECT_NEAR(blurredEnergy / sharpEnergy, 1, 0.01);
+    EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // it was blurred at all
+}
+
+TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
+    const auto small = boards(
+        {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 1}}, {9, {0, 0}, {9, 9}, {0.9f, 0.2f, 0.1f, 1}}}, glm::vec3(0.5f));
+    const Image image = rendered(*small, GetParam());
+    small->view.lens.dofEnabled = false;
+    const Image sharp = rendered(*small, GetParam());
+    const int edge = 48;  // the board ends in the middle
+    EXPECT_LT(largestDifference(image, sharp, 0, edge - 1), 2e-3);
+}
+
+TEST_P(PostProcesses, brightPixelsLeaveNoHoles) {
+    const auto small = boards({{1, {-0.1, 0.05}, {0.02, 0.02}, {1e4f, 1e-4f, 1e4f, 1}},
+                               {2, {0.3, 0}, {0.1, 0.3}, {0.3f, 0.3f, 0.3f, 1}},
+                               {7, {0.4, -0.3}, {0.05, 0.05}, {1e4f, 1e4f, 1e-4f, 1}}},
+                              glm::vec3(1e-3f));
+    const Image image = rendered(*small, GetParam());
+    for (const float value : image.pixels) {
+        ASSERT_TRUE(std::isfinite(value));
+        ASSERT_GE(value, 0);
+        ASSERT_LE(value, 1.3e4);
+    }
+}
+
+TEST_P(PostProcesses, aTransparentBackgroundIsRefusedInOneLine) {
+    const auto small = fiveSpheres();
+    small->world.environment.visible = false;
+    try {
+        rendered(*small, GetParam());
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("accumulation"), std::string::npos);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, PostProcesses,
+                         testing::Values("scheuermann", "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited",
+                                         "circular", "circular:near-components=5,far-components=9",
+                                         "circular:resolution=half", "circular:resolution=quarter,kernel-taps=eight",
+                                         "circular:kernel-taps=sets,fields=combined", "circular:storage=r10g10b10a2",
+                                         "circular:convolution=direct,blend-bias=2"),
+                         [](const auto& instance) {
+                             std::string name = instance.param;
+                             std::replace_if(
+                                 name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace defocus
