@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bokeh.h"
 #include "core/error.h"
 #include "gl/context.h"
 #include "render/methods.h"
@@ -129,6 +130,27 @@ TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
     ASSERT_GT(sharpEnergy, 100);
     EXPECT_NEAR(blurredEnergy / sharpEnergy, 1, 0.01);
     EXPECT_LT(*image.at(48, 32), 0.95 * *sharp.at(48, 32));  // it was blurred at all
+}
+
+TEST_P(PostProcesses, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
+    const std::string method = GetParam();
+    if (method == "scheuermann") GTEST_SKIP() << "as published, blur follows planes and ends at 10 px";
+    // Small images widen the disk: by their pixels of 4 px (variance 16/12), their linear interpolation (16/6), and the
+    // pre-blurred copy by its Gaussian (8). A disk of radius R has a variance of R²/4.
+    const bool preblurred = method.starts_with("scheuermann");
+    const double variance = preblurred ? 12 : method.find("quarter") != std::string::npos ? 4 : 0;
+    // A square of 3 px on a black wall at the same depth, in front of the focus plane and behind it.
+    for (const double depth : {1.5, 6.0}) {
+        const double pixel = 0.72 * depth / 96;  // m
+        const auto small = boards(
+            {{depth, {0, 0}, glm::dvec2(1.5 * pixel), {8, 8, 8, 1}}, {depth + 1e-4, {0, 0}, {9, 9}, {0, 0, 0, 1}}},
+            glm::vec3(0));
+        const double coc = 24;
+        small->view.lens.blurScale = coc / std::abs(0.05 * (1.0 / 2 - 1.0 / depth) * 96 / 0.72);
+        const Moments moments = momentsOf(rendered(*small, GetParam()));
+        const double widened = std::sqrt(0.25 * coc * coc + 4 * variance);
+        EXPECT_NEAR(radiusBySecondMoment(moments, 0, 3), widened, 1) << "at " << depth << " m";
+    }
 }
 
 TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {

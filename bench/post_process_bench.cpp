@@ -1,0 +1,207 @@
+// The disks of method "circular" (Garcia 2018): what they cost over the radius, against a gather of the same kernel
+// over its whole square; how flat they are by components; what their storage loses.
+//
+// Held equal within a table: image, process, kernel, runs alternate and the median counts. Checks that separable and
+// direct blur agree.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "app/prepared_frame.h"
+#include "core/error.h"
+#include "eval/spread.h"
+#include "gl/context.h"
+#include "gl/read_back.h"
+#include "image/metrics.h"
+#include "render/circular_kernel.h"
+#include "render/complex_blur.h"
+#include "render/methods.h"
+
+namespace {
+
+using namespace defocus;
+
+constexpr int runs = 5;
+
+GlTexture textureOf(const Image& image, TextureFormat format) {
+    GlTexture texture({.format = format, .width = image.width, .height = image.height});
+    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    texture.upload(0, image.width, image.height, image.pixels.data());
+    return texture;
+}
+
+Image filled(int width, int height, int channels, float value) {
+    Image image(width, height, channels);
+    std::fill(image.pixels.begin(), image.pixels.end(), value);
+    return image;
+}
+
+double milliseconds(ComplexBlur& blur, const GlTexture& field, const GlTexture& radius) {
+    const auto begin = std::chrono::steady_clock::now();
+    blur.blur(field, radius);
+    glFinish();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// The exponent p of y ~ x^p by least squares in logarithms.
+double exponent(const std::vector<double>& x, const std::vector<double>& y) {
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    const auto n = static_cast<double>(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double lx = std::log(x[i]);
+        const double ly = std::log(y[i]);
+        sx += lx;
+        sy += ly;
+        sxx += lx * lx;
+        sxy += lx * ly;
+    }
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+void costOverRadius() {
+    constexpr int width = 128;
+    constexpr int height = 96;
+    Image checks(width, height, 4);
+    for (std::size_t i = 0; i < checks.pixels.size(); ++i)
+        checks.pixels[i] = i % 4 == 3 || (i / 4 % 16 < 8) != (i / 4 / width % 16 < 8) ? 1.0f : 0.1f;
+    const GlTexture field = textureOf(checks, TextureFormat::rgba16f);
+    fmt::print("Cost over the radius, {} x {} px, ms (median of {})\n{:>10} {:>12} {:>12}\n", width, height, runs,
+               "radius px", "separable", "direct");
+    ComplexBlurInfo info{.width = width, .height = height, .components = 2, .shaderFolder = {}};
+    ComplexBlur separable(info);
+    info.direct = true;
+    ComplexBlur direct(info);
+    std::vector<double> radii, separableTimes, directTimes;
+    for (const float r : {8.0f, 16.0f, 32.0f, 64.0f}) {
+        const GlTexture radius = textureOf(filled(width, height, 1, r), TextureFormat::r32f);
+        std::vector<double> a, b;
+        for (int i = 0; i <= runs; ++i) {
+            const double first = milliseconds(separable, field, radius);
+            const double second = milliseconds(direct, field, radius);
+            if (i == 0) continue;  // shaders are compiled
+            a.push_back(first);
+            b.push_back(second);
+        }
+        const Difference difference = compareImages(readBack(separable.result(), 4), readBack(direct.result(), 4));
+        if (!(difference.maxError < 2e-3)) fail("radius {}: the two blurs differ by {}", r, difference.maxError);
+        radii.push_back(r);
+        separableTimes.push_back(spreadOf(a).median);
+        directTimes.push_back(spreadOf(b).median);
+        fmt::print("{:>10} {:>12.2f} {:>12.2f}\n", r, separableTimes.back(), directTimes.back());
+    }
+    fmt::print("{:>10} {:>12.2f} {:>12.2f}\n\n", "exponent", exponent(radii, separableTimes),
+               exponent(radii, directTimes));
+}
+
+void disks() {
+    constexpr int size = 128;
+    constexpr double radiusAsked = 32;
+    fmt::print(
+        "A point of light by components: disk of {} px asked; level 1 is the ideal disk's. The passes' time is of {} x "
+        "{} "
+        "px\n{:>10} {:>10} {:>10} {:>12} {:>12} {:>12} {:>10} {:>10}\n",
+        radiusAsked, size, size, "components", "radius px", "energy", "ripple rms", "ripple most", "edge px", "below 0",
+        "ms");
+    Image point(size, size, 4);
+    constexpr int centre = size / 2;
+    for (int c = 0; c < 4; ++c) point.at(centre, centre)[c] = 1;
+    const double level = 1 / (std::numbers::pi * radiusAsked * radiusAsked);
+    for (int components = 1; components <= circularKernelLimit; ++components) {
+        ComplexBlur blur({.width = size,
+                          .height = size,
+                          .components = components,
+                          .storage = ComplexStorage::float32,
+                          .shaderFolder = {}});
+        const GlTexture field = textureOf(point, TextureFormat::rgba32f);
+        const GlTexture radius = textureOf(filled(size, size, 1, static_cast<float>(radiusAsked)), TextureFormat::r32f);
+        std::vector<double> times;
+        for (int i = 0; i < runs; ++i) times.push_back(milliseconds(blur, field, radius));
+        const Image image = readBack(blur.result(), 4);
+        double energy = 0, moment = 0, ripple = 0, most = 0, inside = 0, below = 0;
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                const double value = *image.at(x, y);
+                const double r = std::hypot(x - centre, y - centre);
+                energy += value;
+                moment += value * r * r;
+                below += std::min(value, 0.0);
+                if (r > 0.9 * radiusAsked) continue;
+                const double deviation = value / level - 1;
+                ripple += deviation * deviation;
+                most = std::max(most, std::abs(deviation));
+                inside += 1;
+            }
+        // The width of the edge: from nine tenths of the level to one tenth, along the row of the centre.
+        double high = 0, low = size;
+        for (int x = centre; x < size; ++x) {
+            const double value = *image.at(x, centre) / level;
+            if (value > 0.9) high = x - centre;
+            if (value < 0.1 && low == size) low = x - centre;
+        }
+        fmt::print("{:>10} {:>10.2f} {:>10.4f} {:>12.4f} {:>12.4f} {:>12.1f} {:>10.4f} {:>10.2f}\n", components,
+                   std::sqrt(2 * moment / energy), energy, std::sqrt(ripple / inside), most, low - high, below,
+                   spreadOf(times).median);
+    }
+    fmt::print("\n");
+}
+
+// What the storage between the passes loses, on a picture: against 32-bit floats.
+void storages() {
+    SceneOptions scene;
+    scene.width = 512;
+    scene.height = 384;
+    scene.fStop = 0.95;
+    const PreparedFrame frame = prepareFrame(scene);
+    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    fmt::print("Storage of the complex sums, school of fish at {} x {} px, f/{}, against 32-bit floats\n", scene.width,
+               scene.height, *scene.fStop);
+    fmt::print("{:<44} {:>9} {:>9} {:>9} {:>11} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
+    for (const char* components : {"near-components=1,far-components=2", "near-components=5,far-components=5"}) {
+        Image exact;
+        for (const char* storage : {"float", "half", "r10g10b10a2"}) {
+            const MethodUse use = parseMethodUse(fmt::format("circular:{},storage={}", components, storage));
+            RendererOptions options;
+            options.settings = use.settings;
+            const auto renderer = use.method->make(frame.world, options);
+            std::vector<double> times;
+            for (int i = 0; i < runs; ++i) {
+                renderer->start(plan);
+                while (renderer->advance()) {
+                }
+                times.push_back(renderer->stats().renderMilliseconds);
+            }
+            const Image image = renderer->image();
+            if (exact.empty()) exact = image;
+            const Difference difference = compareImages(exact, image);
+            fmt::print("{:<44} {:>9.2f} {:>9.5f} {:>9.5f} {:>11.1f} {:>9.1f}\n", use.text(), difference.psnr,
+                       difference.flip, difference.maxError, static_cast<double>(renderer->stats().peakBytes) * 1e-6,
+                       spreadOf(times).median);
+        }
+    }
+}
+
+int run() {
+    const auto context = createHeadlessContext();
+    fmt::print("{}, {}\n\n", context->device(), context->driver());
+    costOverRadius();
+    disks();
+    storages();
+    return 0;
+}
+
+}  // namespace
+
+int main() {
+    try {
+        return run();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "post_process_bench: {}\n", error.what());
+        return 1;
+    }
+}
