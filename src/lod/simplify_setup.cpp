@@ -79,6 +79,12 @@ glm::dvec3 faceCross(const Simplifier& s, std::uint32_t face) {
     return glm::cross(s.points[s.corners.vertex[3 * face + 1]] - a, s.points[s.corners.vertex[3 * face + 2]] - a);
 }
 
+// Whether the surface ends at edge `e` of the manifold; a face without area beyond it is no surface.
+bool isBorder(const Simplifier& s, const Manifold& manifold, std::uint32_t e) {
+    const std::uint32_t twin = manifold.twins[e];
+    return twin == Manifold::none || !(glm::length(faceCross(s, twin / 3)) > 0);
+}
+
 // Weight of the constraint that a seam or border at edge `e` (of the manifold) puts on its face's side.
 double seamConstraint(const Corners& corners, const Manifold& manifold, std::uint32_t e) {
     const std::uint32_t twin = manifold.twins[e];
@@ -149,13 +155,18 @@ void buildQuadrics(Simplifier& s, const Manifold& manifold) {
             const std::uint32_t a = s.corners.vertex[e];
             const std::uint32_t b = s.corners.vertex[e % 3 == 2 ? e - 2 : e + 1];
             s.quadrics[a].addPlane(normal, s.points[a], doubleArea / 6);
-            const double weight = std::max(seamConstraint(s.corners, manifold, e), rimConstraint(s, manifold, e));
+            const bool border = isBorder(s, manifold, e);
+            const double weight =
+                border ? borderWeight : std::max(seamConstraint(s.corners, manifold, e), rimConstraint(s, manifold, e));
             const glm::dvec3 edge = s.points[b] - s.points[a];
             const glm::dvec3 upright = glm::cross(edge, normal);
             const double length = glm::length(upright);
             if (weight == 0 || !(length > 0)) continue;
-            s.quadrics[a].addPlane(upright / length, s.points[a], weight * length * length);
-            s.quadrics[b].addPlane(upright / length, s.points[a], weight * length * length);
+            // A border of short edges before long faces, the end of a strip, weighs as much as those faces: by its
+            // edges alone it would cost less to shorten than the strip's inside costs to thin out.
+            const double area = border ? std::max(length * length, doubleArea) : length * length;
+            s.quadrics[a].addPlane(upright / length, s.points[a], weight * area);
+            s.quadrics[b].addPlane(upright / length, s.points[a], weight * area);
         }
     }
 }
