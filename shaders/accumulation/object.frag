@@ -90,7 +90,21 @@ vec3 shaded(vec3 baseColor) {
 }
 #endif
 
+#ifdef SCREEN_DOOR
+// Does this pixel of a boundary sample belong to the coarser level? Roberts 2018, The Unreasonable Effectiveness of
+// Quasirandom Sequences: the R2 sequence as an ordered dither, x/ρ + y/ρ² modulo 1 with ρ³ = ρ + 1, in whole numbers
+// of 2⁻³² and so the same on each device. Any share of the pixels is spread evenly; each object has its own offset.
+bool drawsCoarser() {
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    uint place = pixel.x * 3242174889u + pixel.y * 2447445414u + uint(object.values.z) * 2654435769u;
+    return float(place >> 8) < object.values.y * 16777216.0;
+}
+#endif
+
 void main() {
+#ifdef SCREEN_DOOR
+    if (drawsCoarser() != SCREEN_DOOR) discard;
+#endif
     vec4 baseColor = surface.color;
 #ifdef BASE_COLOR_TEXTURE
     baseColor *= texture(baseColorTexture, uvOf(0));
@@ -110,14 +124,16 @@ void main() {
 
     // A texel or a sliver without a value is black, not a hole that no later sample could fill.
     if (any(isnan(radiance))) radiance = vec3(0.0);
-#ifdef LAYER_LARGEST
-    radiance = min(radiance, vec3(LAYER_LARGEST));
-#endif
 #ifdef LAYER_RGB9E5
     layerOut = encodeLayer(vec4(radiance, 1.0), ditherOffset);
-#elif defined(ALPHA_BLEND)
+#else
+#ifdef ALPHA_BLEND
     layerOut = vec4(radiance * baseColor.a, baseColor.a);
 #else
     layerOut = vec4(radiance, 1.0);
+#endif
+#ifdef LAYER_LARGEST
+    layerOut.rgb = roundedToHalf(layerOut.rgb);
+#endif
 #endif
 }

@@ -20,7 +20,7 @@ void main() {
     vec4 radiance = vec4(frame.environment[0].rgb, 1.0);
 #endif
 #ifdef LAYER_LARGEST
-    radiance = min(radiance, vec4(LAYER_LARGEST));
+    radiance.rgb = roundedToHalf(radiance.rgb);
 #endif
 #ifdef LAYER_RGB9E5
     layerOut = encodeLayer(radiance, ditherOffset);

@@ -19,7 +19,7 @@ layout(std140, binding = 0) uniform FrameBlock {
 layout(std140, binding = 1) uniform ObjectBlock {
     mat4 viewFromObject;
     mat4 normalMatrix;    // inverse transpose, of the upper 3×3
-    vec4 values;          // x: fractional level λ
+    vec4 values;          // fractional level λ, share of its boundary sample that draws the coarser level, its number
 } object;
 
 layout(std140, binding = 2) uniform MaterialBlock {

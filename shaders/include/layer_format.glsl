@@ -22,3 +22,13 @@ vec4 decodeLayer(uint bits) {
 }
 
 #endif
+
+#ifdef LAYER_LARGEST
+// Half floats keep 11 bits. How the last is found is the driver's choice, and cutting off darkens every sample a little; so it is
+// rounded here, to a value that any conversion keeps.
+vec3 roundedToHalf(vec3 color) {
+    uvec3 bits = floatBitsToUint(min(color, vec3(LAYER_LARGEST)));
+    bits += 0xfffu + ((bits >> 13) & 1u);
+    return uintBitsToFloat(bits & ~uvec3(0x1fffu));
+}
+#endif

@@ -184,11 +184,13 @@ void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* command = program.add_subcommand("render", "Render a glTF scene with the depth of field of a real lens");
     addOutputs(*command, *arguments);
     addSceneOptions(*command, arguments->scene);
+    addMethodSettings(*command, arguments->scene);
     command->footer(
         "Examples:\n"
         "  defocus render -o fish.exr -o fish.png\n"
         "  defocus render scene.glb -o out.exr --fstop 1.4 --focus-distance 2.5 --samples 256\n"
-        "  defocus render scene.glb -o out.png --tonemap agx --focus-pixel 512,384 --blades 7 --aov depth,coc");
+        "  defocus render scene.glb -o out.png --tonemap agx --focus-pixel 512,384 --blades 7 --aov depth,coc\n"
+        "  defocus render scene.glb -o out.png --method circular --far-components 5");
     command->callback([arguments, &global] { runRender(*arguments, global); });
 }
 

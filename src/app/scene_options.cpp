@@ -138,8 +138,12 @@ void addLevels(CLI::App& command, SceneOptions& options) {
         ->group(group);
     addChoice<LodMode>(
         command, "--lod", options.lod,
-        {{"fractional", LodMode::fractional}, {"nearest", LodMode::nearest}, {"off", LodMode::off}},
-        "Coarser meshes for blurred objects: samples split between two levels, one level, or full detail")
+        {{"fractional", LodMode::fractional},
+         {"continuous", LodMode::continuous},
+         {"nearest", LodMode::nearest},
+         {"off", LodMode::off}},
+        "Coarser meshes for blurred objects: samples split between two levels, the same with one sample split over "
+        "its pixels, one level, or full detail")
         ->group(group);
     addChoice<LodMetric>(command, "--lod-metric", options.metric,
                          {{"size", LodMetric::size}, {"error", LodMetric::error}},
@@ -169,27 +173,6 @@ std::string valuesOf(const MethodSetting& setting) {
     return setting.whole ? "N" : "R";
 }
 
-// An option for each setting of each method; methods may share one.
-void addMethodSettings(CLI::App& command, SceneOptions& options) {
-    std::map<std::string, std::string> owners;
-    for (const Method& method : methods())
-        for (const MethodSetting& setting : method.settings)
-            owners[setting.name] += (owners[setting.name].empty() ? "" : ", ") + method.name;
-    for (const Method& method : methods())
-        for (const MethodSetting& setting : method.settings) {
-            const auto owner = owners.extract(setting.name);
-            if (owner.empty()) continue;  // added with an earlier method
-            command
-                .add_option_function<std::string>(
-                    "--" + setting.name,
-                    [&options, name = setting.name](const std::string& text) { options.methodSettings[name] = text; },
-                    setting.description)
-                ->type_name(valuesOf(setting))
-                ->default_str(setting.standard)
-                ->group("Method " + owner.mapped());
-        }
-}
-
 void addMethod(CLI::App& command, SceneOptions& options) {
     const char* group = "Method";
     std::vector<std::string> names;
@@ -213,7 +196,6 @@ void addMethod(CLI::App& command, SceneOptions& options) {
         ->group(group);
     addWhole(command, "--wave", options.wave, 0, 64, "Samples drawn at once; 0: as memory allows (same image)")
         ->group(group);
-    addMethodSettings(command, options);
 }
 
 }  // namespace
@@ -225,6 +207,26 @@ MethodUse chosenMethod(const SceneOptions& options) try {
     return use;
 } catch (const Error& error) {
     throw CLI::ValidationError(error.what());  // a fault of the command line
+}
+
+void addMethodSettings(CLI::App& command, SceneOptions& options) {
+    std::map<std::string, std::string> owners;
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings)
+            owners[setting.name] += (owners[setting.name].empty() ? "" : ", ") + method.name;
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings) {
+            const auto owner = owners.extract(setting.name);
+            if (owner.empty()) continue;  // added with an earlier method
+            command
+                .add_option_function<std::string>(
+                    "--" + setting.name,
+                    [&options, name = setting.name](const std::string& text) { options.methodSettings[name] = text; },
+                    setting.description)
+                ->type_name(valuesOf(setting))
+                ->default_str(setting.standard)
+                ->group("Method " + owner.mapped());
+        }
 }
 
 CLI::Option* addCacheFolder(CLI::App& command, std::filesystem::path& folder) {

@@ -75,4 +75,7 @@ MethodUse chosenMethod(const SceneOptions& options);
 // Adds the options in groups. `options` must outlive the parse.
 void addSceneOptions(CLI::App& command, SceneOptions& options);
 
+// An option for each setting of each method; methods may share one.
+void addMethodSettings(CLI::App& command, SceneOptions& options);
+
 }  // namespace defocus

@@ -33,6 +33,8 @@ const char* lodModeName(LodMode mode) {
     switch (mode) {
         case LodMode::fractional:
             return "fractional";
+        case LodMode::continuous:
+            return "continuous";
         case LodMode::nearest:
             return "nearest";
         case LodMode::off:
@@ -69,8 +71,15 @@ SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode)
     if (mode == LodMode::off || !(lambda > 0)) return {};
     if (mode == LodMode::nearest) return {static_cast<std::uint32_t>(std::lround(lambda)), 0};
     const double whole = std::floor(lambda);
-    const double fraction = lambda - whole;
-    return {static_cast<std::uint32_t>(whole), static_cast<std::uint32_t>(std::lround(fraction * sampleCount))};
+    const double coarse = (lambda - whole) * sampleCount;
+    SampleSplit split{static_cast<std::uint32_t>(whole), 0};
+    if (mode == LodMode::continuous) {
+        split.coarseCount = static_cast<std::uint32_t>(coarse);
+        split.boundaryShare = coarse - split.coarseCount;
+    } else {
+        split.coarseCount = static_cast<std::uint32_t>(std::lround(coarse));
+    }
+    return split;
 }
 
 }  // namespace defocus

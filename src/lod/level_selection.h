@@ -10,6 +10,7 @@ namespace defocus {
 
 enum class LodMode {
     fractional,  // samples split between ⌊λ⌋ and ⌊λ⌋ + 1
+    continuous,  // the same, and the sample at the boundary is split over its pixels
     nearest,     // every sample draws round(λ)
     off,         // full detail
 };
@@ -46,11 +47,17 @@ struct LevelQuery {
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds);
 
-// Samples [0, coarseCount) draw level `level` + 1, samples [coarseCount, N) level `level`. coarseCount = round(f·N),
-// f = λ − ⌊λ⌋.
+// Samples [0, coarseCount) draw level `level` + 1, samples [coarseCount, N) level `level`; f = λ − ⌊λ⌋.
+//   fractional: coarseCount = round(f·N). As λ moves, a whole sample at a time changes its level.
+//   continuous: f·N = n + g with n = coarseCount whole and 0 ≤ g < 1. Of sample n, the share g of the pixels draws the
+//   coarser level (a screen door): as λ moves, the pixels of one sample change one after the other, evenly spread.
+//   Each pixel of each sample still draws exactly one level: it is the pixel of the split with n coarse samples or that
+//   with n + 1. So no object has holes, and where the outlines of its levels differ it gains or loses, by the screen
+//   door, at most 1/N of a pixel's coverage.
 struct SampleSplit {
     std::uint32_t level = 0;
     std::uint32_t coarseCount = 0;
+    double boundaryShare = 0;  // g
 };
 
 SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode);

@@ -118,7 +118,8 @@ void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& p
         level = std::min(level, last);
         return LevelDraw{level, first, count, pyramid.levels[level].triangleCount};
     };
-    object.coarse = draw(split.level + 1, 0, split.coarseCount);
+    object.boundaryShare = split.level < last ? split.boundaryShare : 0;
+    object.coarse = draw(split.level + 1, 0, split.coarseCount + (object.boundaryShare > 0 ? 1 : 0));
     object.fine = draw(split.level, split.coarseCount, sampleCount - split.coarseCount);
 }
 
@@ -196,11 +197,19 @@ void noteLevels(FramePlan& plan, const World& world) {
     if (kept < all)
         plan.leftOut.push_back(
             {fmt::format("{} of {} pyramid levels", all - kept, all), "no sample of this frame draws them"});
-    if (whole > 0 && plan.settings.lod == LodMode::fractional)
+    const LodMode mode = plan.settings.lod;
+    if (whole > 0 && (mode == LodMode::fractional || mode == LodMode::continuous))
         plan.leftOut.push_back({fmt::format("sample split of {} object(s)", whole), "their level is whole"});
 }
 
 }  // namespace
+
+std::optional<std::uint32_t> boundarySample(const ObjectPlan& object) {
+    const std::uint32_t coarseEnd = object.coarse.firstSample + object.coarse.sampleCount;
+    if (object.coarse.sampleCount == 0 || object.fine.sampleCount == 0 || coarseEnd <= object.fine.firstSample)
+        return {};
+    return object.fine.firstSample;
+}
 
 FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings) {
     checkRequest(view, settings);

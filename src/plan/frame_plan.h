@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,11 @@ struct ObjectPlan {
     double lambda = 0;               // fractional level
     LevelDraw coarse;                // samples [0, n) at level ⌊λ⌋ + 1; none when λ is whole
     LevelDraw fine;                  // samples [n, N) at level ⌊λ⌋
-    bool mirrored = false;           // the transform flips winding
-    bool blended = false;            // has alpha-blended primitives
+    // LodMode::continuous: where the two overlap by a sample (`coarse` then ends with sample n), the share of that
+    // sample's pixels that draw `coarse`; the others draw `fine`.
+    double boundaryShare = 0;
+    bool mirrored = false;  // the transform flips winding
+    bool blended = false;   // has alpha-blended primitives
 };
 
 struct LeftOut {
@@ -63,6 +67,9 @@ struct FramePlan {
 inline constexpr std::uint32_t antialiasingSamples = 16;
 // Blur below this diameter is left out (with keepAll it is not).
 inline constexpr double leastBlur = 0.5;  // px
+
+// The sample that an object draws at both levels, each at its own pixels; none in most modes.
+std::optional<std::uint32_t> boundarySample(const ObjectPlan& object);
 
 // Throws Error for an impossible lens, size or sample count.
 FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings);

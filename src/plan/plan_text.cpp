@@ -27,22 +27,31 @@ json objectJson(const ObjectPlan& object) {
     json draws = json::array();
     for (const LevelDraw& draw : {object.coarse, object.fine})
         if (draw.sampleCount > 0) draws.push_back(drawJson(draw));
-    return {{"name", object.name},
-            {"depth", {number(object.nearestDepth), number(object.farthestDepth)}},
-            {"coc",
-             {{"nearest", number(object.coc.nearest)},
-              {"farthest", number(object.coc.farthest)},
-              {"smallest", number(object.coc.smallest)},
-              {"largest", number(object.coc.largest)}}},
-            {"projectedEdge", number(object.projectedEdge)},
-            {"lambda", object.lambda},
-            {"blended", object.blended},
-            {"draws", std::move(draws)}};
+    json result = {{"name", object.name},
+                   {"depth", {number(object.nearestDepth), number(object.farthestDepth)}},
+                   {"coc",
+                    {{"nearest", number(object.coc.nearest)},
+                     {"farthest", number(object.coc.farthest)},
+                     {"smallest", number(object.coc.smallest)},
+                     {"largest", number(object.coc.largest)}}},
+                   {"projectedEdge", number(object.projectedEdge)},
+                   {"lambda", object.lambda},
+                   {"blended", object.blended},
+                   {"draws", std::move(draws)}};
+    if (boundarySample(object)) result["boundaryShare"] = object.boundaryShare;
+    return result;
 }
 
-std::string drawText(const LevelDraw& draw) {
+// `shared`: how much of a sample that it shares with the other level it leaves to it.
+std::string drawText(const LevelDraw& draw, double shared) {
     if (draw.sampleCount == 0) return "";
-    return fmt::format("{} ({} tri) x {}", draw.level, draw.triangleCount, draw.sampleCount);
+    return fmt::format("{} ({} tri) x {:.4g}", draw.level, draw.triangleCount, draw.sampleCount - shared);
+}
+
+std::string drawsText(const ObjectPlan& object) {
+    const bool shares = boundarySample(object).has_value();
+    return fmt::format("{:<24}  {}", drawText(object.coarse, shares ? 1 - object.boundaryShare : 0),
+                       drawText(object.fine, shares ? object.boundaryShare : 0));
 }
 
 }  // namespace
@@ -61,10 +70,9 @@ std::string planTable(const FramePlan& plan) {
     text += fmt::format("{:{}}  {:>17}  {:>17}  {:>7}  {:>6}  {:<24}  {}\n", "object", width, "depth m", "CoC px",
                         "edge px", "level", "coarse (first samples)", "fine (the rest)");
     for (const ObjectPlan& object : plan.objects)
-        text +=
-            fmt::format("{:{}}  {:>8.3f} {:>8.3f}  {:>8.2f} {:>8.2f}  {:>7.2f}  {:>6.2f}  {:<24}  {}\n", object.name,
-                        width, object.nearestDepth, object.farthestDepth, object.coc.nearest, object.coc.farthest,
-                        object.projectedEdge, object.lambda, drawText(object.coarse), drawText(object.fine));
+        text += fmt::format("{:{}}  {:>8.3f} {:>8.3f}  {:>8.2f} {:>8.2f}  {:>7.2f}  {:>6.2f}  {}\n", object.name, width,
+                            object.nearestDepth, object.farthestDepth, object.coc.nearest, object.coc.farthest,
+                            object.projectedEdge, object.lambda, drawsText(object));
     const double ratio = plan.trianglesDrawn > 0 ? static_cast<double>(plan.trianglesAtFullDetail) /
                                                        static_cast<double>(plan.trianglesDrawn)
                                                  : 1;

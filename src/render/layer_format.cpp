@@ -12,12 +12,20 @@ float largest(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// Radiance that a half float cannot hold: layers must be 32-bit floats then.
+// Radiance that a half float cannot hold: layers must be 32-bit floats then. What lights reflect is bounded for matt
+// surfaces under distant lights; beyond that, values end at 65,504.
 bool beyondHalfFloat(const World& world) {
     constexpr float limit = 6e4f;
     const Environment& e = world.environment;
-    return std::any_of(world.scene->materials.begin(), world.scene->materials.end(),
-                       [&](const Material& m) { return largest(m.emissiveFactor) > limit; }) ||
+    float distantLight = 0;
+    for (const PlacedLight& placed : world.lights)
+        if (placed.light.type == LightType::directional)
+            distantLight += placed.light.intensity * largest(placed.light.color);
+    const auto radiates = [&](const Material& m) {
+        const float base = largest(glm::vec3(m.baseColorFactor));
+        return std::max(largest(m.emissiveFactor), m.unlit ? base : base * distantLight) > limit;
+    };
+    return std::any_of(world.scene->materials.begin(), world.scene->materials.end(), radiates) ||
            std::max({largest(e.zenith), largest(e.horizon), largest(e.nadir)}) > limit;
 }
 

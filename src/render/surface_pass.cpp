@@ -52,7 +52,7 @@ void SurfacePass::uploadObjects(const FramePlan& plan) {
     for (const ObjectPlan& object : plan.objects)
         blocks.push_back({glm::mat4(object.viewFromObject),
                           glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
-                          glm::vec4(object.lambda, 0, 0, 0)});
+                          glm::vec4(object.lambda, object.boundaryShare, object.object, 0)});
     objectStride_ = aligned(sizeof(GpuObject));
     objectBlocks_ = stridedBuffer(blocks, objectStride_);
 }
@@ -71,26 +71,47 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     materialSlots_.clear();
     for (std::size_t index = 0; index < plan.objects.size(); ++index) {
         const ObjectPlan& object = plan.objects[index];
-        const Pyramid& pyramid = scene_->world().pyramids[static_cast<std::size_t>(object.mesh)];
         const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
         GpuMesh& gpuMesh = scene_->mesh(object.mesh);
         gpuMesh.vertexArray.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
         gpuMesh.vertexArray.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
         for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
-            const int materialIndex = mesh.primitives[p].material;
-            const Material& material = scene_->material(materialIndex);
-            materialSlots_.try_emplace(materialIndex, materialSlots_.size());
-            for (const LevelDraw& level : {object.coarse, object.fine}) {
-                const std::uint32_t indexCount = pyramid.levels[level.level].primitives[p].count;
-                if (level.sampleCount == 0 || indexCount == 0) continue;
-                auto& list = material.alphaMode == AlphaMode::blend ? blended_ : opaque_;
-                list.push_back({object.mesh, level.level, p, static_cast<std::uint32_t>(index), materialIndex,
-                                level.firstSample, level.sampleCount, static_cast<GLsizei>(indexCount), object.mirrored,
-                                &program(material, gpuMesh, materialIndex, level.level > 0)});
-            }
+            Draw draw;
+            draw.mesh = object.mesh;
+            draw.primitive = p;
+            draw.object = static_cast<std::uint32_t>(index);
+            draw.material = mesh.primitives[p].material;
+            draw.mirrored = object.mirrored;
+            materialSlots_.try_emplace(draw.material, materialSlots_.size());
+            addLevel(draw, object, object.coarse, ScreenDoor::coarseShare);
+            addLevel(draw, object, object.fine, ScreenDoor::fineShare);
         }
     }
     std::reverse(blended_.begin(), blended_.end());  // the plan's objects come nearest first
+}
+
+// The samples that `level` draws alone, and the one that it shares.
+void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
+    const Pyramid& pyramid = scene_->world().pyramids[static_cast<std::size_t>(object.mesh)];
+    const std::uint32_t indexCount = pyramid.levels[level.level].primitives[draw.primitive].count;
+    if (indexCount == 0) return;
+    auto& list = scene_->material(draw.material).alphaMode == AlphaMode::blend ? blended_ : opaque_;
+    const auto add = [&](std::uint32_t first, std::uint32_t end, ScreenDoor screenDoor) {
+        if (first >= end) return;
+        Draw& added = list.emplace_back(draw);
+        added.level = level.level;
+        added.firstSample = first;
+        added.sampleCount = end - first;
+        added.indexCount = static_cast<GLsizei>(indexCount);
+        added.screenDoor = screenDoor;
+        added.program = &program(added);
+    };
+    const std::uint32_t first = level.firstSample;
+    const std::uint32_t end = first + level.sampleCount;
+    const std::uint32_t shared = boundarySample(object).value_or(end);
+    add(first, std::min(shared, end), ScreenDoor::open);
+    if (shared < end) add(shared, shared + 1, boundary);
+    add(shared + 1, end, ScreenDoor::open);
 }
 
 ShaderDefines SurfacePass::passDefines() const {
@@ -100,15 +121,17 @@ ShaderDefines SurfacePass::passDefines() const {
     return defines;
 }
 
-const Program& SurfacePass::program(const Material& material, const GpuMesh& mesh, int materialIndex, bool coarse) {
+const Program& SurfacePass::program(const Draw& draw) {
     static constexpr const char* textureDefines[5] = {"BASE_COLOR_TEXTURE", "METALLIC_ROUGHNESS_TEXTURE",
                                                       "NORMAL_TEXTURE", "OCCLUSION_TEXTURE", "EMISSIVE_TEXTURE"};
+    const Material& material = scene_->material(draw.material);
+    const GpuMesh& mesh = scene_->mesh(draw.mesh);
     ShaderDefines defines = passDefines();
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "1");
     };
     const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
-    const GpuMaterialTextures& textures = scene_->textures(materialIndex);
+    const GpuMaterialTextures& textures = scene_->textures(draw.material);
     const bool masked = material.alphaMode == AlphaMode::mask;
     bool textured = false;
     for (std::size_t i = 0; i < 5; ++i) {
@@ -121,12 +144,14 @@ const Program& SurfacePass::program(const Material& material, const GpuMesh& mes
     const std::vector<PlacedLight>& lights = scene_->world().lights;
     set(textured, "TEXTURED");
     set(!lit, "UNLIT");
-    set(lit && coarse, "COARSE_LEVEL");
+    set(lit && draw.level > 0, "COARSE_LEVEL");
     set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
     set(static_cast<bool>(mesh.colors), "VERTEX_COLORS");
     set(material.doubleSided, "DOUBLE_SIDED");
     set(masked, "ALPHA_MASK");
     set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
+    if (draw.screenDoor != ScreenDoor::open)
+        defines.emplace_back("SCREEN_DOOR", draw.screenDoor == ScreenDoor::coarseShare ? "true" : "false");
     const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));
     if (isNew) {
         std::vector<std::string> shaders = {"accumulation/object.vert", info_.fragmentShader};

@@ -1,6 +1,7 @@
 #pragma once
 // Draws the surfaces of a FramePlan: one shader program for each set of features that the drawn materials need, and per
-// object, primitive and wave at most two instanced draws (a wave meets at most one boundary between levels).
+// object, primitive and wave at most two instanced draws (a wave meets at most one boundary between levels); two more
+// where a sample at that boundary is split over its pixels.
 
 #include <map>
 #include <string>
@@ -41,6 +42,12 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    enum class ScreenDoor {
+        open,         // every pixel
+        coarseShare,  // the pixels of a boundary sample that draw the coarser level
+        fineShare,    // the others
+    };
+
     struct Draw {  // a primitive of an object at one level
         int mesh = -1;
         std::uint32_t level = 0;
@@ -51,13 +58,15 @@ private:
         std::uint32_t sampleCount = 0;
         GLsizei indexCount = 0;
         bool mirrored = false;
+        ScreenDoor screenDoor = ScreenDoor::open;
         const Program* program = nullptr;
     };
 
     void uploadObjects(const FramePlan& plan);
     void uploadMaterials();
     void addDraws(const FramePlan& plan);
-    const Program& program(const Material& material, const GpuMesh& mesh, int materialIndex, bool coarse);
+    void addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary);
+    const Program& program(const Draw& draw);
     [[nodiscard]] ShaderDefines passDefines() const;
     void bindFrame();
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);

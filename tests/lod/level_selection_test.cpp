@@ -108,6 +108,26 @@ TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
     }
 }
 
+// Coarse samples and the share of the boundary sample are f·N together, whatever λ.
+TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
+    for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
+        for (double lambda = 0; lambda < 5; lambda += 0.00731) {
+            const SampleSplit split = splitSamples(lambda, count, LodMode::continuous);
+            ASSERT_GE(split.boundaryShare, 0);
+            ASSERT_LT(split.boundaryShare, 1);
+            ASSERT_LE(split.coarseCount + (split.boundaryShare > 0 ? 1u : 0u), count);
+            ASSERT_NEAR(split.level + (split.coarseCount + split.boundaryShare) / count, lambda, 1e-12);
+        }
+        const SampleSplit whole = splitSamples(3, count, LodMode::continuous);
+        EXPECT_EQ(whole.level, 3u);
+        EXPECT_EQ(whole.coarseCount, 0u);
+        EXPECT_EQ(whole.boundaryShare, 0);
+        const SampleSplit justBelow = splitSamples(std::nextafter(1.0, 0.0), count, LodMode::continuous);
+        EXPECT_LE(justBelow.coarseCount, count);
+    }
+    EXPECT_EQ(splitSamples(2.3, 64, LodMode::fractional).boundaryShare, 0);
+}
+
 TEST(SplitSamples, OtherModesDrawOneLevel) {
     for (double lambda = 0; lambda < 5; lambda += 0.05) {
         const SampleSplit nearest = splitSamples(lambda, 64, LodMode::nearest);

@@ -48,6 +48,37 @@ TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
         }
 }
 
+// Continuous: the two levels cover all samples and overlap by the boundary sample alone, where there is one.
+TEST(FramePlan, continuousLevelsOverlapByTheBoundarySample) {
+    const auto small = fiveSpheres();
+    int shared = 0;
+    for (const std::uint32_t n : {1u, 2u, 7u, 64u, 100u}) {
+        RenderSettings settings = settingsFor(n);
+        settings.lod = LodMode::continuous;
+        for (const ObjectPlan& object : planFrame(small->world, small->view, settings).objects) {
+            const double fraction = object.lambda - std::floor(object.lambda);
+            const std::optional<std::uint32_t> boundary = boundarySample(object);
+            const double coarse = object.coarse.sampleCount - (boundary ? 1 - object.boundaryShare : 0);
+            EXPECT_NEAR(coarse, fraction * n, 1e-9);
+            EXPECT_EQ(object.coarse.firstSample, 0u);
+            EXPECT_EQ(object.fine.firstSample + object.fine.sampleCount, n);
+            EXPECT_EQ(object.coarse.sampleCount, object.fine.firstSample + (boundary ? 1 : 0));
+            shared += boundary ? 1 : 0;
+        }
+    }
+    EXPECT_GT(shared, 5);
+}
+
+TEST(FramePlan, otherModesHaveNoBoundarySample) {
+    const auto small = fiveSpheres();
+    for (const LodMode mode : {LodMode::fractional, LodMode::nearest, LodMode::off}) {
+        RenderSettings settings = settingsFor(64);
+        settings.lod = mode;
+        for (const ObjectPlan& object : planFrame(small->world, small->view, settings).objects)
+            EXPECT_FALSE(boundarySample(object)) << lodModeName(mode);
+    }
+}
+
 TEST(FramePlan, depthsAndBlurFollowTheFormula) {
     const auto small = fiveSpheres();
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(16));
@@ -172,6 +203,18 @@ TEST(FramePlan, textAndJsonTellTheSame) {
     EXPECT_EQ(json["objects"].size(), plan.objects.size());
     EXPECT_EQ(json["triangles"]["drawn"], plan.trianglesDrawn);
     EXPECT_NEAR(json["objects"][0]["lambda"].get<double>(), plan.objects[0].lambda, 1e-12);
+    EXPECT_FALSE(json["objects"][0].contains("boundaryShare"));
+    RenderSettings continuous = settingsFor(64);
+    continuous.lod = LodMode::continuous;
+    const FramePlan split = planFrame(small->world, small->view, continuous);
+    const auto splitJson = nlohmann::json::parse(planJson(split));
+    EXPECT_EQ(splitJson["lod"]["mode"], "continuous");
+    for (std::size_t i = 0; i < split.objects.size(); ++i) {
+        ASSERT_EQ(splitJson["objects"][i].contains("boundaryShare"), boundarySample(split.objects[i]).has_value());
+        if (boundarySample(split.objects[i])) {
+            EXPECT_DOUBLE_EQ(splitJson["objects"][i]["boundaryShare"].get<double>(), split.objects[i].boundaryShare);
+        }
+    }
     const std::string table = planTable(plan);
     EXPECT_NE(table.find(plan.objects[0].name), std::string::npos);
     EXPECT_NE(table.find("no lens sample can see it"), std::string::npos);

@@ -1,0 +1,186 @@
+// A sample split over its pixels (LodMode::continuous): which pixels, how many, and what they may cost.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "gl/context.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class ScreenDoor : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> ScreenDoor::context_;
+
+RenderSettings settingsFor(std::uint32_t samples) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::continuous;
+    settings.thresholds = {0.5, 2};
+    return settings;
+}
+
+Image renderedPlan(const SmallWorld& small, const FramePlan& plan, RendererOptions options = {}) {
+    if (options.layerFormat == LayerFormat::automatic) options.layerFormat = LayerFormat::rgba32f;
+    const auto renderer = methodNamed("accumulation").make(small.world, options);
+    renderer->start(plan);
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+int sharingObjects(const FramePlan& plan) {
+    return static_cast<int>(std::count_if(plan.objects.begin(), plan.objects.end(),
+                                          [](const ObjectPlan& object) { return boundarySample(object).has_value(); }));
+}
+
+// The only object at levels `level` + 1 and `level`.
+void setSplit(FramePlan& plan, const World& world, std::uint32_t level, std::uint32_t coarseCount, double share) {
+    ObjectPlan& object = plan.objects.at(0);
+    const auto samples = static_cast<std::uint32_t>(plan.samples.size());
+    const auto triangles = [&](std::uint32_t l) { return world.pyramids[0].levels.at(l).triangleCount; };
+    object.coarse = {level + 1, 0, coarseCount + (share > 0 ? 1 : 0), triangles(level + 1)};
+    object.fine = {level, coarseCount, samples - coarseCount, triangles(level)};
+    object.boundaryShare = share;
+    plan.levelsUsed[0].assign(plan.levelsUsed[0].size(), true);
+}
+
+// The nearest of the five spheres by itself, enlarged.
+std::unique_ptr<SmallWorld> oneSphere() {
+    auto small = fiveSpheres();
+    small->world.pose.objects.resize(1);
+    small->world.pose.objects[0].worldFromObject =
+        glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -1.5)), glm::dvec3(0.35));
+    return small;
+}
+
+bool sameBits(const Image& a, const Image& b) {
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
+}
+
+double largestDifference(const Image& a, const Image& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        largest = std::max(largest, std::abs(double(a.pixels[i]) - double(b.pixels[i])));
+    return largest;
+}
+
+TEST_F(ScreenDoor, waveSizeChangesNoBit) {
+    const auto small = fiveSpheres();
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(100));
+    ASSERT_GE(sharingObjects(plan), 2);
+    for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5}) {
+        RendererOptions options;
+        options.layerFormat = format;
+        options.wave = 1;
+        const Image first = renderedPlan(*small, plan, options);
+        for (const std::uint32_t k : {3u, 8u, 64u}) {
+            options.wave = k;
+            EXPECT_TRUE(sameBits(first, renderedPlan(*small, plan, options))) << "K = " << k;
+        }
+    }
+}
+
+// One object whose boundary sample is split: each pixel is that of the split with n coarse samples, or with n + 1.
+TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
+    const auto small = oneSphere();
+    constexpr std::uint32_t samples = 8;
+    const auto split = [&](std::uint32_t coarseCount) {
+        FramePlan plan = planFrame(small->world, small->view, settingsFor(samples));
+        setSplit(plan, small->world, 2, coarseCount, 0);
+        return renderedPlan(*small, plan);
+    };
+    const Image n = split(3);
+    const Image more = split(4);
+    std::vector<bool> coarseBefore(n.pixels.size() / 4, false);
+    for (const double share : {0.1, 0.25, 0.5, 0.75, 0.9}) {
+        FramePlan plan = planFrame(small->world, small->view, settingsFor(samples));
+        setSplit(plan, small->world, 2, 3, share);
+        const Image image = renderedPlan(*small, plan);
+        int differing = 0;
+        int coarse = 0;
+        for (std::size_t i = 0; i < image.pixels.size() / 4; ++i) {
+            const auto same = [&](const Image& a, const Image& b) {
+                return std::memcmp(a.pixels.data() + 4 * i, b.pixels.data() + 4 * i, 4 * sizeof(float)) == 0;
+            };
+            ASSERT_TRUE(same(image, n) || same(image, more)) << "pixel " << i << " at " << share;
+            if (same(n, more)) continue;
+            ++differing;
+            coarse += same(image, more) ? 1 : 0;
+            ASSERT_TRUE(same(image, more) || !coarseBefore[i]) << "a pixel that was coarse stays so";
+            coarseBefore[i] = same(image, more);
+        }
+        ASSERT_GT(differing, 1000);
+        EXPECT_NEAR(static_cast<double>(coarse) / differing, share, 0.02);
+    }
+}
+
+// An object of one colour, on a background of another: no pixel is further from the split with n coarse samples than
+// 1/N of the difference between the two colours.
+TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
+    const auto small = oneSphere();
+    small->scene.materials[0] = unlitMaterial({1, 1, 1, 1});
+    small->scene.meshes[0].vertices.colors.clear();
+    finish(*small);
+    small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
+    for (const std::uint32_t samples : {1u, 8u, 32u}) {
+        FramePlan plan = planFrame(small->world, small->view, settingsFor(samples));
+        const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);  // coarse outlines
+        setSplit(plan, small->world, last, samples / 2, 0);
+        const Image whole = renderedPlan(*small, plan);
+        setSplit(plan, small->world, last, samples / 2, 0.5);
+        const double largest = largestDifference(whole, renderedPlan(*small, plan));
+        EXPECT_LE(largest, 1.0 / samples + 1e-6);
+        EXPECT_GT(largest, 0.9 / samples) << "outlines that don't differ show nothing";
+    }
+}
+
+// A little more of λ changes little: pixels of one sample, as many as the share of it that changes.
+TEST_F(ScreenDoor, changesLittleWithLambda) {
+    const auto small = oneSphere();
+    constexpr std::uint32_t samples = 16;
+    const auto at = [&](double lambda) {
+        FramePlan plan = planFrame(small->world, small->view, settingsFor(samples));
+        const SampleSplit split = splitSamples(lambda, samples, LodMode::continuous);
+        setSplit(plan, small->world, split.level, split.coarseCount, split.boundaryShare);
+        return renderedPlan(*small, plan);
+    };
+    const double pixels = 160.0 * 120;
+    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {  // whole numbers of samples among them
+        const Image below = at(lambda - 1e-4);
+        const Image above = at(lambda + 1e-4);
+        int changed = 0;
+        for (std::size_t i = 0; i < below.pixels.size() / 4; ++i)
+            changed += std::memcmp(below.pixels.data() + 4 * i, above.pixels.data() + 4 * i, 4 * sizeof(float)) != 0;
+        EXPECT_LE(changed, 2 * 2e-4 * samples * pixels + 8) << lambda;
+        EXPECT_LE(largestDifference(below, above), 2.0 / samples);  // radiance of the scene: at most 2
+    }
+}
+
+TEST_F(ScreenDoor, ofBlendedSurfacesLeavesNoHole) {
+    const auto small = oneSphere();
+    small->scene.materials[0] = unlitMaterial({0.2f, 0.6f, 1, 0.5f});
+    small->scene.materials[0].alphaMode = AlphaMode::blend;
+    small->scene.meshes[0].vertices.colors.clear();
+    finish(*small);
+    small->world.environment = {EnvironmentType::uniform, {1, 0, 0}, {}, {}, nullptr, 1};
+    FramePlan plan = planFrame(small->world, small->view, settingsFor(1));
+    setSplit(plan, small->world, 1, 0, 0.4);
+    const Image image = renderedPlan(*small, plan);
+    EXPECT_NEAR(image.at(80, 60)[0], 0.6, 2e-3);  // half of the sphere's, half of the background's, at each pixel
+    for (int y = 50; y < 70; ++y)
+        for (int x = 70; x < 90; ++x)
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(image.at(x, y)[c], image.at(80, 60)[c], 2e-3) << x << ' ' << y;
+}
+
+}  // namespace
+}  // namespace defocus
