@@ -1,14 +1,11 @@
 #pragma once
 // Scenes with closed-form images, and what is measured on them: a small emissive quad on black, through a lens.
-//
-// Second moments. A uniform disk of radius R has a variance of R²/4 an axis; a regular n-gon with circumradius R has
-// R²/12·(2 + cos(2π/n)). A quad of w px adds w²/12, the box filter of the pixel 1/12 (Sheppard's correction).
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 #include <vector>
 
+#include "image/moments.h"
 #include "plan/frame_plan.h"
 #include "render/renderer.h"
 
@@ -106,36 +103,6 @@ inline Image renderedImage(Renderer& renderer, const FramePlan& plan) {
     while (renderer.advance()) {
     }
     return renderer.image();
-}
-
-struct Moments {         // of the first channel
-    double energy = 0;   // sum over pixels
-    glm::dvec2 mean{0};  // px from the top left corner
-    glm::dvec2 variance{0};
-};
-
-inline Moments momentsOf(const Image& image) {
-    Moments moments;
-    glm::dvec2 square(0);
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            const double value = *image.at(x, y);
-            const glm::dvec2 place(x + 0.5, y + 0.5);
-            moments.energy += value;
-            moments.mean += value * place;
-            square += value * place * place;
-        }
-    }
-    moments.mean /= moments.energy;
-    moments.variance = square / moments.energy - moments.mean * moments.mean;
-    return moments;
-}
-
-// The (circum)radius in px of the blur that an image of a quad of `quad` px shows, by its second moment.
-inline double radiusBySecondMoment(const Moments& moments, int bladeCount, double quad) {
-    const double spread = moments.variance.x + moments.variance.y - 2 * (quad * quad + 1) / 12;
-    const double corners = bladeCount == 0 ? 1.0 : std::cos(2 * std::numbers::pi / bladeCount);
-    return std::sqrt(spread * 6 / (2 + corners));
 }
 
 }  // namespace defocus

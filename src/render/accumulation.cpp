@@ -3,27 +3,17 @@
 
 #include "render/accumulation.h"
 
-#include <epoxy/gl.h>
-
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 #include "core/error.h"
-#include "gl/context.h"
-#include "gl/timer.h"
+#include "render/frame_clock.h"
 #include "render/layer_sum.h"
 #include "render/surface_pass.h"
 
 namespace defocus {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // As many layers as the memory allows, at most a block.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, LayerFormat format) {
@@ -39,20 +29,16 @@ public:
     AccumulationRenderer(const World& world, const RendererOptions& options) : options_(options), scene_(world) {}
 
     void start(const FramePlan& plan) override {
-        const Clock::time_point begin = Clock::now();
+        clock_.beginSetup();
         plan_ = plan;
         prepareTarget();
         scene_.prepare(plan_);
         frame_.upload(scene_.world(), plan_, sum_->info().layers);
         surfaces_->prepare(plan_, frame_);
-        glFinish();
-        stats_.setupMilliseconds = millisecondsSince(begin);
-        stats_.renderMilliseconds = 0;
         stats_.trianglesDrawn = 0;
         stats_.peakBytes = std::max<std::uint64_t>(
             stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + sum_->bytes());
-        timer_.reset();
-        frameStart_ = Clock::now();
+        clock_.beginFrame();
     }
 
     bool advance() override {
@@ -60,13 +46,10 @@ public:
         const std::uint32_t total = sampleTotal();
         if (first >= total) return false;
         const std::uint32_t count = std::min({sum_->info().layers, total - first, blockSamples - first % blockSamples});
-        timer_.begin();
+        clock_.beginWave();
         drawWave(first, count);
-        timer_.end();
-        if (first + count == total) {
-            glFinish();
-            stats_.renderMilliseconds = millisecondsSince(frameStart_);
-        }
+        clock_.endWave();
+        if (first + count == total) clock_.endFrame();
         return first + count < total;
     }
 
@@ -79,11 +62,9 @@ public:
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = stats_;
         stats.samples = samples();
-        stats.gpuMilliseconds = timer_.milliseconds();
+        clock_.fill(stats);
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
-        stats.device = currentDevice();
-        stats.driver = currentDriver();
         return stats;
     }
 
@@ -128,9 +109,8 @@ private:
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> surfaces_;
-    mutable GpuTimer timer_;
+    mutable FrameClock clock_;
     RenderStats stats_;
-    Clock::time_point frameStart_;
 };
 
 }  // namespace

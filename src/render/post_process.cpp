@@ -1,23 +1,15 @@
 #include "render/post_process.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 #include "core/error.h"
-#include "gl/context.h"
-#include "gl/timer.h"
+#include "render/frame_clock.h"
 #include "render/layer_sum.h"
 
 namespace defocus {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 class PostProcessRenderer final : public Renderer {
 public:
@@ -25,7 +17,7 @@ public:
         : options_(options), process_(std::move(process)), scene_(world) {}
 
     void start(const FramePlan& plan) override {
-        const Clock::time_point begin = Clock::now();
+        clock_.beginSetup();
         if (plan.needsAlpha)
             fail("post-process methods blur opaque images; give the scene a background or choose accumulation");
         plan_ = pinholePlan(scene_.world(), plan, static_cast<std::uint32_t>(numberOf(options_.settings, "pinholes")));
@@ -34,31 +26,24 @@ public:
         frame_.upload(scene_.world(), plan_, 1);
         pinhole_->prepare(plan_, frame_);
         process_->start(plan_, frame_);
-        glFinish();
-        stats_.setupMilliseconds = millisecondsSince(begin);
-        stats_.renderMilliseconds = 0;
         stats_.trianglesDrawn = 0;
         stats_.peakBytes = std::max<std::uint64_t>(
             stats_.peakBytes, scene_.bytes() + frame_.bytes() + pinhole_->bytes() + process_->bytes() + sum_->bytes());
-        timer_.reset();
-        frameStart_ = Clock::now();
+        clock_.beginFrame();
     }
 
     bool advance() override {
         const std::uint32_t index = sum_->samples();
         const std::uint32_t total = sampleTotal();
         if (index >= total) return false;
-        timer_.begin();
+        clock_.beginWave();
         pinhole_->draw(index);
         sum_->beginWave();
         process_->draw(*pinhole_, frame_, sum_->layers());
         sum_->endWave(frame_, 1);
-        timer_.end();
+        clock_.endWave();
         stats_.trianglesDrawn += plan_.trianglesDrawn / total;
-        if (index + 1 == total) {
-            glFinish();
-            stats_.renderMilliseconds = millisecondsSince(frameStart_);
-        }
+        if (index + 1 == total) clock_.endFrame();
         return index + 1 < total;
     }
 
@@ -71,11 +56,9 @@ public:
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = stats_;
         stats.samples = samples();
-        stats.gpuMilliseconds = timer_.milliseconds();
+        clock_.fill(stats);
         stats.wave = 1;
         stats.layerFormat = layerFormatName(sum_->info().format);
-        stats.device = currentDevice();
-        stats.driver = currentDriver();
         return stats;
     }
 
@@ -102,9 +85,8 @@ private:
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
-    mutable GpuTimer timer_;
+    mutable FrameClock clock_;
     RenderStats stats_;
-    Clock::time_point frameStart_;
 };
 
 }  // namespace

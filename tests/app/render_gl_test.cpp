@@ -69,6 +69,16 @@ TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {
     EXPECT_TRUE(std::get<std::string>(metadata.at("software")).starts_with("defocus "));
 }
 
+TEST_F(Render, methodAndItsSettingsStandInTheMetadata) {
+    ASSERT_EQ(render({"-o", "a.exr", "--method", "circular", "--far-components", "3", "--pinholes", "2"}).exitCode, 0);
+    ASSERT_EQ(render({"-o", "b.exr", "--method", "circular:far-components=3,pinholes=2"}).exitCode, 0);
+    Metadata metadata;
+    const Image a = readImage(folder() / "a.exr", &metadata);
+    EXPECT_EQ(std::get<std::string>(metadata.at("defocus:method")), "circular:far-components=3,pinholes=2");
+    EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 2);
+    EXPECT_EQ(a.pixels, readImage(folder() / "b.exr").pixels);
+}
+
 // OpenEXR: camera space is left-handed and looks along +z; NDC's (0, 0) is the image's upper left corner.
 TEST_F(Render, matricesOfTheMetadataPlaceAPointWhereTheImageShowsIt) {
     ASSERT_EQ(render({"-o", "a.exr", "--aov", "depth"}).exitCode, 0);

@@ -66,6 +66,7 @@ std::unique_ptr<SmallWorld> boards(const std::vector<Board>& list, const glm::ve
     for (const Board& board : list) {
         const int index = static_cast<int>(small->scene.materials.size());
         small->scene.materials.push_back(unlitMaterial(board.color));
+        if (board.color.a < 1) small->scene.materials.back().alphaMode = AlphaMode::blend;
         small->scene.meshes.push_back(quad(index));
         place(*small, index,
               glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(board.centre, -board.depth)),
@@ -161,6 +162,19 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
     const Image sharp = rendered(*small, GetParam());
     const int edge = 48;  // the board ends in the middle
     EXPECT_LT(largestDifference(image, sharp, 0, edge - 1), 2e-3);
+}
+
+TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
+    // A pane in focus before a striped, blurred background: through the pane the stripes stay sharp (Scheuermann's
+    // second pass writes the pane's depth).
+    std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
+    for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
+    const auto small = boards(list, glm::vec3(0.5f));
+    const Image image = rendered(*small, GetParam());
+    small->view.lens.dofEnabled = false;
+    const Image sharp = rendered(*small, GetParam());
+    EXPECT_LT(largestDifference(image, sharp, 12, 46), 2e-3);
+    EXPECT_GT(largestDifference(image, sharp, 52, 90), 0.02);
 }
 
 TEST_P(PostProcesses, brightPixelsLeaveNoHoles) {

@@ -1,0 +1,43 @@
+#include "render/frame_clock.h"
+
+#include <epoxy/gl.h>
+
+#include "gl/context.h"
+
+namespace defocus {
+
+namespace {
+
+double millisecondsSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+}  // namespace
+
+void FrameClock::beginSetup() {
+    setupMilliseconds_ = 0;
+    renderMilliseconds_ = 0;
+    timer_.reset();
+    begin_ = Clock::now();
+}
+
+void FrameClock::beginFrame() {
+    glFinish();
+    setupMilliseconds_ = millisecondsSince(begin_);
+    begin_ = Clock::now();
+}
+
+void FrameClock::endFrame() {
+    glFinish();
+    renderMilliseconds_ = millisecondsSince(begin_);
+}
+
+void FrameClock::fill(RenderStats& stats) {
+    stats.setupMilliseconds = setupMilliseconds_;
+    stats.renderMilliseconds = renderMilliseconds_;
+    stats.gpuMilliseconds = timer_.milliseconds();
+    stats.device = currentDevice();
+    stats.driver = currentDriver();
+}
+
+}  // namespace defocus
