@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "app/bench_commands.h"
 #include "app/command.h"
 #include "app/prepared_frame.h"
 #include "app/scene_options.h"
@@ -120,6 +121,11 @@ void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* bench = program.add_subcommand("bench", "Measure time and image error on this machine");
     bench->require_subcommand(1);
     addSpeedup(*bench, global);
+    addConvergenceCommand(*bench, global);
+    addStabilityCommand(*bench, global);
+    addBenchDiffCommand(*bench);
+    addPoppingCommand(*bench, global);
+    addScalingCommand(*bench, global);
 }
 
 }  // namespace defocus

@@ -1,0 +1,16 @@
+// defocus_bench: the program (src/app/main.cpp) with the Embree ray tracers in its table of methods.
+
+#include "embree/embree_renderer.h"
+
+namespace defocus {
+
+namespace {
+
+[[maybe_unused]] const bool registered = [] {
+    registerEmbree();
+    return true;
+}();
+
+}  // namespace
+
+}  // namespace defocus

@@ -1,0 +1,15 @@
+# Script: writes OUTPUT, a C++ file with the commit that SOURCE is checked out at, unless it says so already. It only reads
+# the repository: no lock is taken from a git that works there.
+execute_process(COMMAND git --no-optional-locks -C "${SOURCE}" rev-parse --short=12 HEAD
+                OUTPUT_VARIABLE COMMIT OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE FAULT)
+if(FAULT)
+    set(COMMIT "")
+else()
+    execute_process(COMMAND git --no-optional-locks -C "${SOURCE}" diff --quiet HEAD ERROR_QUIET RESULT_VARIABLE CHANGED)
+    if(CHANGED)
+        string(APPEND COMMIT "-changed")
+    endif()
+endif()
+set(TEXT "// Generated.\n#include \"app/program_facts.h\"\n\nnamespace defocus {\n\n")
+string(APPEND TEXT "std::string programCommit() {\n    return \"${COMMIT}\";\n}\n\n}  // namespace defocus\n")
+file(CONFIGURE OUTPUT "${OUTPUT}" CONTENT "${TEXT}" @ONLY)

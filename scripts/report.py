@@ -1,0 +1,586 @@
+#!/usr/bin/env python3
+"""Draws the report of `defocus bench convergence` as one index.html that needs nothing else.
+
+    report.py RESULTS [REPORT]
+
+RESULTS holds results.json and the images that it names; index.html goes to REPORT (the same folder, if not given).
+Further sections come from what else lies in REPORT:
+    speedup.csv   of `defocus bench speedup`: speed-up against lens samples (Jeong, Kim and Lee 2011, Figure 2)
+    popping.csv   of `defocus bench popping`: what levels add to each change from frame to frame
+    strips.json   pictures to show side by side: [{"title", "text", "images": [{"label", "file"}]}]
+
+Needs matplotlib and Pillow (Debian: python3-matplotlib). The program carries this script and runs it for --report.
+"""
+
+import base64
+import csv
+import datetime
+import html
+import io
+import json
+import math
+import os
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from PIL import Image
+
+# After Okabe and Ito's palette, told apart with all kinds of colour blindness; darker on white, lighter on black. No line
+# is told by its colour alone: each has a marker and a label of its own.
+PALETTE = [("#0063a8", "#5db1f0"), ("#c24e00", "#ff8a4c"), ("#00805c", "#35cfa1"), ("#a8447f", "#ee9cc8"),
+           ("#8a6000", "#f0c040"), ("#007e8a", "#5fd3df"), ("#5a5a5a", "#b8b8b8")]
+MARKERS = "osD^vPX*<>h"
+# Colours that stand for the page's own while matplotlib draws; no data has them.
+INK, GRID = "#010203", "#010204"
+STAND_INS = [f"#0102{i:02x}" for i in range(0x10, 0x10 + len(PALETTE))]
+
+CROP_WIDTH = 176  # px on the page
+BASELINE = ("accumulation", "lod=off")  # what all else is seen against
+
+
+# ---- data -----------------------------------------------------------------------------------------------------------
+
+
+def label_of(method, setting):
+    """'accumulation', 'lod=fractional metric=size thresholds=2' -> 'accumulation, fractional levels ×2'."""
+    parts = [part.partition("=") for part in setting.split()]
+    values = {name: value for name, _, value in parts if value}
+    words = [method]
+    if values.get("lod") == "off":
+        words.append("full detail")
+    elif "lod" in values:
+        by_error = " by error" if values.get("metric") == "error" else ""
+        words.append(f"{values['lod']} levels{by_error} ×{values.get('thresholds', '1')}")
+    rest = [name + sign + value for name, sign, value in parts if name not in ("lod", "metric", "thresholds", "standard")]
+    return ", ".join(words + [" ".join(rest)] if rest else words)
+
+
+def series_of(rows):
+    """Sound rows by method and setting, in the order in which they come; each gets a colour (by method) and a marker."""
+    series = {}
+    for row in rows:
+        if not row["fault"]:
+            key = (row["method"], row["setting"])
+            series.setdefault(key, {"label": label_of(*key), "method": row["method"], "rows": []})["rows"].append(row)
+    methods = list(dict.fromkeys(one["method"] for one in series.values()))
+    for index, one in enumerate(series.values()):
+        one["rows"].sort(key=lambda row: row["samples"])
+        one["colour"] = STAND_INS[methods.index(one["method"]) % len(STAND_INS)]
+        one["width"] = 1.6
+        one["marker"] = MARKERS[index % len(MARKERS)]
+    if BASELINE in series:
+        series[BASELINE].update(colour=INK, width=2.4)
+    return series
+
+
+def rmse(entry):
+    return math.sqrt(entry["mse"])
+
+
+def flip(entry):
+    return entry["flip"]
+
+
+def number(value, digits):
+    return "∞" if value is None else f"{value:.{digits}f}"
+
+
+def samples_text(row):
+    return f"{row['samples']} {'lens samples' if row['takesLensSamples'] else 'pinholes'}"
+
+
+def time_text(milliseconds):
+    return f"{milliseconds / 1000:.3g} s" if milliseconds >= 1000 else f"{milliseconds:.3g} ms"
+
+
+# ---- plots ----------------------------------------------------------------------------------------------------------
+
+
+def as_svg(figure, name, description):
+    """The figure as SVG inside a page: page colours, ids of its own, a text in its place for those who don't see it."""
+    text = io.StringIO()
+    figure.savefig(text, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
+    plt.close(figure)
+    svg = text.getvalue()
+    svg = svg[svg.index("<svg"):]
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
+    svg = re.sub(r"'DejaVu Sans'[^;\"]*", "system-ui, sans-serif", svg)
+    svg = re.sub(r'\bid="', f'id="{name}-', svg)
+    svg = re.sub(r'(url\(#|href="#)', rf"\g<1>{name}-", svg)
+    svg = svg.replace(INK, "currentColor").replace(GRID, "var(--grid)")
+    for index, stand_in in enumerate(STAND_INS):
+        svg = svg.replace(stand_in, f"var(--c{index})")
+    svg = re.sub(r' (width|height)="[\d.]+pt"', "", svg, count=2)
+    return svg.replace("<svg", f'<svg role="img" aria-label="{html.escape(description)}"', 1)
+
+
+def new_plots(count, right, height):
+    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "defocus", "font.size": 10})
+    figure, columns = plt.subplots(1, count, figsize=(10, height), sharey=True, squeeze=False)
+    figure.subplots_adjust(left=0.085, right=right, top=0.97, bottom=0.11)
+    for axes in columns[0]:
+        for spine in axes.spines.values():
+            spine.set_color(GRID)
+        axes.tick_params(colors=INK, which="both", length=3)
+        axes.grid(True, which="major", color=GRID, linewidth=0.8)
+        axes.set_axisbelow(True)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.label.set_color(INK)
+    return figure, columns[0]
+
+
+def new_plot(right=0.66):
+    figure, columns = new_plots(1, right, 5.6)
+    return figure, columns[0]
+
+
+def logarithmic(axis, text):
+    axis.set_major_locator(LogLocator(base=10, subs=(1, 2, 5), numticks=20))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: text(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def label_beside(axes, ends):
+    """Labels in the right margin with their markers, pushed apart, each led to from where its line ends.
+
+    ends: (x, y, text, colour, marker).
+    """
+    axes.figure.canvas.draw()
+    box = axes.get_window_extent()
+    step = 15.0
+    placed = sorted(((axes.transData.transform(end[:2])[1], *end) for end in ends), key=lambda end: end[0])
+    heights = []
+    for height, *_ in placed:
+        heights.append(max(height, heights[-1] + step) if heights else height)
+    overflow = max(0.0, heights[-1] - box.y1) if heights else 0.0
+    for i in range(len(heights) - 1, -1, -1):  # and down again from the top
+        limit = (box.y1 if i + 1 == len(heights) else heights[i + 1] - step) if overflow else heights[i]
+        heights[i] = min(heights[i], limit)
+    for (_, x, y, text, colour, marker), height in zip(placed, heights):
+        share = (height - box.y0) / box.height
+        axes.annotate("", xy=(x, y), xycoords="data", xytext=(1.04, share), textcoords="axes fraction",
+                      annotation_clip=False, arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.7,
+                                                         "linestyle": ":", "shrinkA": 4, "shrinkB": 4})
+        axes.plot([1.04], [share], marker, color=colour, markersize=6, transform=axes.transAxes, clip_on=False)
+        axes.annotate(text, (1.06, share), xycoords="axes fraction", color=colour, va="center", fontsize=9.5,
+                      annotation_clip=False)
+
+
+def draw_front(axes, rows, error_of):
+    front = sorted((row["milliseconds"]["median"], error_of(row)) for row in rows)
+    if front:
+        axes.step(*zip(*front), where="post", color=INK, linewidth=0.8, alpha=0.55, zorder=1)
+        axes.plot(*zip(*front), "o", markersize=12, markerfacecolor="none", markeredgecolor=INK, markeredgewidth=0.9,
+                  zorder=4)
+
+
+def draw_counts(axes, rows, error_of):
+    for row in rows:
+        axes.annotate(str(row["samples"]), (row["milliseconds"]["median"], error_of(row)), textcoords="offset points",
+                      xytext=(0, 9), ha="center", fontsize=8.5, color=INK)
+
+
+def error_plot(results, series, error_of, name, axis_label, front_key):
+    figure, axes = new_plot()
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    own_error = error_of(results["reference"]["remaining"])
+    floors = {(f["method"], f["setting"]): error_of(f) for f in results["biasFloors"]}
+    points = [(row, one) for one in series.values() for row in one["rows"] if error_of(row) > 0]
+    errors = [error_of(row) for row, _ in points] + [value for value in floors.values() if value > 0]
+    if own_error > 0:
+        errors.append(own_error)
+    axes.set_ylim(min(errors) / 1.6, max(errors) * 1.6)
+    most = max(row["milliseconds"]["high"] for row, _ in points)
+    axes.set_xlim(min(row["milliseconds"]["low"] for row, _ in points) / 1.4, most * 1.6)
+
+    ends = []
+    described = []
+    for key, one in series.items():
+        rows = [row for row in one["rows"] if error_of(row) > 0]
+        if not rows:
+            continue
+        times = [row["milliseconds"]["median"] for row in rows]
+        values = [error_of(row) for row in rows]
+        spread = [[row["milliseconds"]["median"] - row["milliseconds"]["low"] for row in rows],
+                  [row["milliseconds"]["high"] - row["milliseconds"]["median"] for row in rows]]
+        axes.errorbar(times, values, xerr=spread, color=one["colour"], marker=one["marker"], markersize=6,
+                      linewidth=one["width"], elinewidth=0.9, zorder=3)
+        end = (times[-1], values[-1])
+        if floors.get(key, 0) > 0:
+            axes.plot([times[-1], most * 1.6], [floors[key]] * 2, "--", color=one["colour"], linewidth=1.3, zorder=2)
+            end = (most * 1.6, floors[key])
+        ends.append((*end, one["label"], one["colour"], one["marker"]))
+        described.append(f"{one['label']}: {values[0]:.3g} in {time_text(times[0])}"
+                         + (f" to {values[-1]:.3g} in {time_text(times[-1])}" if len(rows) > 1 else ""))
+    draw_front(axes, [row for row, _ in points if row[front_key]], error_of)
+    if BASELINE in series:
+        draw_counts(axes, series[BASELINE]["rows"], error_of)
+    if own_error > 0:
+        axes.axhspan(axes.get_ylim()[0], own_error, facecolor=GRID, alpha=0.45, zorder=0)
+        axes.axhline(own_error, color=INK, linewidth=1, linestyle=(0, (1, 2)))
+        axes.annotate("below this line: the reference's own error", (0.01, own_error), fontsize=9, color=INK,
+                      xycoords=("axes fraction", "data"), textcoords="offset points", xytext=(0, -11))
+    logarithmic(axes.xaxis, time_text)
+    logarithmic(axes.yaxis, lambda value: f"{value:g}")
+    axes.set_xlabel("a frame, wall clock (median; bars: 10 to 90 % of the runs)")
+    axes.set_ylabel(axis_label)
+    label_beside(axes, ends)
+    return as_svg(figure, name, f"{axis_label} against the time of a frame, both logarithmic. " + "; ".join(described))
+
+
+def speedup_plot(path):
+    """Speed-up against lens samples; None where the file has no such rows."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row.get("sweep") == "samples"]
+    names = {"off": "full detail", "nearest": "nearest level", "fractional": "fractional levels"}
+    figure, axes = new_plot(right=0.8)
+    axes.set_xscale("log", base=2)
+    ends = []
+    described = []
+    for index, (mode, label) in enumerate(names.items()):
+        points = sorted((int(row["samples"]), float(row["speedUp"])) for row in rows if row["lod"] == mode)
+        if not points:
+            continue
+        axes.plot(*zip(*points), color=STAND_INS[index], marker=MARKERS[index], markersize=6, linewidth=1.6)
+        ends.append((*points[-1], label, STAND_INS[index], MARKERS[index]))
+        described.append(f"{label}: {points[0][1]:.2f} at {points[0][0]} samples, {points[-1][1]:.2f} at {points[-1][0]}")
+    if not ends:
+        plt.close(figure)
+        return None
+    axes.set_ylim(0, None)
+    axes.set_xticks(sorted({int(row["samples"]) for row in rows}))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_xlabel("lens samples")
+    axes.set_ylabel("times as fast as full detail")
+    label_beside(axes, ends)
+    return as_svg(figure, "speedup", "Speed-up against lens samples. " + "; ".join(described))
+
+
+def popping_plot(path):
+    """The levels' pops frame by frame, at the most samples, a movement beside the other; None without rows."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    if not rows:
+        return None
+    most = max(int(row["samples"]) for row in rows)
+    rows = [row for row in rows if int(row["samples"]) == most]
+    movements = list(dict.fromkeys(row["movement"] for row in rows))
+    names = {"nearest": "nearest level", "fractional": "fractional levels", "continuous": "continuous levels"}
+    figure, columns = new_plots(len(movements), 0.8, 4.2)
+    figure.subplots_adjust(top=0.92, bottom=0.14, wspace=0.06)
+    described = []
+    for axes, movement in zip(columns, movements):
+        axes.set_title(movement, color=INK, fontsize=10)
+        axes.set_xlabel("frame")
+        ends = []
+        for index, (mode, label) in enumerate(names.items()):
+            points = sorted((int(row["frame"]), float(row["stepRmse"])) for row in rows
+                            if row["movement"] == movement and row["lod"] == mode)
+            if not points:
+                continue
+            axes.plot(*zip(*points), color=STAND_INS[index], marker=MARKERS[index], markersize=3.5, linewidth=1.2)
+            ends.append((*points[-1], label, STAND_INS[index], MARKERS[index]))
+            described.append(f"{movement}, {label}: at most {max(value for _, value in points):.3g}")
+    columns[0].set_ylim(0, None)
+    columns[0].set_ylabel("RMSE of the pop, objects' pixels")
+    label_beside(columns[-1], ends)
+    return as_svg(figure, "popping", f"Pops frame by frame at {most} lens samples. " + "; ".join(described))
+
+
+# ---- pictures -------------------------------------------------------------------------------------------------------
+
+
+def data_uri(image, as_jpeg=False):
+    data = io.BytesIO()
+    if as_jpeg:
+        image.convert("RGB").save(data, "JPEG", quality=88)
+    else:
+        image.save(data, "PNG", optimize=True)
+    kind = "jpeg" if as_jpeg else "png"
+    return f"data:image/{kind};base64," + base64.b64encode(data.getvalue()).decode()
+
+
+def crop_of(folder, file, crop):
+    """The part of a picture as a data URI; None where the picture is gone."""
+    try:
+        with Image.open(folder / file) as image:
+            x, y = crop["x"], crop["y"]
+            return data_uri(image.convert("RGB").crop((x, y, x + crop["width"], y + crop["height"])))
+    except OSError:
+        return None
+
+
+def picture(uri, alternative):
+    if uri is None:
+        return '<div class="gone">no picture</div>'
+    return f'<img src="{uri}" width="{CROP_WIDTH}" alt="{html.escape(alternative)}">'
+
+
+def common_time(series):
+    """A time that all methods with several numbers of samples come near to: the middle of what they share, else of all."""
+    several = [[row["milliseconds"]["median"] for row in one["rows"]] for one in series.values() if len(one["rows"]) > 1]
+    if not several:
+        several = [[row["milliseconds"]["median"] for row in one["rows"]] for one in series.values()]
+    low, high = max(map(min, several)), min(map(max, several))
+    if low > high:
+        times = sorted(time for times in several for time in times)
+        return times[len(times) // 2]
+    return math.sqrt(low * high)
+
+
+def nearest_row(rows, time):
+    return min(rows, key=lambda row: abs(math.log(max(row["milliseconds"]["median"], 1e-6) / time)))
+
+
+def crop_strip(results, series, folder, crop, time):
+    reference = picture(crop_of(folder, results["reference"]["image"], crop), f"reference, {crop['title']}")
+    cells = [f'<figure class="crop">{reference}<figcaption><b>reference</b><br>{results["reference"]["samples"]} lens '
+             'samples at full detail</figcaption></figure>']
+    for one in series.values():
+        row = nearest_row(one["rows"], time)
+        what = f"{one['label']}, {samples_text(row)}"
+        image = picture(crop_of(folder, row["image"], crop), f"{what}, {crop['title']}")
+        error = picture(crop_of(folder, row["errorMap"], crop), f"FLIP error of {what}: mean {row['flip']:.4f}")
+        cells.append(f'<figure class="crop">{image}{error}<figcaption><b>{html.escape(one["label"])}</b><br>'
+                     f'{samples_text(row)}, {time_text(row["milliseconds"]["median"])}<br>'
+                     f'RMSE {rmse(row):.4f}<br>FLIP {row["flip"]:.4f}</figcaption></figure>')
+    title = html.escape(crop["title"][:1].upper() + crop["title"][1:])
+    return f'<h3>{title}</h3><div class="strip">{"".join(cells)}</div>'
+
+
+def overview(results, folder):
+    """The reference with the crops framed."""
+    try:
+        with Image.open(folder / results["reference"]["image"]) as image:
+            uri = data_uri(image, as_jpeg=True)
+    except OSError:
+        return ""
+    width, height = results["width"], results["height"]
+    frames = "".join(f'<rect x="{c["x"]}" y="{c["y"]}" width="{c["width"]}" height="{c["height"]}"/>'
+                     for c in results["crops"])
+    numbers = "".join(f'<text x="{c["x"] + 0.012 * width}" y="{c["y"] + 0.042 * width}">{i}</text>'
+                      for i, c in enumerate(results["crops"], 1))
+    names = html.escape("; ".join(f"{i}: {c['title']}" for i, c in enumerate(results["crops"], 1)))
+    return (f'<figure class="overview"><svg viewBox="0 0 {width} {height}" role="img"><title>The reference; framed: '
+            f'{names}</title><image href="{uri}" width="{width}" height="{height}"/>'
+            f'<g fill="none" stroke="#fff" stroke-width="{width / 256}">{frames}</g>'
+            f'<g fill="#fff" stroke="#000" stroke-width="{width / 128}" paint-order="stroke" font-size="{0.04 * width}">'
+            f'{numbers}</g></svg><figcaption>The reference. Framed: {names}.</figcaption></figure>')
+
+
+def strips_section(folder):
+    try:
+        strips = json.loads((folder / "strips.json").read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return ""
+    parts = ["<h2>Known artefacts</h2>"]
+    for strip in strips:
+        cells = []
+        for entry in strip["images"]:
+            with Image.open(folder / entry["file"]) as image:
+                uri = data_uri(image)
+                size = f'width="{image.width}" height="{image.height}"'
+            label = html.escape(entry["label"])
+            cells.append(f'<figure class="wide"><img src="{uri}" {size} alt="{html.escape(strip["title"])}: {label}">'
+                         f"<figcaption>{label}</figcaption></figure>")
+        parts.append(f'<h3>{html.escape(strip["title"])}</h3><p>{html.escape(strip["text"])}</p>'
+                     f'<div class="strip">{"".join(cells)}</div>')
+    return "".join(parts)
+
+
+# ---- tables ---------------------------------------------------------------------------------------------------------
+
+
+def table(header, rows, left=1):
+    """`left`: how many columns hold text."""
+    head = "".join(f'<th scope="col">{cell}</th>' for cell in header)
+    lines = []
+    for row in rows:
+        cells = [f'<th scope="row">{row[0]}</th>']
+        cells += [f'<td{" class=text" if i < left else ""}>{cell}</td>' for i, cell in enumerate(row[1:], 1)]
+        lines.append(f"<tr>{''.join(cells)}</tr>")
+    return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{"".join(lines)}</tbody></table></div>'
+
+
+def front_text(row):
+    words = []
+    if row["front"]:
+        words.append("all")
+    elif row["frontOfMethod"]:
+        words.append("method")
+    if row["frontByFlip"]:
+        words.append("FLIP")
+    return ", ".join(words)
+
+
+def rows_table(rows):
+    header = ["method, setting", "lens samples (or pinholes)", "frame, ms", "10–90 %, ms", "runs", "set-up, ms", "pyramids, ms",
+              "RMSE", "PSNR, dB", "SSIM", "FLIP", "bias, PSNR dB", "triangles, millions", "peak, MiB", "on the front of"]
+    lines = []
+    for row in sorted(rows, key=lambda row: (row["method"], row["setting"], row["samples"])):
+        time = row["milliseconds"]
+        lines.append([
+            html.escape(label_of(row["method"], row["setting"])), row["samples"], f"{time['median']:.1f}",
+            f"{time['low']:.1f}–{time['high']:.1f}", row["runs"], f"{row['setupMilliseconds']['median']:.0f}",
+            f"{row['pyramidMilliseconds']:.0f}", f"{rmse(row):.5f}", number(row["psnr"], 2), f"{row['ssim']:.4f}",
+            f"{row['flip']:.4f}", number(row["bias"]["psnr"], 2) if row["bias"] else "", f"{row['triangles'] / 1e6:.2f}",
+            f"{row['peakBytes'] / 2**20:.0f}", f"<b>{html.escape(row['fault'])}</b>" if row["fault"] else front_text(row)])
+    return table(header, lines)
+
+
+def floors_table(results):
+    lines = [[html.escape(label_of(f["method"], f["setting"])), f["samples"], f"{rmse(f):.5f}", number(f["psnr"], 2),
+              f"{f['ssim']:.4f}", f"{f['flip']:.4f}"] for f in results["biasFloors"]]
+    return table(["method, setting", "at lens samples", "RMSE", "PSNR, dB", "SSIM", "FLIP"], lines) if lines else ""
+
+
+def subject_table(results):
+    lens, machine, reference = results["lens"], results["machine"], results["reference"]
+    remaining = reference["remaining"]
+    lens_text = (f"{lens['focalLength']:g} mm, f/{lens['fStop']:g}, focused at {lens['focusDistance']:g} m"
+                 if lens["focusDistance"] else f"{lens['focalLength']:g} mm, f/{lens['fStop']:g}, focused at infinity")
+    lines = [
+        ["scene", f"{results['scene']}; camera “{results['camera']}”, {lens_text}; {results['width']} × {results['height']} px"],
+        ["reference", f"{reference['samples']} lens samples at full detail from number {reference['firstSample']} of their "
+                      f"sequence on, 32-bit layers; hash {reference['hash']}; {reference['milliseconds'] / 1000:.1f} s"
+                      f"{', kept from an earlier run' if reference['reused'] else ''}. Its own remaining error, from its two "
+                      f"halves: RMSE {rmse(remaining):.5f}, PSNR {number(remaining['psnr'], 2)} dB, FLIP {remaining['flip']:.4f}"],
+        ["errors", results["errorsMeasuredOn"]],
+        ["held equal", results["heldEqual"]],
+        ["runs", f"{results['runs']} of each; medians"],
+        ["program", f"{results['program']}, commit {results['commit'] or 'unknown'}"],
+        ["device", f"{results['device']}; driver {results['driver']}"],
+        ["machine", f"{machine['processor'] or 'unknown processor'}, {machine['threads']} threads, "
+                    f"{machine['memoryBytes'] / 2**30:.1f} GiB; {machine['system']}"],
+    ]
+    rows = "".join(f'<tr><th scope="row">{name}</th><td class="text">{html.escape(text)}</td></tr>' for name, text in lines)
+    commands = "".join(f"<pre>{html.escape(command)}</pre>" for command in results["commands"])
+    return (f'<table class="facts"><tbody>{rows}<tr><th scope="row">commands</th><td class="text">{commands}</td></tr>'
+            "</tbody></table>")
+
+
+# ---- page -----------------------------------------------------------------------------------------------------------
+
+
+def style():
+    light = "".join(f"--c{i}:{pair[0]};" for i, pair in enumerate(PALETTE))
+    dark = "".join(f"--c{i}:{pair[1]};" for i, pair in enumerate(PALETTE))
+    return f"""
+:root {{ color-scheme: light dark; --page:#fff; --ink:#1c1e21; --soft:#565b62; --grid:#d8dce1; --band:#f4f5f7; {light} }}
+@media (prefers-color-scheme: dark) {{
+  :root {{ --page:#15171a; --ink:#e9ebee; --soft:#a8aeb6; --grid:#3a3f46; --band:#1e2125; {dark} }}
+}}
+* {{ box-sizing: border-box; }}
+body {{ margin: 0 auto; padding: 2rem 1.5rem 4rem; max-width: 74rem; background: var(--page); color: var(--ink);
+  font: 16px/1.5 system-ui, sans-serif; }}
+h1 {{ margin: 0; font-size: 1.9rem; line-height: 1.2; }}
+h2 {{ margin: 3rem 0 .6rem; font-size: 1.35rem; }}
+h3 {{ margin: 1.6rem 0 .5rem; font-size: 1.05rem; }}
+p {{ max-width: 46rem; }}
+.lead, figcaption {{ color: var(--soft); }}
+figure {{ margin: 0; }}
+figure.plot {{ overflow-x: auto; }}
+figure.plot svg {{ width: 100%; min-width: 44rem; height: auto; display: block; }}
+figcaption {{ font-size: .85rem; line-height: 1.35; }}
+figure.plot figcaption {{ max-width: 46rem; margin-top: .4rem; }}
+figure.overview svg {{ width: 100%; max-width: 40rem; height: auto; display: block; }}
+.strip {{ display: flex; flex-wrap: wrap; gap: 1.1rem .9rem; }}
+.crop {{ width: {CROP_WIDTH}px; }}
+.crop img, .gone {{ display: block; width: {CROP_WIDTH}px; image-rendering: pixelated; margin-bottom: 3px; }}
+.gone {{ height: 4rem; background: var(--band); text-align: center; padding-top: 1.2rem; }}
+.wide img {{ display: block; max-width: 100%; height: auto; margin-bottom: 3px; }}
+.scroll {{ overflow-x: auto; }}
+table {{ border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }}
+th, td {{ padding: .28rem .6rem; text-align: right; border-bottom: 1px solid var(--grid); vertical-align: top; }}
+thead th {{ vertical-align: bottom; background: var(--band); }}
+th:first-child, td.text {{ text-align: left; }}
+tbody th {{ font-weight: normal; }}
+tbody th, .scroll td {{ white-space: nowrap; }}
+.facts th {{ color: var(--soft); }}
+pre {{ margin: 0 0 .3rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; }}
+"""
+
+
+def page(results, series, folder, extra):
+    time = common_time(series)
+    own = results["reference"]["remaining"]
+    parts = [
+        f'<h1>Error against run time</h1><p class="lead">{html.escape(results["scene"])}, {results["width"]} × '
+        f'{results["height"]} px, {html.escape(results["device"])}; drawn {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC</p>',
+        '<p>Each line is a method with one setting; along it the number of lens samples grows. Rings: no other row is both '
+        'as fast and as close (the Pareto front). A dashed line at the right is a bias floor: however many more lens samples '
+        'these thresholds get, the image comes no closer to full detail. Numbers: lens samples of accumulation at full '
+        f'detail. Nothing can be read below the reference’s own error (RMSE {rmse(own):.5f}, FLIP {own["flip"]:.4f}).</p>',
+        "<h2>RMSE</h2>", f'<figure class="plot">{error_plot(results, series, rmse, "rmse", "RMSE from the reference", "front")}'
+        "<figcaption>Root mean square difference on display-encoded values. Set-up is not in these times: see the table."
+        "</figcaption></figure>",
+        "<h2>FLIP</h2>", f'<figure class="plot">{error_plot(results, series, flip, "flip", "mean FLIP from the reference", "frontByFlip")}'
+        "<figcaption>FLIP weighs what a person sees when the two images alternate: ghosts and bands that RMSE hides."
+        "</figcaption></figure>",
+    ]
+    if (extra / "speedup.csv").exists() and (plot := speedup_plot(extra / "speedup.csv")):
+        parts.append(f'<h2>Speed-up</h2><figure class="plot">{plot}<figcaption>Frame time at full detail over frame time '
+                     "with levels, at the same lens samples (speedup.csv; Figure 2 of Jeong, Kim and Lee 2011)."
+                     "</figcaption></figure>")
+    if (extra / "popping.csv").exists() and (plot := popping_plot(extra / "popping.csv")):
+        parts.append(f'<h2>Popping</h2><figure class="plot">{plot}<figcaption>What the change of levels alone adds to '
+                     "each frame of a movement: the frame against the same view at the levels of the frame before, on "
+                     "display-encoded values (popping.csv).</figcaption></figure>")
+    parts += ["<h2>Pictures at about equal time</h2>",
+              f"<p>Of each line the frame nearest to {time_text(time)}; below it FLIP, from 0 (black) to "
+              f"{results['errorMapFullScale']:g} and more (pale yellow).</p>",
+              overview(results, folder)]
+    parts += [crop_strip(results, series, folder, crop, time) for crop in results["crops"]]
+    parts += [strips_section(extra), "<h2>Bias floors</h2>",
+              "<p>The difference between the image with levels and the one at full detail, at the same lens samples, so that "
+              "sampling noise cancels; at the largest number measured. The standard thresholds shrink as samples grow, so "
+              "that the floor sinks with them; with these thresholds held, it stays.</p>",
+              floors_table(results) or "<p>No levels were measured.</p>",
+              "<h2>All rows</h2>", rows_table(results["rows"]),
+              "<p>Set-up is what a renderer takes before its first frame; pyramids are simplified once for a scene and kept "
+              "on disk by other commands. Neither is part of a frame’s time. Bias: difference from full detail at the same "
+              "lens samples.</p>"]
+    if results["leftOut"]:
+        entries = "".join(f"<li>{html.escape(label_of(e['method'], e['setting']))}: {html.escape(e['reason'])}</li>"
+                          for e in results["leftOut"])
+        parts.append(f"<h2>Left out</h2><ul>{entries}</ul>")
+    parts += ["<h2>How it was measured</h2>", subject_table(results)]
+    return (f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
+            f'content="width=device-width, initial-scale=1"><title>defocus: error against run time</title>'
+            f"<style>{style()}</style></head><body><main>{''.join(parts)}</main></body></html>\n")
+
+
+def write_whole(path, text):
+    """The file appears whole or not at all."""
+    with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, prefix=".", delete=False) as file:
+        file.write(text)
+    os.chmod(file.name, 0o644)
+    os.replace(file.name, path)
+
+
+def main(arguments):
+    if len(arguments) not in (1, 2):
+        sys.exit("usage: report.py RESULTS [REPORT]")
+    folder = Path(arguments[0])
+    report = Path(arguments[-1])
+    try:
+        results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError) as fault:
+        sys.exit(f"report.py: {folder / 'results.json'}: {fault}")
+    series = series_of(results["rows"])
+    if not series:
+        sys.exit(f"report.py: {folder / 'results.json'}: holds no rows")
+    write_whole(report / "index.html", page(results, series, folder, report))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

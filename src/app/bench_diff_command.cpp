@@ -1,0 +1,49 @@
+// defocus bench diff: two results of one bench.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "app/bench_commands.h"
+#include "core/file.h"
+#include "eval/bench_diff.h"
+
+namespace defocus {
+
+namespace {
+
+struct DiffArguments {
+    std::filesystem::path before;
+    std::filesystem::path after;
+};
+
+BenchResults resultsIn(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = readFile(path);
+    return parseBenchResults({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
+}
+
+}  // namespace
+
+void addBenchDiffCommand(CLI::App& bench) {
+    auto arguments = std::make_shared<DiffArguments>();
+    CLI::App* command =
+        bench.add_subcommand("diff", "Compare two results of one bench: which times and errors changed");
+    command->add_option("OLD", arguments->before, "results.json, results.csv, speedup.json or speedup.csv")
+        ->type_name("FILE")
+        ->required();
+    command->add_option("NEW", arguments->after, "The same of another run")->type_name("FILE")->required();
+    command->footer(
+        "A time counts as changed where the two spreads (10th to 90th percentile of the runs) share no value.\n\n"
+        "Example:\n"
+        "  defocus bench diff before/results.json after/results.json");
+    command->callback([arguments] {
+        const BenchResults before = resultsIn(arguments->before);
+        const BenchResults after = resultsIn(arguments->after);
+        fmt::print("{}", benchDifferenceTable(before, after));
+    });
+}
+
+}  // namespace defocus

@@ -1,0 +1,126 @@
+// defocus bench popping: what levels of detail add to the change from frame to frame.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "app/bench_commands.h"
+#include "app/option_text.h"
+#include "app/prepared_frame.h"
+#include "app/scene_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "eval/popping_text.h"
+#include "gl/context.h"
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PoppingArguments {
+    SceneOptions scene;
+    PoppingOptions options;
+    fs::path folder;  // empty: only the table
+};
+
+void makeFolder(const fs::path& folder) {
+    if (folder.empty()) return;
+    std::error_code fault;
+    fs::create_directories(folder, fault);
+    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+    for (const char* name : {"popping.csv", "popping.json"}) checkWritable(folder / name);
+}
+
+void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) {
+    if (arguments.options.frames > arguments.options.pathFrames)
+        fail("--frames {}: the whole movement has {} (--path-frames)", arguments.options.frames,
+             arguments.options.pathFrames);
+    makeFolder(arguments.folder);
+    Progress progress = terminalProgress(global);
+    PreparedFrame frame = placeFrame(arguments.scene, progress);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    addPyramids(frame, progress);
+    printCacheUse(frame, global);
+
+    PoppingOptions options = arguments.options;
+    options.plan = frame.settings;
+    options.renderer.layerFormat = arguments.scene.layerFormat;
+    options.renderer.wave = arguments.scene.wave;
+    options.renderer.shaderFolder = global.shaderDir;
+    const BenchSubject subject{"defocus " + programVersion(), frame.sceneName,  context->device(), context->driver(),
+                               context->software(),           frame.view.width, frame.view.height, 1,
+                               frame.pyramidMilliseconds};
+    fmt::print("{}, {} x {} px, {} of {} frames of each movement, on {}\n\n", subject.scene, subject.width,
+               subject.height, options.frames, options.pathFrames, subject.device);
+
+    // Whatever is measured is kept as it comes: a run that is cut off loses little.
+    std::vector<PoppingFrame> frames;
+    std::vector<SampleStep> steps;
+    const auto write = [&] {
+        std::fflush(stdout);
+        if (arguments.folder.empty()) return;
+        writeFile(arguments.folder / "popping.csv", poppingCsv(frames));
+        writeFile(arguments.folder / "popping.json", poppingJson(frames, steps, subject, options));
+    };
+    bool hasHeader = false;
+    PoppingVisitor visitor;
+    visitor.sampleStep = [&](const SampleStep& step) {
+        steps.push_back(step);
+        fmt::print("{}", sampleStepLine(step));
+        write();
+    };
+    visitor.frames = [&](std::span<const PoppingFrame> added) {
+        if (!hasHeader) fmt::print("{}{}", steps.empty() ? "" : "\n", poppingHeader());
+        hasHeader = true;
+        frames.insert(frames.end(), added.begin(), added.end());
+        for (const PoppingRow& row : poppingRows(added)) fmt::print("{}", poppingLine(row));
+        write();
+    };
+    measurePopping(frame.world, frame.view, options, visitor, progress);
+    fmt::print("{}", poppingSummary(poppingRows(frames)));
+}
+
+}  // namespace
+
+void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<PoppingArguments>();
+    arguments->scene.width = 320;
+    arguments->scene.height = 240;
+    CLI::App* command = bench.add_subcommand(
+        "popping", "A focus pull, a dolly and a turntable: what levels add to the change from frame to frame");
+    addSceneOptions(*command, arguments->scene);
+    // What the bench goes through by itself.
+    for (const char* name : {"--samples", "--lod", "--blur-threshold", "--size-threshold", "--method"})
+        command->remove_option(command->get_option(name));
+    const char* group = "Measurement";
+    PoppingOptions& options = arguments->options;
+    command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 4096))
+        ->type_name("N,N,…")
+        ->default_str("8,16,32")
+        ->group(group);
+    addWhole(*command, "--frames", options.frames, 2, 10'000,
+             "Frames of each movement: the stretch of it over which levels change most often")
+        ->group(group);
+    addWhole(*command, "--path-frames", options.pathFrames, 2, 100'000,
+             "Frames that a whole movement takes (focus from the nearest to the farthest object, dolly over half the "
+             "focus distance, once around): its speed")
+        ->group(group);
+    command->add_option("-o,--output", arguments->folder, "Folder for popping.csv and popping.json")
+        ->type_name("FOLDER")
+        ->group("Output");
+    command->footer(
+        "Examples:\n"
+        "  defocus bench popping --fish 6 --fish-triangles 20000 -o popping\n"
+        "  defocus bench popping scene.glb --counts 32 --frames 96 --path-frames 96");
+    command->callback([arguments, &global] { runPopping(*arguments, global); });
+}
+
+}  // namespace defocus

@@ -1,0 +1,53 @@
+#include "app/bench_report.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+// A python3 from elsewhere may come first on the path, without Debian's packages.
+constexpr const char* interpreters[] = {"python3", "/usr/bin/python3"};
+
+// The exit code of `words`, found on the path and run to its end; -1 where it can't be run. What it prints goes to
+// stderr, or nowhere.
+int exitCodeOf(std::vector<std::string> words, bool silent) {
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    const pid_t child = ::fork();
+    if (child < 0) return -1;
+    if (child == 0) {
+        const int nowhere = silent ? ::open("/dev/null", O_WRONLY) : -1;
+        ::dup2(silent ? nowhere : STDERR_FILENO, STDOUT_FILENO);
+        if (silent) ::dup2(nowhere, STDERR_FILENO);
+        ::execvp(pointers[0], pointers.data());
+        ::_exit(127);
+    }
+    int status = 0;
+    if (::waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
+    return WEXITSTATUS(status);
+}
+
+}  // namespace
+
+bool writeReport(const std::filesystem::path& results, const std::filesystem::path& report) {
+    for (const char* python : interpreters) {
+        if (exitCodeOf({python, "-c", "import matplotlib.pyplot, PIL"}, true) != 0) continue;
+        const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()}, false);
+        if (code != 0)
+            fail("{}: the report could not be drawn (exit code {} of its script); results.csv stands on its own",
+                 (report / "index.html").string(), code);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace defocus

@@ -1,0 +1,83 @@
+#include "eval/board_scene.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace defocus {
+
+namespace {
+
+Mesh boardMesh(int material) {
+    Mesh mesh;
+    mesh.name = "board";
+    mesh.vertices.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh.vertices.normals.assign(4, {0, 0, 1});
+    mesh.primitives.push_back({material, {0, 1, 2, 0, 2, 3}});
+    return mesh;
+}
+
+Material boardMaterial(const glm::vec3& radiance) {
+    Material material;
+    material.baseColorFactor = glm::vec4(radiance, 1);
+    material.unlit = true;
+    return material;
+}
+
+}  // namespace
+
+View boardView(int width, int height) {
+    View view;
+    view.lens.fStop = 1;
+    view.lens.focusDistance = 2;
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+BoardScene::BoardScene(const View& boardsView, const std::vector<Board>& boards, const glm::vec3& background)
+    : view(boardsView) {
+    for (const Board& board : boards) {
+        const int index = static_cast<int>(scene.meshes.size());
+        scene.materials.push_back(boardMaterial(board.radiance));
+        scene.meshes.push_back(boardMesh(index));
+        Object object;
+        object.mesh = index;
+        object.name = "board";
+        object.worldFromObject = glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(board.centre, -board.depth)),
+                                            glm::dvec3(board.halfSize, 1));
+        world.pose.objects.push_back(object);
+    }
+    world.scene = &scene;
+    world.pyramids = buildPyramids(scene.meshes);
+    world.environment = {EnvironmentType::uniform, background, background, background, nullptr, 1};
+    settings.lod = LodMode::off;
+    settings.keepAll = true;
+}
+
+Image rendered(const BoardScene& boards, const std::string& method, const RendererOptions& options) {
+    const MethodUse use = parseMethodUse(method);
+    RendererOptions complete = options;
+    complete.settings = use.settings;
+    const auto renderer = use.method->make(boards.world, complete);
+    renderer->start(planFrame(boards.world, boards.view, boards.settings));
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance, const glm::dvec2& offset) {
+    const double pixel = view.lens.horizontalAperture / view.lens.focalLength * depth / view.width;  // m
+    return {depth, pixel * offset, glm::dvec2(0.5 * pixels * pixel), radiance};
+}
+
+double blurDiameter(const View& view, double depth) {
+    const double aperture = view.lens.blurScale * view.lens.focalLength / (1000 * view.lens.fStop);
+    return aperture * std::abs(1 / view.lens.focusDistance - 1 / depth) * view.width * view.lens.focalLength /
+           view.lens.horizontalAperture;
+}
+
+void setBlur(View& view, double depth, double pixels) {
+    view.lens.blurScale *= pixels / blurDiameter(view, depth);
+}
+
+}  // namespace defocus

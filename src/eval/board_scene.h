@@ -1,0 +1,50 @@
+#pragma once
+// Scenes with closed-form images: upright unlit boards before a uniform background.
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "plan/frame_plan.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+struct Board {
+    double depth = 2;        // m
+    glm::dvec2 centre{0};    // m, at that depth
+    glm::dvec2 halfSize{1};  // m
+    glm::vec3 radiance{1};   // linear
+};
+
+// A camera at the origin, 50 mm on 36 mm, f/1 focused at 2 m.
+View boardView(int width = 96, int height = 64);
+
+// Owns what its world points to: not copied or moved.
+class BoardScene {
+public:
+    BoardScene(const View& boardsView, const std::vector<Board>& boards, const glm::vec3& background = glm::vec3(0));
+    BoardScene(const BoardScene&) = delete;
+    BoardScene& operator=(const BoardScene&) = delete;
+
+    Scene scene;
+    World world;
+    View view;
+    RenderSettings settings;  // full detail, everything kept
+};
+
+// The rendered image, by `method` (as parseMethodUse has it).
+Image rendered(const BoardScene& boards, const std::string& method = "accumulation",
+               const RendererOptions& options = {});
+
+// A square board that is `pixels` wide around the image's middle, moved by `offset` px (right, up).
+Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance,
+               const glm::dvec2& offset = glm::dvec2(0));
+
+// The blur diameter in px of DESIGN's formula, c = A·|1/s − 1/z|·W / (2 tan(θx/2)), in double from the lens alone.
+double blurDiameter(const View& view, double depth);
+
+// Sets blurScale so that depth `depth` is blurred by `pixels`.
+void setBlur(View& view, double depth, double pixels);
+
+}  // namespace defocus

@@ -1,0 +1,206 @@
+#include "eval/convergence_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace defocus {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// ---- for people -----------------------------------------------------------------------------------------------------
+
+std::string nameOf(const ConvergenceRow& row) {
+    return row.method + ", " + row.setting;
+}
+
+// Which fronts a row is on, in three letters' room.
+std::string frontsOf(const ConvergenceRow& row) {
+    return std::string(row.front ? "*" : row.frontOfMethod ? "+" : " ") + (row.frontByFlip ? "f" : " ");
+}
+
+// ---- JSON -----------------------------------------------------------------------------------------------------------
+
+ordered_json number(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+ordered_json spreadJson(const Spread& spread) {
+    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
+}
+
+ordered_json errorJson(const ImageError& error) {
+    return {{"mse", error.mse}, {"psnr", number(error.psnr())}, {"ssim", error.ssim}, {"flip", error.flip}};
+}
+
+ordered_json rowJson(const ConvergenceRow& row) {
+    ordered_json json = {{"method", row.method},
+                         {"setting", row.setting},
+                         {"samples", row.samples},
+                         {"takesLensSamples", row.asked > 0},
+                         {"runs", row.runs},
+                         {"milliseconds", spreadJson(row.milliseconds)},
+                         {"setupMilliseconds", spreadJson(row.setupMilliseconds)},
+                         {"pyramidMilliseconds", row.pyramidMilliseconds},
+                         {"gpuMilliseconds", row.gpuMilliseconds}};
+    json.update(errorJson(row.error));
+    json["bias"] = row.bias ? errorJson(*row.bias) : ordered_json(nullptr);
+    json["triangles"] = row.triangles;
+    json["peakBytes"] = row.peakBytes;
+    json["front"] = row.front;
+    json["frontOfMethod"] = row.frontOfMethod;
+    json["frontByFlip"] = row.frontByFlip;
+    json["fault"] = row.fault;
+    json["image"] = imageName(row.method, row.setting, row.asked);
+    json["errorMap"] = errorMapName(row.method, row.setting, row.asked);
+    return json;
+}
+
+ordered_json referenceJson(const ReferenceImage& reference) {
+    const Difference& r = reference.remaining;
+    return {{"file", "reference.exr"},
+            {"image", "images/reference.png"},
+            {"samples", reference.samples},
+            {"firstSample", referenceOffset},
+            {"hash", fmt::format("{:016x}", reference.hash)},
+            {"milliseconds", reference.milliseconds},
+            {"reused", reference.reused},
+            {"remaining", {{"mse", r.rmse * r.rmse}, {"psnr", number(r.psnr)}, {"ssim", r.ssim}, {"flip", r.flip}}}};
+}
+
+ordered_json lensJson(const Lens& lens) {
+    return {{"focalLength", lens.focalLength},
+            {"fStop", lens.fStop},
+            {"focusDistance", number(lens.focusDistance)},
+            {"horizontalAperture", lens.horizontalAperture},
+            {"bladeCount", lens.bladeCount},
+            {"blurScale", lens.blurScale},
+            {"dofEnabled", lens.dofEnabled}};
+}
+
+ordered_json subjectJson(const ConvergenceSubject& subject) {
+    const BenchSubject& bench = subject.bench;
+    return {{"bench", "convergence"},
+            {"program", bench.program},
+            {"commit", subject.commit},
+            {"commands", subject.commands},
+            {"scene", bench.scene},
+            {"camera", subject.camera},
+            {"lens", lensJson(subject.lens)},
+            {"width", bench.width},
+            {"height", bench.height},
+            {"machine",
+             {{"processor", subject.machine.processor},
+              {"threads", subject.machine.threads},
+              {"memoryBytes", subject.machine.memoryBytes},
+              {"system", subject.machine.system}}},
+            {"device", bench.device},
+            {"driver", bench.driver},
+            {"gpuTimesCoverVertexWork", !bench.software},
+            {"runs", bench.runs},
+            {"heldEqual",
+             "scene, camera, lens, image size, reference, process; the methods take turns frame by frame, the first "
+             "wave of a frame is drawn once before it counts, nothing is pinned"},
+            {"errorsMeasuredOn", "sRGB-encoded values in [0, 1] at EV 0, whole image; FLIP at 67 pixels per degree"},
+            {"errorMapFullScale", errorMapFullScale}};
+}
+
+// "accumulation lod=off" → "accumulation-lod-off"
+std::string fileName(std::string_view method, std::string_view setting, std::uint32_t asked) {
+    std::string name = fmt::format("{} {}", method, setting);
+    if (asked > 0) name += fmt::format(" {}", asked);
+    for (char& letter : name)
+        if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '.') letter = '-';
+    return name;
+}
+
+}  // namespace
+
+std::string convergenceHeader() {
+    return fmt::format(
+        "{:<60} {:>7} {:>9} {:>17} {:>8} {:>8} {:>7} {:>6} {:>7} {:>7} {:>9} {:>7}\n{:<60} {:>7} {:>9} {:>17} {:>8} "
+        "{:>8} {:>7} {:>6} {:>7} {:>7} {:>9} {:>7}\n",
+        "", "lens", "frame", "10-90 %", "set-up", "pyramids", "", "", "", "bias", "triangles", "peak",
+        "   method, setting", "samples", "ms", "ms", "ms", "ms", "PSNR", "SSIM", "FLIP", "PSNR", "millions", "MiB");
+}
+
+std::string convergenceLine(const ConvergenceRow& row) {
+    std::string line = fmt::format(
+        "{} {:<57} {:>7} {:>9.1f} {:>17} {:>8.0f} {:>8.0f} {:>7.2f} {:>6.4f} {:>7.4f} {:>7} {:>9.2f} {:>7.0f}",
+        frontsOf(row), nameOf(row), row.samples, row.milliseconds.median,
+        fmt::format("{:.1f} to {:.1f}", row.milliseconds.low, row.milliseconds.high), row.setupMilliseconds.median,
+        row.pyramidMilliseconds, row.error.psnr(), row.error.ssim, row.error.flip,
+        row.bias ? fmt::format("{:.2f}", row.bias->psnr()) : "", static_cast<double>(row.triangles) / 1e6,
+        static_cast<double>(row.peakBytes) / (1 << 20));
+    if (!row.fault.empty()) line += "  NOT WHAT IT CLAIMS: " + row.fault;
+    return line + '\n';
+}
+
+std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference) {
+    const Difference& remaining = reference.remaining;
+    std::string text = fmt::format(
+        "\nreference: {} lens samples at full detail, its own remaining error about PSNR {:.2f} dB, FLIP {:.4f}: no "
+        "figure says more than that\n* on no other row's account slower or farther off (MSE); + the same within its "
+        "method; f by FLIP\n",
+        reference.samples, remaining.psnr, remaining.flip);
+    for (const BiasFloor& floor : biasFloors(rows))
+        text += fmt::format(
+            "bias floor of {}, {}: PSNR {:.2f} dB, FLIP {:.4f} from full detail at the same {} lens samples; more "
+            "samples with these thresholds come no closer\n",
+            floor.method, floor.setting, floor.error.psnr(), floor.error.flip, floor.samples);
+    return text;
+}
+
+std::string imageName(std::string_view method, std::string_view setting, std::uint32_t asked) {
+    return "images/" + fileName(method, setting, asked) + ".png";
+}
+
+std::string errorMapName(std::string_view method, std::string_view setting, std::uint32_t asked) {
+    return "images/" + fileName(method, setting, asked) + ".flip.png";
+}
+
+std::string convergenceCsv(std::span<const ConvergenceRow> rows) {
+    std::string text =
+        "method,setting,samples,runs,milliseconds,low,high,setupMilliseconds,pyramidMilliseconds,gpuMilliseconds,mse,"
+        "psnr,ssim,flip,biasMse,biasFlip,triangles,peakBytes,front,frontOfMethod,frontByFlip,fault\n";
+    for (const ConvergenceRow& row : rows) {
+        const std::string bias = row.bias ? fmt::format("{:.6g},{:.6g}", row.bias->mse, row.bias->flip) : ",";
+        text += fmt::format(
+            "{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{:d},{:d},"
+            "{:d},{}\n",
+            row.method, row.setting, row.samples, row.runs, row.milliseconds.median, row.milliseconds.low,
+            row.milliseconds.high, row.setupMilliseconds.median, row.pyramidMilliseconds, row.gpuMilliseconds,
+            row.error.mse, row.error.psnr(), row.error.ssim, row.error.flip, bias, row.triangles, row.peakBytes,
+            row.front, row.frontOfMethod, row.frontByFlip, row.fault);
+    }
+    return text;
+}
+
+std::string convergenceJson(std::span<const ConvergenceRow> rows, const ReferenceImage& reference,
+                            const ConvergenceSubject& subject) {
+    ordered_json document = subjectJson(subject);
+    document["reference"] = referenceJson(reference);
+    document["rows"] = ordered_json::array();
+    for (const ConvergenceRow& row : rows) document["rows"].push_back(rowJson(row));
+    document["biasFloors"] = ordered_json::array();
+    for (const BiasFloor& floor : biasFloors(rows)) {
+        ordered_json json = {{"method", floor.method}, {"setting", floor.setting}, {"samples", floor.samples}};
+        json.update(errorJson(floor.error));
+        document["biasFloors"].push_back(std::move(json));
+    }
+    document["crops"] = ordered_json::array();
+    for (const Crop& crop : subject.crops)
+        document["crops"].push_back(
+            {{"title", crop.title}, {"x", crop.x}, {"y", crop.y}, {"width", crop.width}, {"height", crop.height}});
+    document["leftOut"] = ordered_json::array();
+    for (const ConvergenceSubject::LeftOut& entry : subject.leftOut)
+        document["leftOut"].push_back({{"method", entry.method}, {"setting", entry.setting}, {"reason", entry.reason}});
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace defocus

@@ -1,0 +1,71 @@
+#include "eval/lens_honesty.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "eval/board_scene.h"
+#include "image/moments.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double square = 3;  // px
+
+struct Case {
+    std::string varied;
+    double fStop = 1.4;
+    double focusDistance = 2;        // m
+    double depth = 6;                // m
+    double horizontalAperture = 36;  // mm
+    std::uint32_t samples = 256;
+    int width = 192;  // px
+    bool aboutSamples = false;
+};
+
+std::vector<Case> cases() {
+    std::vector<Case> list;
+    for (const double n : {0.95, 1.4, 2.8, 5.6}) list.push_back({.varied = fmt::format("f/{:g}", n), .fStop = n});
+    for (const double s : {1.0, 3.0, 4.0})
+        list.push_back({.varied = fmt::format("focus at {:g} m", s), .focusDistance = s});
+    for (const double z : {1.2, 1.5, 3.0, 20.0})
+        list.push_back({.varied = fmt::format("light at {:g} m", z), .depth = z});
+    for (const double w : {24.0, 54.0})
+        list.push_back({.varied = fmt::format("sensor of {:g} mm", w), .horizontalAperture = w});
+    for (const int width : {96, 384}) list.push_back({.varied = fmt::format("{} px wide", width), .width = width});
+    for (const std::uint32_t n : {16u, 64u, 1024u})
+        list.push_back({.varied = fmt::format("{} samples", n), .samples = n, .aboutSamples = true});
+    return list;
+}
+
+HonestyRow measured(const Method& method, const Case& subject) {
+    View view = boardView(subject.width, subject.width * 2 / 3);
+    view.lens.focalLength = 100;
+    view.lens.fStop = subject.fStop;
+    view.lens.focusDistance = subject.focusDistance;
+    view.lens.horizontalAperture = subject.horizontalAperture;
+    Board wall{subject.depth + 1e-4, {0, 0}, {50, 50}, glm::vec3(0)};
+    BoardScene boards(view, {squareAt(view, subject.depth, square, glm::vec3(8)), wall});
+    boards.settings.sampleCount = subject.samples;
+    const Moments moments = momentsOf(rendered(boards, method.name));
+    boards.view.lens.dofEnabled = false;
+    const Moments sharp = momentsOf(rendered(boards, method.name));
+    return {method.name, subject.varied, blurDiameter(view, subject.depth),
+            2 * radiusBySecondMoment(moments, 0, square), moments.energy / sharp.energy};
+}
+
+}  // namespace
+
+void measureHonesty(const std::function<void(const HonestyRow&)>& visit, const Progress& progress) {
+    const std::vector<Case> list = cases();
+    std::uint64_t done = 0;
+    for (const Method& method : methods())
+        for (const Case& subject : list) {
+            report(progress, "lenses", done++, list.size() * methods().size());
+            if (subject.aboutSamples && !method.usesLensSamples) continue;
+            visit(measured(method, subject));
+        }
+}
+
+}  // namespace defocus

@@ -1,0 +1,137 @@
+#include "eval/popping_paths.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "core/error.h"
+#include "plan/frame_plan.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double dollyLength = 0.5;  // of the focus distance
+
+struct Depths {
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = 0;
+};
+
+// Of whatever the view shows.
+Depths depthsOf(const World& world, const View& view) {
+    RenderSettings settings;
+    settings.sampleCount = 1;
+    settings.lod = LodMode::off;
+    Depths depths;
+    for (const ObjectPlan& object : planFrame(world, view, settings).objects) {
+        depths.nearest = std::min(depths.nearest, std::max(object.nearestDepth, view.nearPlane));
+        depths.farthest = std::max(depths.farthest, object.farthestDepth);
+    }
+    if (depths.farthest <= depths.nearest) fail("nothing lies in front of the camera: no movement shows any levels");
+    return depths;
+}
+
+View pulled(const View& view, const Depths& depths, double place) {
+    View result = view;
+    result.lens.focusDistance = 1 / ((1 - place) / depths.nearest + place / depths.farthest);
+    return result;
+}
+
+View dollied(const View& view, double focusDistance, double place) {
+    const double forward = dollyLength * focusDistance * (place - 0.5);
+    View result = view;
+    result.worldFromCamera = glm::translate(view.worldFromCamera, glm::dvec3(0, 0, -forward));
+    result.lens.focusDistance = view.lens.focusDistance - forward;
+    return result;
+}
+
+View turned(const View& view, const glm::dvec3& centre, double place) {
+    const double angle = 2 * std::numbers::pi * (place - 0.5);
+    glm::dmat4 turn = glm::translate(glm::dmat4(1), centre);
+    turn = glm::rotate(turn, angle, glm::dvec3(0, 1, 0));
+    View result = view;
+    result.worldFromCamera = glm::translate(turn, -centre) * view.worldFromCamera;
+    return result;
+}
+
+// By object.
+std::map<int, std::uint32_t> nearestLevels(const World& world, const View& view, RenderSettings settings) {
+    settings.lod = LodMode::nearest;
+    std::map<int, std::uint32_t> levels;
+    for (const ObjectPlan& object : planFrame(world, view, settings).objects) levels[object.object] = object.fine.level;
+    return levels;
+}
+
+}  // namespace
+
+const char* movementName(Movement movement) {
+    switch (movement) {
+        case Movement::focusPull:
+            return "focus-pull";
+        case Movement::dolly:
+            return "dolly";
+        case Movement::turntable:
+            return "turntable";
+    }
+    return "";
+}
+
+std::vector<View> viewsAlong(Movement movement, const World& world, const View& view, int frames) {
+    if (frames < 2) fail("{} frames: a change needs 2 or more", frames);
+    const Depths depths = depthsOf(world, view);
+    const glm::dvec3 centre = world.pose.bounds.centre();
+    const double focusDistance = std::min(view.lens.focusDistance, depths.farthest);  // it may be at infinity
+    std::vector<View> views;
+    for (int i = 0; i < frames; ++i) {
+        const double place = static_cast<double>(i) / (frames - 1);
+        switch (movement) {
+            case Movement::focusPull:
+                views.push_back(pulled(view, depths, place));
+                break;
+            case Movement::dolly:
+                views.push_back(dollied(view, focusDistance, place));
+                break;
+            case Movement::turntable:
+                views.push_back(turned(view, centre, place));
+                break;
+        }
+    }
+    return views;
+}
+
+std::vector<View> busiestStretch(const std::vector<View>& views, const World& world, const RenderSettings& settings,
+                                 int frames) {
+    if (frames < 1 || static_cast<std::size_t>(frames) > views.size())
+        fail("{} frames: the movement has {}", frames, views.size());
+
+    // Changes up to each view.
+    std::vector<int> changes;
+    std::map<int, std::uint32_t> levels;
+    for (const View& view : views) {
+        const std::map<int, std::uint32_t> before = std::exchange(levels, nearestLevels(world, view, settings));
+        int changed = 0;
+        for (const auto& [object, level] : levels) {
+            const auto earlier = before.find(object);
+            changed += earlier != before.end() && earlier->second != level ? 1 : 0;
+        }
+        changes.push_back((changes.empty() ? 0 : changes.back()) + changed);
+    }
+
+    const auto length = static_cast<std::size_t>(frames);
+    std::size_t best = 0;
+    int most = -1;
+    for (std::size_t first = 0; first + length <= views.size(); ++first) {
+        const int within = changes[first + length - 1] - changes[first];
+        if (within <= most) continue;
+        most = within;
+        best = first;
+    }
+    const auto begin = views.begin() + static_cast<std::ptrdiff_t>(best);
+    return {begin, begin + frames};
+}
+
+}  // namespace defocus

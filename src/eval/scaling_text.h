@@ -1,0 +1,31 @@
+#pragma once
+// Rows of the scaling benchmark as a table for people, as CSV and as JSON, with the exponents fitted to them.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "eval/scaling.h"
+#include "eval/speedup_text.h"
+
+namespace defocus {
+
+std::string scalingHeader();                     // two lines
+std::string scalingLine(const ScalingRow& row);  // one line
+
+// Exponents of the time against each axis, and what bounds the frame along it, in sentences.
+std::string scalingSummary(std::span<const ScalingRow> rows);
+
+// "fill up to 300 k, vertex work from 1 M": the largest part of the rows of one axis and mode, in their order.
+std::string boundsAlong(std::span<const ScalingRow> rows);
+
+struct ScalingLeftOut {
+    ScalingPoint point;
+    std::string reason;
+};
+
+std::string scalingCsv(std::span<const ScalingRow> rows);
+std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,
+                        const BenchSubject& subject);
+
+}  // namespace defocus

@@ -1,0 +1,130 @@
+// Scenes at the limits of space: scales, distances, depth ratios, the camera plane, and values that are no numbers.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "eval/board_scene.h"
+#include "eval/stability.h"
+#include "image/metrics.h"
+#include "image/moments.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double largestDifference(const Image& a, const Image& b) {
+    const Difference difference = compareImages(a, b);
+    return difference.nonFinite > 0 ? infinite : difference.maxError;
+}
+
+std::vector<Board> threeBoards(const View& view) {
+    return {squareAt(view, 1.2, 20, {0.9f, 0.3f, 0.1f}, {-20, 5}), squareAt(view, 2, 30, {0.2f, 0.8f, 0.3f}),
+            squareAt(view, 5, 40, {0.1f, 0.3f, 0.9f}, {15, -10})};
+}
+
+// Everything `scale` times as large, the aperture too.
+double scaleError(double scale) {
+    const View view = boardView();
+    BoardScene boards(view, threeBoards(view), glm::vec3(0.4f));
+    const Image image = rendered(boards);
+    for (Object& object : boards.world.pose.objects)
+        object.worldFromObject = glm::scale(glm::dmat4(1), glm::dvec3(scale)) * object.worldFromObject;
+    boards.view.lens.focusDistance *= scale;
+    boards.view.lens.blurScale *= scale;
+    boards.view.nearPlane *= scale;
+    return compareImages(image, rendered(boards)).rmse;
+}
+
+// The same scene and camera far from the origin: how far a board's centre moves, px.
+double distanceError(double distance) {
+    const View view = boardView(192, 128);
+    BoardScene boards(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
+    boards.settings.sampleCount = 256;
+    const Moments moments = momentsOf(rendered(boards));
+    const glm::dmat4 moved = glm::translate(glm::dmat4(1), glm::dvec3(distance, -0.3 * distance, 0.7 * distance));
+    boards.view.worldFromCamera = moved * boards.view.worldFromCamera;
+    for (Object& object : boards.world.pose.objects) object.worldFromObject = moved * object.worldFromObject;
+    const Moments far = momentsOf(rendered(boards));
+    return std::hypot(far.mean.x - moments.mean.x, far.mean.y - moments.mean.y);
+}
+
+// A floor as one board that runs from behind the camera to 40 m, and the same floor from the near plane on.
+double cameraPlaneError() {
+    const View view = boardView();
+    const auto floorFrom = [&](double nearest) {
+        BoardScene boards(view, {{2, {0, 0}, {30, 1}, {0.7f, 0.5f, 0.2f}}}, glm::vec3(0.1f, 0.2f, 0.4f));
+        const double length = 40 - nearest;
+        glm::dmat4 lying = glm::translate(glm::dmat4(1), glm::dvec3(0, -0.4, -nearest - 0.5 * length));
+        lying = glm::rotate(lying, -std::acos(-1.0) / 2, glm::dvec3(1, 0, 0));
+        boards.world.pose.objects[0].worldFromObject = glm::scale(lying, glm::dvec3(30, 0.5 * length, 1));
+        return rendered(boards);
+    };
+    return largestDifference(floorFrom(-25), floorFrom(view.nearPlane));
+}
+
+// Boards at 0.02 m and at 2,000 km, and one just before the far one: each hides what lies behind it.
+double depthRatioError() {
+    View view = boardView();
+    view.lens.dofEnabled = false;
+    const glm::vec3 near(0.9f, 0.1f, 0.1f);
+    const glm::vec3 middle(0.1f, 0.9f, 0.1f);
+    const glm::vec3 far(0.1f, 0.1f, 0.9f);
+    BoardScene boards(
+        view, {squareAt(view, 2e6, 90, far), squareAt(view, 1.99e6, 40, middle), squareAt(view, 0.02, 12, near)});
+    const Image image = rendered(boards);
+    double largest = 0;
+    const auto expect = [&](int x, const glm::vec3& color) {
+        for (int c = 0; c < 3; ++c) largest = std::max<double>(largest, std::abs(image.at(x, 32)[c] - color[c]));
+    };
+    expect(48, near);
+    expect(48 + 15, middle);
+    expect(48 + 35, far);
+    return largest;
+}
+
+// A material without a value on a small board: pixels beyond its blur that differ from the scene without it.
+double notANumberError() {
+    View view = boardView();
+    setBlur(view, 5, 12);
+    const double reach = 6 + 4 + 1;  // px: the disk, half the board, the pixel filter
+    const std::vector<Board> list = {squareAt(view, 5, 8, glm::vec3(std::numeric_limits<float>::quiet_NaN())),
+                                     squareAt(view, 7, 400, {0.3f, 0.5f, 0.7f})};
+    BoardScene spoiled(view, list);
+    BoardScene whole(view, {list[1]});
+    const Image image = rendered(spoiled);
+    const Image truth = rendered(whole);
+    double wrong = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const bool inside = std::abs(x + 0.5 - 48) < reach && std::abs(y + 0.5 - 32) < reach;
+            const bool finite = std::isfinite(image.at(x, y)[0]);
+            if (!finite || (!inside && image.at(x, y)[0] != truth.at(x, y)[0])) wrong += 1;
+        }
+    return wrong;
+}
+
+}  // namespace
+
+void addSpaceCases(std::vector<StabilityCase>& cases) {
+    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+                         std::function<double()> error) {
+        cases.push_back({"space", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+    };
+    for (const double scale : {1e-4, 1e-2, 1e3, 1e6})
+        add(fmt::format("everything {:g} times as large", scale), "RMSE", "the scene at scale 1", 1e-3,
+            [scale] { return scaleError(scale); });
+    for (const double distance : {1e4, 1e7})
+        add(fmt::format("scene and camera {:g} m from the origin", distance), "place, px", "the scene at the origin",
+            0.1, [distance] { return distanceError(distance); });
+    add("a floor through the camera plane (w to 0)", "largest difference", "cut at the near plane", 2e-3,
+        cameraPlaneError);
+    add("depths of 0.02 m, 1,990 km and 2,000 km", "largest error", "the nearest board", 1e-3, depthRatioError);
+    add("a material that is no number", "pixels spoiled outside its disk", "the scene without it", 0, notANumberError);
+}
+
+}  // namespace defocus
