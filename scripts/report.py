@@ -42,6 +42,7 @@ INK, GRID = "#010203", "#010204"
 STAND_INS = [f"#0102{i:02x}" for i in range(0x10, 0x10 + len(PALETTE))]
 
 CROP_WIDTH = 176  # px on the page
+LABEL_LETTERS = 42  # fit beside a plot; longer labels are smaller
 BASELINE = ("accumulation", "lod=off")  # what all else is seen against
 
 
@@ -136,7 +137,7 @@ def new_plots(count, right, height):
     return figure, columns[0]
 
 
-def new_plot(right=0.66):
+def new_plot(right=0.62):
     figure, columns = new_plots(1, right, 5.6)
     return figure, columns[0]
 
@@ -169,7 +170,8 @@ def label_beside(axes, ends):
                       annotation_clip=False, arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.7,
                                                          "linestyle": ":", "shrinkA": 4, "shrinkB": 4})
         axes.plot([1.04], [share], marker, color=colour, markersize=6, transform=axes.transAxes, clip_on=False)
-        axes.annotate(text, (1.06, share), xycoords="axes fraction", color=colour, va="center", fontsize=9.5,
+        axes.annotate(text, (1.06, share), xycoords="axes fraction", color=colour, va="center",
+                      fontsize=min(9.5, 9.5 * LABEL_LETTERS / len(text)),
                       annotation_clip=False)
 
 
@@ -393,7 +395,7 @@ def strips_section(folder):
             cells.append(f'<figure class="wide"><img src="{uri}" {size} alt="{html.escape(strip["title"])}: {label}">'
                          f"<figcaption>{label}</figcaption></figure>")
         parts.append(f'<h3>{html.escape(strip["title"])}</h3><p>{html.escape(strip["text"])}</p>'
-                     f'<div class="strip">{"".join(cells)}</div>')
+                     f'<div class="pictures">{"".join(cells)}</div>')
     return "".join(parts)
 
 
@@ -497,6 +499,8 @@ figure.overview svg {{ width: 100%; max-width: 40rem; height: auto; display: blo
 .crop {{ width: {CROP_WIDTH}px; }}
 .crop img, .gone {{ display: block; width: {CROP_WIDTH}px; image-rendering: pixelated; margin-bottom: 3px; }}
 .gone {{ height: 4rem; background: var(--band); text-align: center; padding-top: 1.2rem; }}
+.pictures {{ display: grid; grid-template-columns: repeat(auto-fill, minmax(18rem, 1fr)); gap: 12px; }}
+.pictures figure {{ margin: 0; }}
 .wide img {{ display: block; max-width: 100%; height: auto; margin-bottom: 3px; }}
 .scroll {{ overflow-x: auto; }}
 table {{ border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }}

@@ -40,6 +40,7 @@ void runStability(const StabilityArguments& arguments, const GlobalOptions& glob
         "256 samples, but for what is varied\n\n{}",
         honestyHeader());
     measureHonesty(
+        {},
         [&](const HonestyRow& row) {
             fmt::print("{}", honestyLine(row));
             std::fflush(stdout);

@@ -57,14 +57,19 @@ HonestyRow measured(const Method& method, const Case& subject) {
 
 }  // namespace
 
-void measureHonesty(const std::function<void(const HonestyRow&)>& visit, const Progress& progress) {
+void measureHonesty(const std::vector<std::string>& names, const std::function<void(const HonestyRow&)>& visit,
+                    const Progress& progress) {
+    std::vector<const Method*> wanted;
+    for (const std::string& name : names) wanted.push_back(&methodNamed(name));
+    if (names.empty())
+        for (const Method& method : methods()) wanted.push_back(&method);
     const std::vector<Case> list = cases();
     std::uint64_t done = 0;
-    for (const Method& method : methods())
+    for (const Method* method : wanted)
         for (const Case& subject : list) {
-            report(progress, "lenses", done++, list.size() * methods().size());
-            if (subject.aboutSamples && !method.usesLensSamples) continue;
-            visit(measured(method, subject));
+            report(progress, "lenses", done++, list.size() * wanted.size());
+            if (subject.aboutSamples && !method->usesLensSamples) continue;
+            visit(measured(*method, subject));
         }
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 
@@ -17,9 +18,10 @@ struct HonestyRow {
     double energy = 0;    // of the sharp light's
 };
 
-// Every method of the table as it is by default, one row after the other. The light is a square of 3 px on a black wall
-// at its depth; the measured diameter is that of a uniform disk with the image's second moment. Needs a current GL
-// context.
-void measureHonesty(const std::function<void(const HonestyRow&)>& visit, const Progress& progress = {});
+// Each of `names`, or every method of the table, as it is by default, one row after the other. The light is a square of
+// 3 px on a black wall at its depth; the measured diameter is that of a uniform disk with the image's second moment.
+// Needs a current GL context.
+void measureHonesty(const std::vector<std::string>& names, const std::function<void(const HonestyRow&)>& visit,
+                    const Progress& progress = {});
 
 }  // namespace defocus
