@@ -277,10 +277,10 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
         ->group(group);
     addList(command, "--counts", "N,N,…", options.sampleCounts, "8,16,32,64,128,256", "Numbers of lens samples",
             [](const std::string& part) { return static_cast<std::uint32_t>(parseWhole(part, 1, 65'536)); });
-    addList(command, "--lod", "off,nearest,fractional", options.lods, "off,fractional",
+    addList(command, "--lod", "off,nearest,fractional,continuous", options.lods, "off,fractional",
             "Levels of detail, of methods that draw levels", [](const std::string& part) {
-                constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
-                return modes[parseChoice(part, {"off", "nearest", "fractional"})];
+                constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional, LodMode::continuous};
+                return modes[parseChoice(part, {"off", "nearest", "fractional", "continuous"})];
             });
     addList(command, "--metrics", "size,error", options.metrics, "size", "What levels are chosen by",
             [](const std::string& part) {
