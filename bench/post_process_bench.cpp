@@ -161,7 +161,7 @@ void storages() {
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     fmt::print("Storage of the complex sums, school of fish at {} x {} px, f/{}, against 32-bit floats\n", scene.width,
                scene.height, *scene.fStop);
-    fmt::print("{:<44} {:>9} {:>9} {:>9} {:>11} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
+    fmt::print("{:<66} {:>9} {:>9} {:>9} {:>11} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
     for (const char* components : {"near-components=1,far-components=2", "near-components=5,far-components=5"}) {
         Image exact;
         for (const char* storage : {"float", "half", "r10g10b10a2"}) {
@@ -179,7 +179,7 @@ void storages() {
             const Image image = renderer->image();
             if (exact.empty()) exact = image;
             const Difference difference = compareImages(exact, image);
-            fmt::print("{:<44} {:>9.2f} {:>9.5f} {:>9.5f} {:>11.1f} {:>9.1f}\n", use.text(), difference.psnr,
+            fmt::print("{:<66} {:>9.2f} {:>9.5f} {:>9.5f} {:>11.1f} {:>9.1f}\n", use.text(), difference.psnr,
                        difference.flip, difference.maxError, static_cast<double>(renderer->stats().peakBytes) * 1e-6,
                        spreadOf(times).median);
         }
