@@ -26,17 +26,8 @@ struct SpeedupArguments {
     std::filesystem::path folder;  // empty: only the table
 };
 
-void makeFolder(const std::filesystem::path& folder) {
-    if (folder.empty()) return;
-    std::error_code fault;
-    std::filesystem::create_directories(folder, fault);
-    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
-    checkWritable(folder / "speedup.csv");
-    checkWritable(folder / "speedup.json");
-}
-
 void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) {
-    makeFolder(arguments.folder);
+    makeOutputFolder(arguments.folder, {"speedup.csv", "speedup.json"});
     Progress progress = terminalProgress(global);
     SceneOptions scene = arguments.scene;
     scene.noCache = true;  // the time that pyramids take is part of the result
@@ -116,6 +107,14 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
 }
 
 }  // namespace
+
+void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files) {
+    if (folder.empty()) return;
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+    for (const char* name : files) checkWritable(folder / name);
+}
 
 void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* bench = program.add_subcommand("bench", "Measure time and image error on this machine");

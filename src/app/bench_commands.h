@@ -1,9 +1,16 @@
 #pragma once
 // Sub-commands of defocus bench that have files of their own.
 
+#include <filesystem>
+#include <initializer_list>
+
 #include "app/command.h"
 
 namespace defocus {
+
+// Makes `folder` and checks that these files can be written there, before the long work; nothing for an empty path.
+// Throws Error.
+void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);
 
 void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global);
 void addBenchDiffCommand(CLI::App& bench);

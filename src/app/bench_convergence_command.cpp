@@ -53,20 +53,11 @@ fs::path resultsFolder(const ConvergenceArguments& arguments) {
     return arguments.report.empty() ? "convergence" : arguments.report;
 }
 
-void makeFolder(const fs::path& folder, std::span<const char* const> files) {
-    std::error_code fault;
-    fs::create_directories(folder, fault);
-    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
-    for (const char* name : files) checkWritable(folder / name);
-}
-
 void makeFolders(const ConvergenceArguments& arguments) {
-    constexpr std::array results = {"results.csv", "results.json", "runs.csv", "reference.exr"};
-    constexpr std::array images = {"reference.png"};
-    constexpr std::array report = {"index.html", "results.csv", "results.json"};
-    makeFolder(resultsFolder(arguments), results);
-    makeFolder(resultsFolder(arguments) / "images", images);
-    if (!arguments.report.empty()) makeFolder(arguments.report, report);
+    const fs::path results = resultsFolder(arguments);
+    makeOutputFolder(results, {"results.csv", "results.json", "runs.csv", "reference.exr"});
+    makeOutputFolder(results / "images", {"reference.png"});
+    makeOutputFolder(arguments.report, {"index.html", "results.csv", "results.json"});
 }
 
 std::string textIn(const fs::path& path) {

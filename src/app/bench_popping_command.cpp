@@ -29,19 +29,11 @@ struct PoppingArguments {
     fs::path folder;  // empty: only the table
 };
 
-void makeFolder(const fs::path& folder) {
-    if (folder.empty()) return;
-    std::error_code fault;
-    fs::create_directories(folder, fault);
-    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
-    for (const char* name : {"popping.csv", "popping.json"}) checkWritable(folder / name);
-}
-
 void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) {
     if (arguments.options.frames > arguments.options.pathFrames)
         fail("--frames {}: the whole movement has {} (--path-frames)", arguments.options.frames,
              arguments.options.pathFrames);
-    makeFolder(arguments.folder);
+    makeOutputFolder(arguments.folder, {"popping.csv", "popping.json"});
     Progress progress = terminalProgress(global);
     PreparedFrame frame = placeFrame(arguments.scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();

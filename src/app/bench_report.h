@@ -10,7 +10,8 @@ namespace defocus {
 const char* reportScript();
 
 // Draws `results`/results.json, with the images it names, into `report`/index.html, and what else lies in `report`:
-// speedup.csv, strips.json. False where there is no Python with matplotlib. Throws Error where the script fails.
+// speedup.csv, popping.csv, strips.json. False where there is no Python with matplotlib. Throws Error where the script
+// fails.
 bool writeReport(const std::filesystem::path& results, const std::filesystem::path& report);
 
 }  // namespace defocus

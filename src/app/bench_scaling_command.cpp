@@ -29,16 +29,8 @@ struct ScalingArguments {
     fs::path folder;       // empty: only the table
 };
 
-void makeFolder(const fs::path& folder) {
-    if (folder.empty()) return;
-    std::error_code fault;
-    fs::create_directories(folder, fault);
-    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
-    for (const char* name : {"scaling.csv", "scaling.json"}) checkWritable(folder / name);
-}
-
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
-    makeFolder(arguments.folder);
+    makeOutputFolder(arguments.folder, {"scaling.csv", "scaling.json"});
     const Progress progress = terminalProgress(global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ScalingOptions options = arguments.options;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "eval/json_number.h"
+
 namespace defocus {
 
 namespace {
@@ -26,16 +28,12 @@ std::string frontsOf(const ConvergenceRow& row) {
 
 // ---- JSON -----------------------------------------------------------------------------------------------------------
 
-ordered_json number(double value) {
-    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 ordered_json spreadJson(const Spread& spread) {
     return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
 }
 
 ordered_json errorJson(const ImageError& error) {
-    return {{"mse", error.mse}, {"psnr", number(error.psnr())}, {"ssim", error.ssim}, {"flip", error.flip}};
+    return {{"mse", error.mse}, {"psnr", jsonNumber(error.psnr())}, {"ssim", error.ssim}, {"flip", error.flip}};
 }
 
 ordered_json rowJson(const ConvergenceRow& row) {
@@ -63,20 +61,21 @@ ordered_json rowJson(const ConvergenceRow& row) {
 
 ordered_json referenceJson(const ReferenceImage& reference) {
     const Difference& r = reference.remaining;
-    return {{"file", "reference.exr"},
-            {"image", "images/reference.png"},
-            {"samples", reference.samples},
-            {"firstSample", referenceOffset},
-            {"hash", fmt::format("{:016x}", reference.hash)},
-            {"milliseconds", reference.milliseconds},
-            {"reused", reference.reused},
-            {"remaining", {{"mse", r.rmse * r.rmse}, {"psnr", number(r.psnr)}, {"ssim", r.ssim}, {"flip", r.flip}}}};
+    return {
+        {"file", "reference.exr"},
+        {"image", "images/reference.png"},
+        {"samples", reference.samples},
+        {"firstSample", referenceOffset},
+        {"hash", fmt::format("{:016x}", reference.hash)},
+        {"milliseconds", reference.milliseconds},
+        {"reused", reference.reused},
+        {"remaining", {{"mse", r.rmse * r.rmse}, {"psnr", jsonNumber(r.psnr)}, {"ssim", r.ssim}, {"flip", r.flip}}}};
 }
 
 ordered_json lensJson(const Lens& lens) {
     return {{"focalLength", lens.focalLength},
             {"fStop", lens.fStop},
-            {"focusDistance", number(lens.focusDistance)},
+            {"focusDistance", jsonNumber(lens.focusDistance)},
             {"horizontalAperture", lens.horizontalAperture},
             {"bladeCount", lens.bladeCount},
             {"blurScale", lens.blurScale},

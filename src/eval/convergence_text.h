@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "eval/bench_subject.h"
 #include "eval/convergence_rows.h"
 #include "eval/crops.h"
 #include "eval/machine.h"
 #include "eval/reference_image.h"
-#include "eval/speedup_text.h"
 
 namespace defocus {
 

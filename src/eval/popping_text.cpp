@@ -7,6 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "eval/json_number.h"
+
 namespace defocus {
 
 namespace {
@@ -32,10 +34,6 @@ constexpr NamedMeasure measures[] = {
     {"stepRmseImage", [](const PoppingFrame& f) { return f.step.image.rmse; }, &PoppingRow::stepRmseImage},
     {"stepFlipImage", [](const PoppingFrame& f) { return f.step.image.flip; }, &PoppingRow::stepFlipImage},
 };
-
-ordered_json number(double value) {
-    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
 
 // Hyndman and Fan's type 7.
 double percentile(std::vector<double> values, double share) {
@@ -71,7 +69,7 @@ ordered_json summaryJson(const PopSummary& summary) {
     return {{"worst", summary.worst},
             {"worstFrame", summary.worstFrame},
             {"percentile99", summary.percentile99},
-            {"ofNearest", number(summary.ofNearest)}};
+            {"ofNearest", jsonNumber(summary.ofNearest)}};
 }
 
 ordered_json rowJson(const PoppingRow& row) {

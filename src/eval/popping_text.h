@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "eval/bench_subject.h"
 #include "eval/popping.h"
-#include "eval/speedup_text.h"
 
 namespace defocus {
 

@@ -5,15 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "eval/json_number.h"
+
 namespace defocus {
 
 namespace {
 
 using nlohmann::json;
-
-json number(double value) {
-    return std::isfinite(value) ? json(value) : json(nullptr);
-}
 
 json spreadJson(const Spread& spread) {
     return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
@@ -21,7 +19,7 @@ json spreadJson(const Spread& spread) {
 
 json differenceJson(const Difference& difference) {
     return {{"rmse", difference.rmse},
-            {"psnr", number(difference.psnr)},
+            {"psnr", jsonNumber(difference.psnr)},
             {"ssim", difference.ssim},
             {"flip", difference.flip}};
 }

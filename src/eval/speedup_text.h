@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "eval/bench_subject.h"
 #include "eval/speedup.h"
 
 namespace defocus {
@@ -11,19 +12,6 @@ namespace defocus {
 std::string speedupHeader();                     // two lines
 std::string speedupLine(const SpeedupRow& row);  // one line
 std::string speedupCsv(std::span<const SpeedupRow> rows);
-
-// What the rows were measured on and with.
-struct BenchSubject {
-    std::string program;  // name and version
-    std::string scene;
-    std::string device;
-    std::string driver;
-    bool software = false;  // a software driver: its timer queries miss vertex work
-    int width = 0;
-    int height = 0;
-    int runs = 0;
-    double pyramidMilliseconds = 0;
-};
 
 std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject);
 

@@ -5,15 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "eval/json_number.h"
+
 namespace defocus {
 
 namespace {
 
 using nlohmann::json;
-
-json number(double value) {
-    return std::isfinite(value) ? json(value) : json(nullptr);
-}
 
 std::string verdict(const StabilityRow& row) {
     if (std::isinf(row.subject.limit)) return "for comparison";
@@ -52,16 +50,16 @@ std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const Ho
                          {"case", row.subject.name},
                          {"errorOf", row.subject.measured},
                          {"against", row.subject.truth},
-                         {"limit", number(row.subject.limit)},
-                         {"error", number(row.error)},
+                         {"limit", jsonNumber(row.subject.limit)},
+                         {"error", jsonNumber(row.error)},
                          {"passed", row.passed()}});
     json lenses = json::array();
     for (const HonestyRow& row : honesty)
         lenses.push_back({{"method", row.method},
                           {"varied", row.varied},
-                          {"expectedDiameter", number(row.expected)},
-                          {"measuredDiameter", number(row.measured)},
-                          {"energy", number(row.energy)}});
+                          {"expectedDiameter", jsonNumber(row.expected)},
+                          {"measuredDiameter", jsonNumber(row.measured)},
+                          {"energy", jsonNumber(row.energy)}});
     const json document = {{"bench", "stability"},      {"program", subject.program},
                            {"device", subject.device},  {"driver", subject.driver},
                            {"cases", std::move(cases)}, {"lensHonesty", std::move(lenses)}};

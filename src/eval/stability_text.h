@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
+#include "eval/bench_subject.h"
 #include "eval/lens_honesty.h"
-#include "eval/speedup_text.h"
 #include "eval/stability.h"
 
 namespace defocus {
