@@ -42,8 +42,8 @@ void prepare(Fish& fish) {
     fish.world.environment = environmentOrDefault(fish.scene);
     fish.world.pyramids = buildPyramids(fish.scene.meshes);
     fish.view.worldFromCamera = placed.worldFromCamera;
-    fish.view.lens.fStop = placed.camera.fStop.value();
-    fish.view.lens.focusDistance = placed.camera.focusDistance.value();
+    fish.view.lens.fStop = placed.camera.lensValue("fStop").value();
+    fish.view.lens.focusDistance = placed.camera.lensValue("focusDistance").value();
     fish.settings.thresholds = defaultThresholds(LodMetric::size, fish.settings.sampleCount);
 }
 

@@ -48,8 +48,8 @@ inline void setLens(TruthScene& truth, const Camera& camera, double blur) {
     const double focus = nearest + (farthest - nearest) / 3;
     const double defocus = std::max(1 / nearest - 1 / focus, 1 / focus - 1 / farthest);
     const double aperture = blur * 2 * tanHalf / (view.width * defocus);  // m
-    view.lens.focusDistance = camera.focusDistance.value_or(focus);
-    view.lens.fStop = camera.fStop.value_or(view.lens.focalLength / (1000 * aperture));
+    view.lens.focusDistance = camera.lensValue("focusDistance").value_or(focus);
+    view.lens.fStop = camera.lensValue("fStop").value_or(view.lens.focalLength / (1000 * aperture));
 }
 
 }  // namespace truth_detail

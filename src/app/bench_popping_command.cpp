@@ -38,7 +38,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     PreparedFrame frame = placeFrame(arguments.scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);
-    printCacheUse(frame, global);
+    printWarnings(frame, global);
 
     PoppingOptions options = arguments.options;
     options.plan = frame.settings;

@@ -11,6 +11,7 @@
 
 #include "app/command.h"
 #include "app/option_text.h"
+#include "lens/lens_fields.h"
 #include "scene/fish_school.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
@@ -105,9 +106,8 @@ Json cameraJson(const Camera& camera) {
     }
     json["yfovDegrees"] = camera.yfov * degrees;
     if (camera.aspectRatio) json["aspectRatio"] = *camera.aspectRatio;
-    if (camera.fStop) json["fStop"] = *camera.fStop;
-    if (camera.focusDistance) json["focusDistance"] = *camera.focusDistance;
-    if (camera.horizontalAperture) json["horizontalAperture"] = *camera.horizontalAperture;
+    for (const auto& [name, value] : camera.lens)
+        if (lensFieldNamed(name) != nullptr) json[name] = value;
     return json;
 }
 
@@ -219,8 +219,9 @@ std::vector<std::string> cameraLines(const Scene& scene) {
             text += ": " + *camera.orthographic;
         } else {
             text += fmt::format(": {:.1f}° high", camera.yfov * degrees);
-            if (camera.fStop) text += fmt::format(", f/{:g}", *camera.fStop);
-            if (camera.focusDistance) text += fmt::format(", focus at {:g} m", *camera.focusDistance);
+            if (const auto fStop = camera.lensValue("fStop")) text += fmt::format(", f/{:g}", *fStop);
+            if (const auto distance = camera.lensValue("focusDistance"))
+                text += fmt::format(", focus at {:g} m", *distance);
         }
         result.push_back(text);
     }

@@ -24,7 +24,7 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.scene, terminalProgress(global));
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
-    printCacheUse(frame, global);
+    printWarnings(frame, global);
 }
 
 }  // namespace

@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 #include <limits>
 #include <mutex>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "image/image_io.h"
+#include "lens/lens_fields.h"
 #include "lod/pyramid_cache.h"
 #include "scene/fish_school.h"
 #include "scene/gltf.h"
@@ -118,31 +118,25 @@ double settledDepthAtPixel(const PreparedFrame& frame, Lens lens, const glm::ive
 }
 
 double chosenFocus(const SceneOptions& options, const PreparedFrame& frame, const Camera& camera) {
-    if (options.focusDistance) return *options.focusDistance;
+    const auto distance = options.lens.find("focusDistance");
+    if (distance != options.lens.end()) return distance->second;
     if (!options.focusNode.empty()) return depthOfNode(frame, options.focusNode);
     if (options.focusPixel) return settledDepthAtPixel(frame, frame.view.lens, *options.focusPixel);
-    return camera.focusDistance ? *camera.focusDistance : depthOfCentre(frame);
+    const std::optional<double> own = camera.lensValue("focusDistance");
+    return own && *own > 0 ? *own : depthOfCentre(frame);
 }
 
 // ---- camera and lens
 // -------------------------------------------------------------------------------------------------
 
-// Everything but the focus distance, which needs the view.
-Lens chosenLens(const SceneOptions& options, const Camera& camera) {
-    const Lens defaults;
+// Everything but the focus distance, which needs the view. Values of the camera that no lens can have go to `refused`.
+Lens chosenLens(const SceneOptions& options, const Camera& camera, std::vector<std::string>& refused) {
     Lens lens;
-    lens.fStop = options.fStop.value_or(camera.fStop.value_or(defaults.fStop));
-    lens.horizontalAperture =
-        options.horizontalAperture.value_or(camera.horizontalAperture.value_or(defaults.horizontalAperture));
+    refused = setLensFields(lens, camera.lens);
+    setLensFields(lens, options.lens);
     const double aspect = static_cast<double>(options.width) / options.height;
-    lens.focalLength =
-        options.focalLength.value_or(focalLengthFromFov(aspect * std::tan(camera.yfov / 2), lens.horizontalAperture));
-    lens.bladeCount = options.bladeCount;
-    lens.bladeRotation = glm::radians(options.bladeRotation);
-    lens.anamorphicRatio = options.anamorphicRatio;
-    lens.dofEnabled = !options.noDof;
-    lens.blurScale = options.blurScale;
-    lens.focusBreathing = options.focusBreathing;
+    if (!options.lens.contains("focalLength") && !camera.lens.contains("focalLength"))
+        lens.focalLength = focalLengthFromFov(aspect * std::tan(camera.yfov / 2), lens.horizontalAperture);
     return lens;
 }
 
@@ -197,7 +191,7 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     frame.view.nearPlane = placed.camera.znear;
     frame.view.width = options.width;
     frame.view.height = options.height;
-    frame.view.lens = chosenLens(options, placed.camera);
+    frame.view.lens = chosenLens(options, placed.camera, frame.refusedLensValues);
     frame.view.lens.focusDistance = chosenFocus(options, frame, placed.camera);
     checkLens(frame.view.lens);
 
@@ -230,10 +224,13 @@ PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress
     return frame;
 }
 
-void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global) {
+void printWarnings(const PreparedFrame& frame, const GlobalOptions& global) {
     if (global.verbose && !frame.cacheFolder.empty())
         fmt::print(stderr, "{} of {} pyramids from the cache in {}\n", frame.pyramidsLoaded,
                    frame.world.pyramids.size(), frame.cacheFolder.string());
+    if (!global.quiet)
+        for (const std::string& line : frame.refusedLensValues)
+            fmt::print(stderr, "warning: camera '{}': {}; not used\n", frame.cameraName, line);
     if (!global.quiet && !frame.cacheFailure.empty())
         fmt::print(stderr, "warning: simplified meshes are not kept for the next run: {}\n", frame.cacheFailure);
 }

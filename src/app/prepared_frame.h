@@ -19,6 +19,7 @@ struct PreparedFrame {
     RenderSettings settings;
     std::string sceneName;  // the file's name, or "fish school"
     std::string cameraName;
+    std::vector<std::string> refusedLensValues;  // of the camera's extras, a line each
     double loadMilliseconds = 0;
     double pyramidMilliseconds = 0;
     std::filesystem::path cacheFolder;  // of the pyramids; empty: none is used
@@ -37,7 +38,8 @@ void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 // Both.
 PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress = {});
 
-// On stderr: that pyramids couldn't be stored, unless --quiet; with --verbose, how many came from the cache.
-void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global);
+// On stderr, unless --quiet: values of the camera that aren't used, pyramids that couldn't be stored; with --verbose,
+// how many came from the cache.
+void printWarnings(const PreparedFrame& frame, const GlobalOptions& global);
 
 }  // namespace defocus

@@ -146,7 +146,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     for (const std::filesystem::path& path : arguments.outputs) writeImage(path, image, metadata, arguments.write);
     if (arguments.aovs.any()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
     if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
-    printCacheUse(frame, global);
+    printWarnings(frame, global);
     if (global.verbose) printChoices(context.get(), plan, report);
     if (!global.quiet) printSummary(arguments, report);
 }

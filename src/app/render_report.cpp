@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
+#include "lens/lens_fields.h"
 
 namespace defocus {
 
@@ -63,13 +64,6 @@ Metadata renderMetadata(const RenderReport& report) {
         {"worldToNDC", glm::mat4(ndcFromWorld(report.plan))},
         {"defocus:scene", report.frame.sceneName},
         {"defocus:time", report.options.time},
-        {"defocus:horizontalAperture", lens.horizontalAperture},
-        {"defocus:bladeCount", lens.bladeCount},
-        {"defocus:bladeRotation", glm::degrees(lens.bladeRotation)},
-        {"defocus:anamorphicRatio", lens.anamorphicRatio},
-        {"defocus:dofEnabled", lens.dofEnabled ? 1 : 0},
-        {"defocus:blurScale", lens.blurScale},
-        {"defocus:focusBreathing", lens.focusBreathing ? 1 : 0},
         {"defocus:samples", static_cast<int>(report.stats.samples)},
         {"defocus:seed", static_cast<double>(settings.seed)},
         {"defocus:seconds", report.stats.renderMilliseconds / 1000},
@@ -81,6 +75,10 @@ Metadata renderMetadata(const RenderReport& report) {
         {"defocus:layerFormat", report.stats.layerFormat},
         {"defocus:device", report.stats.device},
     };
+    for (const LensField& field : lensFields()) {
+        const double value = lensFieldValue(lens, field);
+        if (std::isfinite(value)) metadata[std::string("defocus:") + field.name] = value;
+    }
     return metadata;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "app/option_text.h"
+#include "lens/lens_fields.h"
 
 namespace defocus {
 
@@ -81,11 +82,30 @@ void addCamera(CLI::App& command, SceneOptions& options) {
         ->group(group);
 }
 
-void addFocus(CLI::App& command, SceneOptions& options) {
+// Number, whole number or flag, as the field is.
+CLI::Option* addLensField(CLI::App& command, SceneOptions& options, const LensField& field) {
+    const auto set = [&options, &field](double value) {
+        Lens scratch;
+        setLensField(scratch, field, value);
+        options.lens[field.name] = value;
+    };
+    if (std::holds_alternative<bool Lens::*>(field.member)) {
+        const bool standard = lensFieldValue(Lens{}, field) != 0;
+        const std::string name = field.option;
+        return command.add_flag_callback(
+            standard ? "--no-" + name.substr(2) : name, [set, standard] { set(!standard); }, field.description);
+    }
+    const bool whole = std::holds_alternative<int Lens::*>(field.member);
+    return addParsed(command, field.option, field.unit, field.description,
+                     [set, whole, &field](const std::string& text) {
+                         set(whole ? static_cast<double>(parseWhole(text, static_cast<std::uint64_t>(field.least),
+                                                                    static_cast<std::uint64_t>(field.most)))
+                                   : parseNumber(text, {field.least, field.most}));
+                     });
+}
+
+void addFocus(CLI::App& command, SceneOptions& options, CLI::Option* distance) {
     const char* group = "Lens";
-    CLI::Option* distance = addNumber(command, "--focus-distance", options.focusDistance, {1e-6, 1e12}, "M",
-                                      "Distance of the focus plane along the view axis; without any focus option, the "
-                                      "camera's own, else the depth of the scene's centre");
     CLI::Option* node = command
                             .add_option("--focus-node", options.focusNode,
                                         "Focus on the centre of this node (its mesh's box, or its origin)")
@@ -93,41 +113,16 @@ void addFocus(CLI::App& command, SceneOptions& options) {
     CLI::Option* pixel =
         addParsed(command, "--focus-pixel", "X,Y", "Focus on the surface seen at this pixel (0,0 is the top left one)",
                   [&options](const std::string& text) { parsePixel(text, options); });
-    distance->excludes(node)->excludes(pixel)->group(group);
+    distance->excludes(node)->excludes(pixel);
     node->excludes(pixel)->group(group);
     pixel->group(group);
 }
 
 void addLens(CLI::App& command, SceneOptions& options) {
-    const char* group = "Lens";
-    addNumber(command, "--fstop", options.fStop, {1e-3, 1e6}, "N", "f-number; without it, the camera's own, else 2.8")
-        ->group(group);
-    addNumber(command, "--focal-length", options.focalLength, {1e-2, 1e6}, "MM",
-              "Sets the field of view; without it, it follows from the camera's")
-        ->group(group);
-    addNumber(command, "--horizontal-aperture", options.horizontalAperture, {1e-2, 1e6}, "MM",
-              "Width of the sensor; without it, the camera's own, else 36")
-        ->group(group);
-    addFocus(command, options);
-    addParsed(command, "--blades", "N", "Blades of the aperture: 3 to 64, or 0 for a disk",
-              [&options](const auto& text) {
-                  options.bladeCount = static_cast<int>(parseWhole(text, 0, 64));
-                  if (options.bladeCount == 1 || options.bladeCount == 2)
-                      fail("'{}' is neither 0 (a disk) nor 3 to 64", text);
-              })
-        ->default_str("0")
-        ->group(group);
-    addNumber(command, "--blade-rotation", options.bladeRotation, {-1e6, 1e6}, "DEG", "Turns the blades")->group(group);
-    addNumber(command, "--anamorphic-ratio", options.anamorphicRatio, {1e-2, 1e2}, "R",
-              "Above 1, blurred points are tall ovals")
-        ->group(group);
-    addNumber(command, "--blur-scale", options.blurScale, {0, 1e3}, "R", "Exaggerates the blur; 1 is physical")
-        ->group(group);
-    command.add_flag("--no-dof", options.noDof, "A pinhole: everything sharp")->group(group);
-    command
-        .add_flag("--focus-breathing", options.focusBreathing,
-                  "The textbook thin lens, whose field of view narrows as the focus comes nearer")
-        ->group(group);
+    for (const LensField& field : lensFields()) {
+        CLI::Option* option = addLensField(command, options, field)->group("Lens");
+        if (field.name == std::string_view("focusDistance")) addFocus(command, options, option);
+    }
 }
 
 void addLevels(CLI::App& command, SceneOptions& options) {

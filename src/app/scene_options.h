@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -17,7 +18,7 @@ namespace defocus {
 enum class Background { environment, none, uniform };
 
 // As the command line gives it. Each number was checked by itself; what depends on the scene is checked by placeFrame.
-// Lens values: option, else the camera's own value, else the default.
+// Lens values: option, else the camera's own value (its extras), else the default.
 struct SceneOptions {
     // Scene. Without a path: the built-in fish school.
     std::filesystem::path path;
@@ -33,19 +34,10 @@ struct SceneOptions {
     int width = 1024;
     int height = 768;
 
-    // Lens.
-    std::optional<double> fStop;               // default 2.8
-    std::optional<double> focalLength;         // mm; default: from the camera's field of view
-    std::optional<double> horizontalAperture;  // mm; default 36
-    std::optional<double> focusDistance;       // m; default: the depth of the centre of the scene
+    // Lens: what the command line sets of it, by the names and in the units of lens/lens_fields.h.
+    std::map<std::string, double, std::less<>> lens;
     std::string focusNode;
     std::optional<glm::ivec2> focusPixel;  // column from the left, row from the top
-    int bladeCount = 0;
-    double bladeRotation = 0;  // degrees
-    double anamorphicRatio = 1;
-    double blurScale = 1;
-    bool noDof = false;
-    bool focusBreathing = false;
 
     // Samples and levels of detail.
     std::uint32_t samples = 64;

@@ -31,8 +31,8 @@ void surround(ScalingWorld& result) {
     view.worldFromCamera = placed.worldFromCamera;
     view.nearPlane = placed.camera.znear;
     view.lens.focalLength = focalLengthFromFov(aspect * std::tan(placed.camera.yfov / 2), view.lens.horizontalAperture);
-    view.lens.fStop = placed.camera.fStop.value_or(view.lens.fStop);
-    view.lens.focusDistance = placed.camera.focusDistance.value_or(view.lens.focusDistance);
+    view.lens.fStop = placed.camera.lensValue("fStop").value_or(view.lens.fStop);
+    view.lens.focusDistance = placed.camera.lensValue("focusDistance").value_or(view.lens.focusDistance);
     world.lights = lightsOrDefault(scene, world.pose, placed);
     world.environment = environmentOrDefault(scene);
 }

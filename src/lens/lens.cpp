@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/error.h"
 
@@ -14,6 +15,12 @@ namespace defocus {
 namespace {
 
 constexpr double millimetre = 1e-3;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double mostTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane goes through the camera
+
+void requireWithin(double value, double least, double most, const char* name) {
+    if (!(value >= least && value <= most)) fail("lens: {} must be from {} to {}, not {}", name, least, most, value);
+}
 
 void requirePositive(double value, const char* name, const char* unit) {
     if (!(value > 0) || !std::isfinite(value))
@@ -40,6 +47,22 @@ void checkLens(const Lens& lens) {
     if (!std::isfinite(lens.bladeRotation)) fail("lens: the blade rotation must be finite, not {}", lens.bladeRotation);
     if (lens.bladeCount != 0 && (lens.bladeCount < 3 || lens.bladeCount > 64))
         fail("lens: the blade count must be 0 (a disk) or 3 to 64, not {}", lens.bladeCount);
+    requireWithin(lens.bladeCurvature, 0, 1, "the blade curvature");
+    requireWithin(lens.obstruction, 0, 0.999, "the obstruction");
+    requireWithin(lens.sphericalAberration, -1, 1, "the spherical aberration");
+    requireWithin(lens.catEye, 0, 1, "the cat's eye");
+    requireWithin(lens.axialChromaticAberration, -100, 100, "the axial chromatic aberration (dioptres)");
+    requireWithin(lens.foregroundLimit, 0, infinity, "the limit of the foreground's blur (px)");
+    requireWithin(lens.backgroundLimit, 0, infinity, "the limit of the background's blur (px)");
+    requireWithin(lens.focusRangeFront, 0, infinity, "the focus range in front (m)");
+    requireWithin(lens.focusRangeBehind, 0, infinity, "the focus range behind (m)");
+    requireWithin(lens.focusTilt, -mostTilt, mostTilt, "the focus tilt (radians)");
+    requireWithin(lens.focusSwing, -mostTilt, mostTilt, "the focus swing (radians)");
+    requireWithin(lens.fieldCurvature, -1e3, 1e3, "the field curvature");
+    requireWithin(lens.radialBlurGain, 0, 1e3, "the radial blur gain");
+    if (lens.focusRangeFront >= lens.focusDistance)
+        fail("lens: the focus range reaches {} m in front of a focus at {} m: it must end in front of the camera",
+             lens.focusRangeFront, lens.focusDistance);
     if (lens.focusBreathing && lens.focusDistance <= lens.focalLength * millimetre)
         fail("lens: with focus breathing the focus distance ({} m) must be beyond the focal length ({} mm)",
              lens.focusDistance, lens.focalLength);

@@ -8,19 +8,43 @@
 //   C(w) = a + b·w,  a = −(A/2)/tan(θx/2),  b = −a/s;   c = |C/w|·W
 // This is Munkberg, Toth and Akenine-Möller 2012 with the opposite sign of C: here C > 0 behind the focus plane.
 
+#include <limits>
+#include <memory>
+
+#include "image/image.h"
+
 namespace defocus {
 
 struct Lens {
+    // Camera.
     double focalLength = 50;         // mm
     double fStop = 2.8;              // f-number, > 0
     double focusDistance = 2.5;      // m from the camera, along the view axis, > 0 (infinity is allowed)
     double horizontalAperture = 36;  // mm, sensor width
-    int bladeCount = 0;              // 0: a disk, else a polygon of 3 or more blades
-    double bladeRotation = 0;        // radians
-    double anamorphicRatio = 1;      // > 1 narrows the aperture horizontally (tall ovals)
     bool dofEnabled = true;          // false: a pinhole, whatever the f-number
     double blurScale = 1;            // 1 is physical; ≥ 0
     bool focusBreathing = false;     // true: textbook thin lens, the field of view narrows as the focus comes nearer
+
+    // Aperture; see aperture.h.
+    int bladeCount = 0;                   // 0: a disk, else a polygon of 3 or more blades
+    double bladeRotation = 0;             // radians; turns aperture images too
+    double bladeCurvature = 0;            // 0: straight blades, 1: a circle
+    double anamorphicRatio = 1;           // > 1 narrows the aperture horizontally (tall ovals)
+    double obstruction = 0;               // of a mirror lens: diameter of its inner disk over the outer, [0, 1)
+    double sphericalAberration = 0;       // [−1, 1]; > 0 moves light to the rim (soap bubbles), < 0 inwards (creamy)
+    double catEye = 0;                    // [0, 1]; how far the rim of the barrel reaches in at the image's corners
+    double axialChromaticAberration = 0;  // dioptres between the focus of red and of blue; > 0: red focuses farther
+    std::shared_ptr<const Image> apertureImage;  // grey values as transmission; null: the shape above
+
+    // An artist's controls of C(w); see circle_of_confusion.h.
+    double foregroundLimit = std::numeric_limits<double>::infinity();  // largest CoC in front of the focus, px
+    double backgroundLimit = std::numeric_limits<double>::infinity();  // largest CoC behind the focus, px
+    double focusRangeFront = 0;   // m in front of the focus distance that stay sharp, [0, focusDistance)
+    double focusRangeBehind = 0;  // m behind the focus distance that stay sharp, ≥ 0
+    double focusTilt = 0;         // radians about the horizontal axis; > 0: the focus plane's top comes nearer
+    double focusSwing = 0;        // radians about the vertical axis; > 0: the focus plane's right side comes nearer
+    double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κr²); r is 1 at the left and right edges
+    double radialBlurGain = 0;  // κ of the gain 1 + κr² on the blur
 };
 
 // Throws Error naming the value that makes an impossible lens (NaN, fStop ≤ 0, blades 1 or 2, focus inside the focal

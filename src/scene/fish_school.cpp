@@ -122,9 +122,7 @@ void addCamera(Scene& scene) {
     camera.name = "Camera";
     camera.yfov = 2.0 * std::atan(tanHalfHeight);
     camera.aspectRatio = tanHalfWidth / tanHalfHeight;
-    camera.fStop = fStop;
-    camera.focusDistance = focusDistance;
-    camera.horizontalAperture = horizontalAperture;
+    camera.lens = {{"fStop", fStop}, {"focusDistance", focusDistance}, {"horizontalAperture", horizontalAperture}};
     scene.cameras.push_back(camera);
     Node node;
     node.name = "Camera";

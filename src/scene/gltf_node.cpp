@@ -160,13 +160,16 @@ Node readNode(Source& source, std::size_t index) {
 
 // ---- cameras ------------------------------------------------------------------------------------
 
-// A number > 0 among a camera's extras; these three names are the ones of Blender's and USD's lens.
-std::optional<double> lensValue(const nlohmann::json& camera, const char* name) {
+// The numbers and truth values among a camera's extras: Blender exports custom properties there.
+std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& camera) {
+    std::map<std::string, double, std::less<>> values;
     const auto extras = camera.find("extras");
-    if (extras == camera.end() || !extras->is_object()) return std::nullopt;
-    const auto found = extras->find(name);
-    if (found == extras->end() || !found->is_number() || !(found->get<double>() > 0)) return std::nullopt;
-    return found->get<double>();
+    if (extras == camera.end() || !extras->is_object()) return values;
+    for (const auto& [name, value] : extras->items()) {
+        if (value.is_number()) values[name] = value.get<double>();
+        if (value.is_boolean()) values[name] = value.get<bool>() ? 1 : 0;
+    }
+    return values;
 }
 
 }  // namespace
@@ -204,9 +207,7 @@ std::vector<Camera> readCameras(Source& source) {
         const std::string label = labelOf("camera", i, from.name);
         Camera camera;
         camera.name = from.name;
-        camera.fStop = lensValue(json, "fStop");
-        camera.focusDistance = lensValue(json, "focusDistance");
-        camera.horizontalAperture = lensValue(json, "horizontalAperture");
+        camera.lens = lensValues(json);
         if (from.type == "orthographic") {
             camera.orthographic = "orthographic cameras are not supported";
             ignore(source, label, *camera.orthographic);

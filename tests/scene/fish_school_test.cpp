@@ -77,9 +77,10 @@ void rasterise(const std::array<glm::dvec2, 3>& p, std::vector<bool>& covered) {
 
 // c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2)), A = f / (1000 · fStop), f = horizontalAperture / (2 tan(θx/2))
 double blur(const Camera& camera, const View& view, double depth) {
-    const double focalLength = *camera.horizontalAperture / (2.0 * view.tanHalfWidth);
-    const double aperture = focalLength / (1000.0 * *camera.fStop);
-    return aperture * std::abs(1.0 / *camera.focusDistance - 1.0 / depth) * imageWidth / (2.0 * view.tanHalfWidth);
+    const double focalLength = *camera.lensValue("horizontalAperture") / (2.0 * view.tanHalfWidth);
+    const double aperture = focalLength / (1000.0 * *camera.lensValue("fStop"));
+    return aperture * std::abs(1.0 / *camera.lensValue("focusDistance") - 1.0 / depth) * imageWidth /
+           (2.0 * view.tanHalfWidth);
 }
 
 // Every directed edge once, and its opposite once: a closed surface of one orientation without branching edges.
@@ -222,7 +223,8 @@ TEST(FishSchool, someFishAreSharpAndNoneTooBlurred) {
     const Pose pose = poseAt(school(), 0, -1);
     const View view = viewOf(school(), pose);
     const Camera& camera = school().cameras.at(0);
-    ASSERT_TRUE(camera.fStop && camera.focusDistance && camera.horizontalAperture);
+    ASSERT_TRUE(camera.lensValue("fStop") && camera.lensValue("focusDistance") &&
+                camera.lensValue("horizontalAperture"));
     std::vector<double> centres;
     double largest = 0;
     double nearest = std::numeric_limits<double>::infinity();

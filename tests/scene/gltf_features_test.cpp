@@ -265,9 +265,9 @@ TEST(GltfScene, cameraExtrasAreLensValues) {
          {"extras", {{"fStop", 1.4}, {"focusDistance", 2.5}, {"horizontalAperture", -1}}}},
         {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 9}}}}};
     const Scene scene = builder.load();
-    EXPECT_EQ(scene.cameras.at(0).fStop, 1.4);
-    EXPECT_EQ(scene.cameras[0].focusDistance, 2.5);
-    EXPECT_FALSE(scene.cameras[0].horizontalAperture) << "a sensor of −1 mm is none";
+    EXPECT_EQ(scene.cameras.at(0).lensValue("fStop"), 1.4);
+    EXPECT_EQ(scene.cameras[0].lensValue("focusDistance"), 2.5);
+    EXPECT_EQ(scene.cameras[0].lensValue("horizontalAperture"), -1) << "whether it makes sense is for the lens to say";
     EXPECT_EQ(scene.cameras[0].yfov, 0.5);
     EXPECT_TRUE(scene.cameras.at(1).orthographic);
 }
