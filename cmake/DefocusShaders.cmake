@@ -2,7 +2,8 @@
 
 function(defocus_embed_shaders TARGET DIR)
     file(GLOB_RECURSE SHADERS CONFIGURE_DEPENDS RELATIVE "${DIR}" "${DIR}/*.glsl" "${DIR}/*.vert" "${DIR}/*.frag"
-                                                                  "${DIR}/*.geom" "${DIR}/*.comp")
+                                                                  "${DIR}/*.tesc" "${DIR}/*.tese" "${DIR}/*.geom"
+                                                                  "${DIR}/*.comp")
     set(OUTPUT "${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp")
     list(TRANSFORM SHADERS PREPEND "${DIR}/" OUTPUT_VARIABLE SHADER_PATHS)
     add_custom_command(

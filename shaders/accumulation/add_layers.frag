@@ -1,6 +1,7 @@
 // Composes each of the wave's layers over the environment and adds them, one after the other in order, to the compensated sum of
 // the block.
 #include "include/frame.glsl"
+#include "include/lens.glsl"
 #include "include/layer_format.glsl"
 #include "include/compensated.glsl"
 #include "include/environment.glsl"
@@ -13,7 +14,7 @@ layout(binding = 0) uniform sampler2DArray layers;
 layout(binding = 1) uniform sampler2D sumSoFar;
 layout(binding = 2) uniform sampler2D compensationSoFar;
 layout(std140, binding = 3) uniform ShiftBlock {
-    vec4 sampleShifts[BLOCK_SAMPLES];   // of the sky on the image plane at distance 1
+    vec4 sampleShifts[BLOCK_SAMPLES];   // of the sky on the image plane at distance 1; COC_CONTROLS: by C/w = 1, by jitter
 };
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
@@ -24,7 +25,12 @@ layout(location = 1) out vec4 compensationOut;
 #if BACKGROUND == 2
 // The sky that a sample sees through this pixel.
 vec3 behind(vec2 imagePlane, int layer) {
+#ifdef COC_CONTROLS
+    float blur = relativeCircleOfConfusion(0.0, imagePlane * frame.projection.xy, 1.0);
+    vec2 p = imagePlane + blur * sampleShifts[firstInBlock + layer].xy + sampleShifts[firstInBlock + layer].zw;
+#else
     vec2 p = imagePlane + sampleShifts[firstInBlock + layer].xy;
+#endif
     vec3 up = vec3(frame.worldFromView[0].y, frame.worldFromView[1].y, frame.worldFromView[2].y);
     return gradientRadiance((dot(up.xy, p) - up.z) * inversesqrt(dot(p, p) + 1.0));
 }

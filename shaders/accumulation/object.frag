@@ -32,6 +32,10 @@ layout(location = 0) out uint layerOut;
 layout(location = 0) out vec4 layerOut;
 #endif
 
+#if defined(COC_SCALES) && defined(READS_COC_SCALE)
+layout(location = 1) out vec4 cocScaleOut;
+#endif
+
 #ifdef TEXTURED
 vec2 uvOf(int slot) {
     vec4 rowU = material.uvRows[2 * slot];
@@ -122,6 +126,9 @@ void main() {
     vec3 radiance = shaded(baseColor.rgb) + emissive;
 #endif
 
+#if defined(COC_SCALES) && defined(READS_COC_SCALE)
+    cocScaleOut = vec4(surface.cocScale);
+#endif
     // A texel or a sliver without a value is black, not a hole that no later sample could fill.
     if (any(isnan(radiance))) radiance = vec3(0.0);
 #ifdef LAYER_RGB9E5

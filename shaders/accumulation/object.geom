@@ -5,7 +5,7 @@ layout(triangle_strip, max_vertices = 3) out;
 
 in Surface {
 #include "include/surface_varyings.glsl"
-} toGeometry[];
+} corners[];
 flat in vec2 ditherAndLayer[];
 
 out Surface {
@@ -13,28 +13,17 @@ out Surface {
 } surface;
 flat out float ditherOffset;
 
+#define SURFACE_CORNERS corners
+#define SURFACE_OUT surface
+#include "include/surface_weighted.glsl"
+
 void main() {
+    const vec3 units[3] = vec3[3](vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
     for (int i = 0; i < 3; ++i) {
         gl_Position = gl_in[i].gl_Position;
         gl_Layer = int(ditherAndLayer[i].y);
         ditherOffset = ditherAndLayer[i].x;
-        surface.color = toGeometry[i].color;
-#ifndef UNLIT
-        surface.normal = toGeometry[i].normal;
-#ifdef COARSE_LEVEL
-        surface.agreement = toGeometry[i].agreement;
-#endif
-        surface.toEye = toGeometry[i].toEye;
-#endif
-#if defined(LOCAL_LIGHTS)
-        surface.position = toGeometry[i].position;
-#endif
-#ifdef TEXTURED
-        surface.uv = toGeometry[i].uv;
-#endif
-#ifdef NORMAL_TEXTURE
-        surface.tangent = toGeometry[i].tangent;
-#endif
+        writeSurface(units[i]);
         EmitVertex();
     }
     EndPrimitive();

@@ -1,4 +1,5 @@
-// One lens sample an instance: the shear moves the object, gl_Layer picks the sample's layer.
+// One lens sample an instance: the shear moves the object, gl_Layer picks the sample's layer. REFINED: the shear waits until
+// triangles are small enough for it (object.tesc, object.tese, split.geom).
 #ifdef VERTEX_LAYER
 #extension GL_ARB_shader_viewport_layer_array : enable
 #extension GL_AMD_vertex_shader_layer : enable
@@ -15,16 +16,21 @@ layout(location = 4) in vec2 uv1In;
 layout(location = 5) in vec4 tangentIn;
 layout(location = 6) in vec4 lensAndJitterIn;   // an instance
 layout(location = 7) in vec4 eyeAndDitherIn;    // an instance: lens point (m), dither offset, layer
+layout(location = 8) in float cocScaleIn;
 
 #ifdef VERTEX_LAYER
 #define STAGE_OUT surface
 #else
-#define STAGE_OUT toGeometry
+#define STAGE_OUT toNext
 #endif
 out Surface {
 #include "include/surface_varyings.glsl"
 } STAGE_OUT;
-#ifdef VERTEX_LAYER
+#ifdef REFINED
+out Unsheared {
+#include "include/unsheared_varyings.glsl"
+} unsheared;
+#elif defined(VERTEX_LAYER)
 flat out float ditherOffset;
 #else
 flat out vec2 ditherAndLayer;
@@ -32,7 +38,10 @@ flat out vec2 ditherAndLayer;
 
 void main() {
     vec3 viewPosition = (object.viewFromObject * vec4(positionIn, 1.0)).xyz;
-    gl_Position = projectedThroughLens(viewPosition, lensAndJitterIn);
+    float cocScale = object.values.w;
+#ifdef VERTEX_COC_SCALES
+    cocScale *= cocScaleIn;
+#endif
 
 #ifdef VERTEX_COLORS
     STAGE_OUT.color = material.baseColor * colorIn;
@@ -55,11 +64,24 @@ void main() {
 #ifdef NORMAL_TEXTURE
     STAGE_OUT.tangent = vec4(mat3(object.viewFromObject) * tangentIn.xyz, tangentIn.w);
 #endif
+#if defined(COC_SCALES) && defined(READS_COC_SCALE)
+    STAGE_OUT.cocScale = cocScale;
+#endif
 
+    vec3 pinhole = pinholePosition(viewPosition);
+#ifdef REFINED
+    gl_Position = vec4(pinhole, 1.0);
+    unsheared.pinhole = pinhole;
+    unsheared.cocScale = cocScale;
+    unsheared.lensAndJitter = lensAndJitterIn;
+    unsheared.ditherAndLayer = eyeAndDitherIn.zw;
+#else
+    gl_Position = throughLens(pinhole, cocScale, lensAndJitterIn);
 #ifdef VERTEX_LAYER
     ditherOffset = eyeAndDitherIn.z;
     gl_Layer = int(eyeAndDitherIn.w);
 #else
     ditherAndLayer = eyeAndDitherIn.zw;
+#endif
 #endif
 }

@@ -1,8 +1,10 @@
 #include "include/frame.glsl"
+#include "include/lens.glsl"
 #include "include/layer_format.glsl"
 #include "include/environment.glsl"
 
-in vec3 viewDirection;
+in vec2 place;                // in normalised device coordinates
+flat in vec4 lensAndJitter;
 flat in float ditherOffset;
 
 #ifdef LAYER_RGB9E5
@@ -11,7 +13,18 @@ layout(location = 0) out uint layerOut;
 layout(location = 0) out vec4 layerOut;
 #endif
 
+// A pixel sees the direction that the lens moves there: a fixed point, as C at infinity may depend on the place.
+vec3 directionOfSky() {
+    vec2 unblurred = place - lensAndJitter.zw;
+    vec2 pinhole = unblurred - relativeCircleOfConfusion(0.0, unblurred, 1.0) * lensAndJitter.xy;
+#ifdef COC_CONTROLS
+    for (int i = 0; i < 3; ++i) pinhole = unblurred - relativeCircleOfConfusion(0.0, pinhole, 1.0) * lensAndJitter.xy;
+#endif
+    return vec3(pinhole / frame.projection.xy, -1.0);
+}
+
 void main() {
+    vec3 viewDirection = directionOfSky();
 #if ENVIRONMENT == 3
     vec4 radiance = vec4(environmentRadiance(normalize(mat3(frame.worldFromView) * viewDirection), 0.0), 1.0);
 #elif ENVIRONMENT == 2

@@ -1,9 +1,10 @@
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 
-in vec3 directionToGeometry[];
+flat in vec4 lensAndJitterToGeometry[];
 flat in vec2 ditherAndLayer[];
-out vec3 viewDirection;
+out vec2 place;
+flat out vec4 lensAndJitter;
 flat out float ditherOffset;
 
 void main() {
@@ -11,7 +12,8 @@ void main() {
         gl_Position = gl_in[i].gl_Position;
         gl_Layer = int(ditherAndLayer[i].y);
         ditherOffset = ditherAndLayer[i].x;
-        viewDirection = directionToGeometry[i];
+        place = gl_in[i].gl_Position.xy;
+        lensAndJitter = lensAndJitterToGeometry[i];
         EmitVertex();
     }
     EndPrimitive();

@@ -10,25 +10,24 @@ layout(location = 6) in vec4 lensAndJitterIn;
 layout(location = 7) in vec4 eyeAndDitherIn;
 
 #ifdef VERTEX_LAYER
-out vec3 viewDirection;
+out vec2 place;                // in normalised device coordinates
+flat out vec4 lensAndJitter;
 flat out float ditherOffset;
 #else
-out vec3 directionToGeometry;
+flat out vec4 lensAndJitterToGeometry;
 flat out vec2 ditherAndLayer;
 #endif
 
 void main() {
     vec2 corner = vec2((gl_VertexID & 1) * 4 - 1, (gl_VertexID & 2) * 2 - 1);
     gl_Position = vec4(corner, 0.0, 1.0);  // reversed depth: 0 is infinity
-    // At infinity C/w = b: a pixel sees the direction that the lens moves there.
-    vec2 pinhole = corner - frame.coc.y * lensAndJitterIn.xy - lensAndJitterIn.zw;
-    vec3 direction = vec3(pinhole / frame.projection.xy, -1.0);
 #ifdef VERTEX_LAYER
-    viewDirection = direction;
+    place = corner;
+    lensAndJitter = lensAndJitterIn;
     ditherOffset = eyeAndDitherIn.z;
     gl_Layer = int(eyeAndDitherIn.w);
 #else
-    directionToGeometry = direction;
+    lensAndJitterToGeometry = lensAndJitterIn;
     ditherAndLayer = eyeAndDitherIn.zw;
 #endif
 }

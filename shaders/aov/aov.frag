@@ -28,6 +28,11 @@ void main() {
 #endif
     float w = 1.0 / gl_FragCoord.w;
     depthOut = w;
-    cocOut = circleOfConfusion(gl_FragCoord.z);
+#ifdef COC_SCALES
+    float cocScale = surface.cocScale;
+#else
+    const float cocScale = 1.0;
+#endif
+    cocOut = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, ivec2(IMAGE_SIZE)), cocScale);
     levelOut = object.values.x;
 }

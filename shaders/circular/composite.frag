@@ -1,9 +1,9 @@
 // The sharp image, over it the blurred far field where a pixel lies behind the focus, over that the near field.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
+#include "include/pinhole.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(binding = 1) uniform sampler2D pinholeDepth;
 layout(binding = 2) uniform sampler2D farBlurred;    // COMBINED: both fields
 #ifndef COMBINED
 layout(binding = 3) uniform sampler2D nearBlurred;
@@ -22,7 +22,7 @@ vec3 radianceOf(vec4 field, float own, vec3 sharp) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float diameter = circleOfConfusion(texelFetch(pinholeDepth, pixel, 0).r);
+    float diameter = pinholeCircleOfConfusion(pixel);
     vec3 sharp = texelFetch(pinholeColor, pixel, 0).rgb;
     vec2 place = gl_FragCoord.xy / (float(REDUCTION) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);

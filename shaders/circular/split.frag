@@ -2,9 +2,9 @@
 // weight, with the radius of its blur in the field's pixels. REDUCTION pixels a side make one of the field.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
+#include "include/pinhole.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(binding = 1) uniform sampler2D pinholeDepth;
 layout(location = 0) uniform float largestRadius;   // px
 layout(location = 1) uniform float perFarDiameter;  // 1 / the largest diameter behind the focus plane, px
 
@@ -24,7 +24,7 @@ void main() {
     nearRadius = 0.0;
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
-            float diameter = circleOfConfusion(texelFetch(pinholeDepth, ivec2(x, y), 0).r);
+            float diameter = pinholeCircleOfConfusion(ivec2(x, y));
             vec4 color = vec4(texelFetch(pinholeColor, ivec2(x, y), 0).rgb, 1.0);
             // A blur of less than a pixel belongs to the sharp image. Behind the focus the weight is the blur itself (Garcia's
             // premultiplied far field): what is nearly sharp leaks little into the wide disks of what lies behind it.

@@ -9,7 +9,9 @@ struct LightData {
 
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
-    vec4 coc;             // a, b of C(w) = a + b·w; image width (px)
+    vec4 coc;             // a, b₁ of C; image width (px); b₂        (src/lens/circle_of_confusion.h)
+    vec4 cocField;        // tilt t (2), κ, g
+    vec4 cocLimits;       // R₁, R₂; 1/k²; px by which C may differ from its interpolation in a triangle
     mat4 worldFromView;   // rotation
     vec4 environment[3];  // zenith, horizon, nadir radiance
     vec4 irradiance[9];   // E(n)/π in the real spherical harmonics of Ramamoorthi and Hanrahan 2001, world space
@@ -19,7 +21,8 @@ layout(std140, binding = 0) uniform FrameBlock {
 layout(std140, binding = 1) uniform ObjectBlock {
     mat4 viewFromObject;
     mat4 normalMatrix;    // inverse transpose, of the upper 3×3
-    vec4 values;          // fractional level λ, share of its boundary sample that draws the coarser level, its number
+    vec4 values;          // fractional level λ, share of its boundary sample that draws the coarser level, its number,
+                          // scale of its blur
 } object;
 
 layout(std140, binding = 2) uniform MaterialBlock {

@@ -17,3 +17,6 @@
 #ifdef NORMAL_TEXTURE
     vec4 tangent;
 #endif
+#if defined(COC_SCALES) && defined(READS_COC_SCALE)
+    float cocScale;       // of the surface's blur
+#endif

@@ -1,9 +1,9 @@
 // The pinhole image with blurriness and relative depth in alpha: −1 (in front) … 0 (in focus) … 1 (behind), stored as 0 … 1.
 #include "include/frame.glsl"
 #include "include/lens.glsl"
+#include "include/pinhole.glsl"
 
 layout(binding = 0) uniform sampler2D pinholeColor;
-layout(binding = 1) uniform sampler2D pinholeDepth;
 layout(location = 0) uniform float perLargest;   // 1 / the largest diameter, px
 #ifndef THIN_LENS
 layout(location = 1) uniform vec4 planes;        // focus (m), 1/(focus − near), 1/(far − focus), cutoff behind
@@ -13,10 +13,10 @@ layout(location = 0) out vec4 colorAndBlurriness;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float depth = texelFetch(pinholeDepth, pixel, 0).r;
 #ifdef THIN_LENS
-    float blurriness = circleOfConfusion(depth) * perLargest;
+    float blurriness = pinholeCircleOfConfusion(pixel) * perLargest;
 #else
+    float depth = texelFetch(pinholeDepth, pixel, 0).r;
     // Infinity lies as far behind as anything does.
     float beyondFocus = depth > 0.0 ? frame.projection.z / depth - planes.x : 3.0e38;
     float blurriness = beyondFocus < 0.0 ? beyondFocus * planes.y : min(beyondFocus * planes.z, planes.w);

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <mutex>
 
+#include "app/focus.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "image/image_io.h"
@@ -17,13 +17,10 @@
 #include "lod/pyramid_cache.h"
 #include "scene/fish_school.h"
 #include "scene/gltf.h"
-#include "scene/pick.h"
 
 namespace defocus {
 
 namespace {
-
-constexpr double defaultFocusDistance = 2.5;  // m, where the scene lies beside or behind the camera
 
 class Stopwatch {
 public:
@@ -69,63 +66,6 @@ Environment chosenEnvironment(const SceneOptions& options, const Scene& scene) {
     return environment;
 }
 
-// ---- focus
-// -----------------------------------------------------------------------------------------------------------
-
-double depthOf(const View& view, const glm::dvec3& point) {
-    return -(glm::inverse(view.worldFromCamera) * glm::dvec4(point, 1)).z;
-}
-
-double depthOfCentre(const PreparedFrame& frame) {
-    const Bounds& bounds = frame.world.pose.bounds;
-    const double depth = bounds.empty() ? 0 : depthOf(frame.view, bounds.centre());
-    return depth > frame.view.nearPlane && std::isfinite(depth) ? depth : defaultFocusDistance;
-}
-
-double depthOfNode(const PreparedFrame& frame, const std::string& name) {
-    const glm::dvec3 centre = nodeCentre(*frame.scene, frame.world.pose, nodeNamed(*frame.scene, name));
-    const double depth = depthOf(frame.view, centre);
-    if (!(depth > 0)) fail("--focus-node: the centre of '{}' lies behind the camera", name);
-    return depth;
-}
-
-// The depth of the first surface behind the middle of a pixel, for the field of view that `lens` has.
-double depthAtPixel(const PreparedFrame& frame, const Lens& lens, const glm::ivec2& pixel) {
-    const View& view = frame.view;
-    const double tanX = tanHalfHorizontalFov(lens);
-    const double tanY = tanX * view.height / view.width;
-    const glm::dvec3 direction(((pixel.x + 0.5) / view.width * 2 - 1) * tanX,
-                               (1 - (pixel.y + 0.5) / view.height * 2) * tanY, -1);
-    const glm::dvec3 world = glm::dmat3(view.worldFromCamera) * direction;
-    const auto hit = firstHit(*frame.scene, frame.world.pose, glm::dvec3(view.worldFromCamera[3]), world);
-    if (!hit || !(hit->distance > 0))
-        fail("--focus-pixel: there is no surface at pixel {},{}; choose one that shows an object", pixel.x, pixel.y);
-    return hit->distance / glm::length(direction);
-}
-
-// With focus breathing the pixel's ray depends on the focus: a few rounds settle it.
-double settledDepthAtPixel(const PreparedFrame& frame, Lens lens, const glm::ivec2& pixel) {
-    const View& view = frame.view;
-    if (pixel.x >= view.width || pixel.y >= view.height)
-        fail("--focus-pixel: pixel {},{} lies outside the image of {}x{}", pixel.x, pixel.y, view.width, view.height);
-    lens.focusDistance = std::numeric_limits<double>::infinity();
-    const int rounds = lens.focusBreathing ? 4 : 1;
-    for (int i = 0; i < rounds; ++i) {
-        lens.focusDistance = depthAtPixel(frame, lens, pixel);
-        checkLens(lens);
-    }
-    return lens.focusDistance;
-}
-
-double chosenFocus(const SceneOptions& options, const PreparedFrame& frame, const Camera& camera) {
-    const auto distance = options.lens.find("focusDistance");
-    if (distance != options.lens.end()) return distance->second;
-    if (!options.focusNode.empty()) return depthOfNode(frame, options.focusNode);
-    if (options.focusPixel) return settledDepthAtPixel(frame, frame.view.lens, *options.focusPixel);
-    const std::optional<double> own = camera.lensValue("focusDistance");
-    return own && *own > 0 ? *own : depthOfCentre(frame);
-}
-
 // ---- camera and lens
 // -------------------------------------------------------------------------------------------------
 
@@ -151,6 +91,7 @@ RenderSettings chosenSettings(const SceneOptions& options) {
     settings.thresholds.blur = options.blurThreshold.value_or(settings.thresholds.blur);
     settings.thresholds.size = options.sizeThreshold.value_or(settings.thresholds.size);
     settings.keepAll = options.keepAll;
+    settings.cocTolerance = options.cocTolerance;
     return settings;
 }
 
@@ -180,6 +121,8 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     PreparedFrame frame;
     frame.scene = std::make_unique<Scene>(loadScene(options, progress));
     frame.sceneName = options.path.empty() ? "fish school" : options.path.filename().string();
+    for (const auto& [name, scale] : options.nodeBlur)
+        frame.scene->nodes[static_cast<std::size_t>(nodeNamed(*frame.scene, name))].cocScale = scale;
     frame.world.scene = frame.scene.get();
     frame.world.pose = poseAt(*frame.scene, options.time);
 
@@ -192,7 +135,7 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     frame.view.width = options.width;
     frame.view.height = options.height;
     frame.view.lens = chosenLens(options, placed.camera, frame.refusedLensValues);
-    frame.view.lens.focusDistance = chosenFocus(options, frame, placed.camera);
+    chooseFocus(options, placed.camera, *frame.scene, frame.world.pose, frame.view);
     checkLens(frame.view.lens);
 
     // Light, surroundings and settings.

@@ -31,6 +31,24 @@ void parsePixel(const std::string& text, SceneOptions& options) {
                                     parseWhole(text.substr(comma + 1), 0, mostPixels - 1));
 }
 
+void parsePoints(const std::string& text, SceneOptions& options) {
+    const std::vector<double> numbers = parseNumbers(text, 6, {0, mostPixels - 1});
+    std::array<glm::ivec2, 3> points;
+    for (std::size_t i = 0; i < 3; ++i) points[i] = glm::ivec2(numbers[2 * i], numbers[2 * i + 1]);
+    options.focusPoints = points;
+}
+
+// NAME=SCALE each; a name may hold an equals sign.
+void parseNodeBlurs(const std::vector<std::string>& texts, SceneOptions& options) {
+    for (const std::string& text : texts) try {
+            const std::size_t equals = text.rfind('=');
+            if (equals == std::string::npos || equals == 0) fail("'{}' is not NAME=SCALE, such as Fish3=0", text);
+            options.nodeBlur[text.substr(0, equals)] = parseNumber(text.substr(equals + 1), {0, 1e3});
+        } catch (const Error& error) {
+            throw CLI::ValidationError("--node-blur", error.what());
+        }
+}
+
 void parseBackground(const std::string& text, SceneOptions& options) {
     if (text.find(',') != std::string::npos) {
         const std::vector<double> color = parseNumbers(text, 3, {0, 1e9});
@@ -113,9 +131,16 @@ void addFocus(CLI::App& command, SceneOptions& options, CLI::Option* distance) {
     CLI::Option* pixel =
         addParsed(command, "--focus-pixel", "X,Y", "Focus on the surface seen at this pixel (0,0 is the top left one)",
                   [&options](const std::string& text) { parsePixel(text, options); });
-    distance->excludes(node)->excludes(pixel);
-    node->excludes(pixel)->group(group);
-    pixel->group(group);
+    CLI::Option* points = addParsed(command, "--focus-points", "X,Y,X,Y,X,Y",
+                                    "Tilt the focus plane so that it goes through what three pixels show",
+                                    [&options](const std::string& text) { parsePoints(text, options); });
+    CLI::Option* automatic = command.add_flag("--focus-auto", options.focusAuto,
+                                              "Focus on the median depth of what the image's middle shows");
+    const std::vector<CLI::Option*> ways = {distance, node, pixel, points, automatic};
+    for (CLI::Option* way : ways)
+        for (CLI::Option* other : ways)
+            if (way != other) way->excludes(other);
+    for (CLI::Option* way : ways) way->group(group);
 }
 
 void addLens(CLI::App& command, SceneOptions& options) {
@@ -123,6 +148,16 @@ void addLens(CLI::App& command, SceneOptions& options) {
         CLI::Option* option = addLensField(command, options, field)->group("Lens");
         if (field.name == std::string_view("focusDistance")) addFocus(command, options, option);
     }
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--node-blur", [&options](const std::vector<std::string>& texts) { parseNodeBlurs(texts, options); },
+            "Scale the blur of a node and all below it; 0 keeps it sharp. Can be given several times")
+        ->allow_extra_args(false)
+        ->type_name("NAME=SCALE")
+        ->group("Lens");
+    addNumber(command, "--coc-tolerance", options.cocTolerance, {1e-3, 1e3}, "PX",
+              "By how much the blur inside a triangle may differ from what its corners give; larger ones are divided")
+        ->group("Lens");
 }
 
 void addLevels(CLI::App& command, SceneOptions& options) {

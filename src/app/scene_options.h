@@ -2,6 +2,7 @@
 // What render, plan and their kin have in common: a scene, a camera with its lens, levels of detail, surroundings.
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -37,7 +38,11 @@ struct SceneOptions {
     // Lens: what the command line sets of it, by the names and in the units of lens/lens_fields.h.
     std::map<std::string, double, std::less<>> lens;
     std::string focusNode;
-    std::optional<glm::ivec2> focusPixel;  // column from the left, row from the top
+    std::optional<glm::ivec2> focusPixel;                  // column from the left, row from the top
+    std::optional<std::array<glm::ivec2, 3>> focusPoints;  // three pixels: the focus plane goes through what they show
+    bool focusAuto = false;                                // the median depth of the image's middle
+    std::map<std::string, double> nodeBlur;                // by node: scale of its blur, ≥ 0
+    double cocTolerance = 0.5;                             // px; see RenderSettings
 
     // Samples and levels of detail.
     std::uint32_t samples = 64;

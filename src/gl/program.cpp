@@ -20,6 +20,8 @@ struct Stage {
 Stage stageOf(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     if (extension == ".vert") return {GL_VERTEX_SHADER, "vertex"};
+    if (extension == ".tesc") return {GL_TESS_CONTROL_SHADER, "tessellation control"};
+    if (extension == ".tese") return {GL_TESS_EVALUATION_SHADER, "tessellation evaluation"};
     if (extension == ".geom") return {GL_GEOMETRY_SHADER, "geometry"};
     if (extension == ".frag") return {GL_FRAGMENT_SHADER, "fragment"};
     if (extension == ".comp") return {GL_COMPUTE_SHADER, "compute"};

@@ -80,23 +80,4 @@ double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture) {
     return horizontalAperture / (2 * tanHalfHorizontal);
 }
 
-ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens) {
-    const double a = -0.5 * apertureDiameter(lens) / tanHalfHorizontalFov(lens);
-    return {a, std::isinf(lens.focusDistance) ? 0 : -a / lens.focusDistance};
-}
-
-double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width) {
-    return std::isinf(z) ? coc.b * width : (coc.a / z + coc.b) * width;
-}
-
-CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, double zNear, double zFar, int width) {
-    CocRange range;
-    range.nearest = circleOfConfusion(coc, zNear, width);
-    range.farthest = circleOfConfusion(coc, zFar, width);
-    const bool straddles = range.nearest <= 0 && range.farthest >= 0;
-    range.smallest = straddles ? 0 : std::min(std::abs(range.nearest), std::abs(range.farthest));
-    range.largest = std::max(std::abs(range.nearest), std::abs(range.farthest));
-    return range;
-}
-
 }  // namespace defocus

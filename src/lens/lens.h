@@ -1,12 +1,9 @@
 #pragma once
 // A lens in the words of photographers, USD and Blender, and what an off-axis graphics camera makes of it.
 //
-// With A the aperture diameter and s the focus distance (m), a point at depth z is blurred to a disk of diameter
-//   c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2))  pixels                                          (circle of confusion,
-//   CoC)
-// In clip space the image of a point moves by C(w)·(u, k·v) for a lens point (u, v) of the unit disk, k = W/H:
-//   C(w) = a + b·w,  a = −(A/2)/tan(θx/2),  b = −a/s;   c = |C/w|·W
-// This is Munkberg, Toth and Akenine-Möller 2012 with the opposite sign of C: here C > 0 behind the focus plane.
+// With A the aperture's diameter and s the focus distance (m), a point at depth z is blurred to a disk of diameter
+//   c(z) = A · |1/s − 1/z| · W / (2 tan(θx/2))  pixels,
+// the circle of confusion (CoC); circle_of_confusion.h has it with all that may change it.
 
 #include <limits>
 #include <memory>
@@ -54,27 +51,5 @@ void checkLens(const Lens& lens);
 double tanHalfHorizontalFov(const Lens& lens);  // tan(θx/2); follows the focus with focusBreathing
 double apertureDiameter(const Lens& lens);      // A in m, blurScale included; 0 without depth of field
 double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture);  // mm; inverse of tanHalfHorizontalFov
-
-// C(w) = a + b·w in clip space (w: depth in m).
-struct ClipCircleOfConfusion {
-    double a = 0;
-    double b = 0;
-    [[nodiscard]] double at(double w) const { return a + b * w; }
-};
-
-ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens);
-
-// Signed CoC diameter in px at depth `z` (m, > 0) of an image `width` px wide; > 0 behind the focus plane.
-double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width);
-
-struct CocRange {
-    double nearest = 0;   // signed CoC at the nearest depth, px
-    double farthest = 0;  // signed CoC at the farthest depth, px
-    double smallest = 0;  // least |CoC| over the range, px; 0 when it straddles the focus plane
-    double largest = 0;   // greatest |CoC| over the range, px
-};
-
-// Over depths [zNear, zFar], 0 < zNear ≤ zFar: the signed CoC grows monotonically with depth, so the ends bound it.
-CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, double zNear, double zFar, int width);
 
 }  // namespace defocus

@@ -28,6 +28,7 @@ inline Vertices gathered(const Vertices& vertices, const std::vector<std::uint32
     result.colors = gathered(vertices.colors, order);
     result.joints = gathered(vertices.joints, order);
     result.weights = gathered(vertices.weights, order);
+    result.cocScales = gathered(vertices.cocScales, order);
     return result;
 }
 

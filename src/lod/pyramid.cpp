@@ -44,14 +44,20 @@ LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& 
     return level;
 }
 
-double meanEdge(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
+// Mean and greatest length of all faces' edges.
+void measureEdges(PyramidLevel& level, const std::vector<std::uint32_t>& indices) {
     double sum = 0;
+    double longest = 0;
     for (std::size_t i = 0; i < indices.size(); i += 3)
-        for (std::size_t k = 0; k < 3; ++k)
-            sum +=
-                glm::distance(glm::dvec3(positions[indices[i + k]]), glm::dvec3(positions[indices[i + (k + 1) % 3]]));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double length = glm::distance(glm::dvec3(level.positions[indices[i + k]]),
+                                                glm::dvec3(level.positions[indices[i + (k + 1) % 3]]));
+            sum += length;
+            longest = std::max(longest, length);
+        }
     const double mean = indices.empty() ? 0 : sum / static_cast<double>(indices.size());
-    return std::isfinite(mean) ? mean : 0;
+    level.meanEdge = std::isfinite(mean) ? mean : 0;
+    level.longestEdge = std::isfinite(longest) ? longest : 0;
 }
 
 // Appends a level's ranges and indices; `triangles` are in final vertex numbers.
@@ -149,7 +155,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
         level.positions = gathered(fits[l].positions, prefix);
         level.normals = gathered(fits[l].normals, prefix);
         level.colors = gathered(fits[l].colors, prefix);
-        level.meanEdge = meanEdge(level.positions, triangles[l].indices);
+        measureEdges(level, triangles[l].indices);
         pyramid.levels.push_back(std::move(level));
     }
     separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));

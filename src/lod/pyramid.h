@@ -34,6 +34,7 @@ struct PyramidLevel {
     // Object units. Mean of all faces' edge lengths (an edge counts once a face), raised where needed so that it grows
     // by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew them.
     double meanEdge = 0;
+    double longestEdge = 0;  // object units
 
     // Object units. The distance between the level's surface and level 0's (99th percentile over the area, whichever
     // way it is larger), estimated on the safe side from 256 to 1,024 points each, and raised where needed so

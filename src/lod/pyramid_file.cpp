@@ -13,7 +13,7 @@ namespace defocus {
 // member, which the key or the file would lack.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
-static_assert(sizeof(PyramidFileHeader) == 112 && sizeof(PyramidFileLevel) == 24, "no padding, so that all is written");
+static_assert(sizeof(PyramidFileHeader) == 112 && sizeof(PyramidFileLevel) == 32, "no padding, so that all is written");
 
 namespace {
 
@@ -27,7 +27,7 @@ void hashStream(std::uint64_t& hash, const std::vector<T>& stream) {
 }
 
 void hashVertices(std::uint64_t& hash, const Vertices& vertices) {
-    const auto& [positions, normals, tangents, uv0, uv1, colors, joints, weights] = vertices;
+    const auto& [positions, normals, tangents, uv0, uv1, colors, joints, weights, cocScales] = vertices;
     hashStream(hash, positions);
     hashStream(hash, normals);
     hashStream(hash, tangents);
@@ -36,6 +36,7 @@ void hashVertices(std::uint64_t& hash, const Vertices& vertices) {
     hashStream(hash, colors);
     hashStream(hash, joints);
     hashStream(hash, weights);
+    hashStream(hash, cocScales);
 }
 
 void hashMorphTarget(std::uint64_t& hash, const MorphTarget& target) {
@@ -140,11 +141,12 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
             count += primitive.count;
         }
         if (count != 3 * std::uint64_t{record.triangleCount} || record.vertexCount > mostVertices) return false;
-        if (!(record.meanEdge >= 0) || !(record.error >= 0)) return false;
+        if (!(record.meanEdge >= 0) || !(record.longestEdge >= 0) || !(record.error >= 0)) return false;
         mostVertices = record.vertexCount;
         level.vertexCount = record.vertexCount;
         level.triangleCount = record.triangleCount;
         level.meanEdge = record.meanEdge;
+        level.longestEdge = record.longestEdge;
         level.error = record.error;
     }
     return next == header.indexCount;
@@ -208,9 +210,9 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
     // The levels' table, then the arrays.
     std::vector<PyramidFileLevel> records;
     std::vector<IndexRange> ranges;
-    for (const auto& [primitives, vertexCount, triangleCount, positions, normals, colors, meanEdge, error] :
-         pyramid.levels) {
-        records.push_back({vertexCount, triangleCount, meanEdge, error});
+    for (const auto& [primitives, vertexCount, triangleCount, positions, normals, colors, meanEdge, longestEdge,
+                      error] : pyramid.levels) {
+        records.push_back({vertexCount, triangleCount, meanEdge, longestEdge, error});
         ranges.insert(ranges.end(), primitives.begin(), primitives.end());
     }
     append(bytes, records);

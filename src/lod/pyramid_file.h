@@ -51,6 +51,7 @@ struct PyramidFileLevel {
     std::uint32_t vertexCount = 0;
     std::uint32_t triangleCount = 0;
     double meanEdge = 0;
+    double longestEdge = 0;
     double error = 0;
 };
 

@@ -59,6 +59,7 @@ std::vector<Stream> attributeStreams(const Mesh& mesh) {
     addStream(streams, mesh.vertices.colors);
     addStream(streams, mesh.vertices.joints);
     addStream(streams, mesh.vertices.weights);
+    addStream(streams, mesh.vertices.cocScales);
     for (const MorphTarget& target : mesh.morphTargets) {
         addStream(streams, target.positions);
         addStream(streams, target.normals);

@@ -24,6 +24,7 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     if (settings.sampleCount < 1 || settings.sampleCount > mostSamples)
         fail("{} samples: choose 1 to {}", settings.sampleCount, mostSamples);
     if (!(view.nearPlane > 0)) fail("near plane {} m: must be above 0", view.nearPlane);
+    if (!(settings.cocTolerance > 0)) fail("CoC tolerance {} px: must be above 0", settings.cocTolerance);
     if (!(settings.thresholds.blur >= 0) || !(settings.thresholds.size >= 0))
         fail("level-of-detail thresholds must be 0 or more");
 }
@@ -34,14 +35,14 @@ double largestScale(const glm::dmat4& matrix) {
 }
 
 // No lens sample sees any of the box: all corners lie outside one plane of the frustum widened by the lens. For the
-// left plane a point is outside while x/tan + w + |C(w)| < 0 (half a pixel added for the jitter); |C| is convex, so
-// corners bound it.
+// left plane a point is outside while x/tan + w + |C| < 0 (half a pixel added for the jitter). The thin lens's |C(w)|
+// is convex, so corners bound it; otherwise |C|/w is at most `largest` px over the image's width.
 bool outsideWidenedFrustum(const Bounds& viewBox, const View& view, double tanX, double tanY,
-                           const ClipCircleOfConfusion& coc) {
+                           const ClipCircleOfConfusion& coc, double largest) {
     bool outside[5] = {true, true, true, true, true};
     for (const glm::dvec3& corner : viewBox.corners()) {
         const double w = -corner.z;
-        const double reach = std::abs(coc.at(w));
+        const double reach = coc.thinLens() ? std::abs(coc.a + coc.front * w) : std::abs(w) * largest / view.width;
         const double x = corner.x / tanX;
         const double y = corner.y / tanY;
         const double marginX = std::abs(w) / view.width + reach;
@@ -74,6 +75,22 @@ bool hasTextures(const Scene& scene, const Mesh& mesh) {
     });
 }
 
+// The box of an object in front of the near plane, as the lens sees it.
+CocBox cocBoxOf(const Bounds& viewBox, const ObjectPlan& object, const Mesh& mesh, const FramePlan& plan) {
+    CocBox box{.zNear = object.nearestDepth, .zFar = object.farthestDepth};
+    box.scaleLeast = object.cocScale * mesh.cocScaleLeast;
+    box.scaleMost = object.cocScale * mesh.cocScaleMost;
+    const glm::dvec2 perTangent(1 / plan.tanHalfHorizontal, plan.coc.aspect / plan.tanHalfHorizontal);
+    box.ndcLeast = glm::dvec2(std::numeric_limits<double>::infinity());
+    box.ndcMost = -box.ndcLeast;
+    for (const glm::dvec3& corner : viewBox.corners()) {
+        const glm::dvec2 ndc = glm::dvec2(corner) * perTangent / -corner.z;
+        box.ndcLeast = glm::min(box.ndcLeast, ndc);
+        box.ndcMost = glm::max(box.ndcMost, ndc);
+    }
+    return box;
+}
+
 // Depths and blur of an object's box, before anything is decided.
 ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t index, const glm::dmat4& viewFromWorld) {
     const Object& object = world.pose.objects[index];
@@ -87,11 +104,21 @@ ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t i
     if (box.empty()) return result;
     result.nearestDepth = -box.maximum.z;
     result.farthestDepth = -box.minimum.z;
+    result.cocScale = object.cocScale;
     if (result.nearestDepth > plan.view.nearPlane)
-        result.coc = circleOfConfusionRange(plan.coc, result.nearestDepth, result.farthestDepth, plan.view.width);
+        result.coc = circleOfConfusionRange(
+            plan.coc, cocBoxOf(box, result, world.scene->meshes[static_cast<std::size_t>(object.mesh)], plan),
+            plan.view.width);
     else
         result.coc = {std::numeric_limits<double>::infinity(), 0, 0, std::numeric_limits<double>::infinity()};
     return result;
+}
+
+// At the centre of the object's box in view space.
+double cocAtCentre(const Pyramid& pyramid, const ObjectPlan& object, const FramePlan& plan) {
+    const glm::dvec3 centre = transformed(pyramid.bounds, object.viewFromObject).centre();
+    const glm::dvec2 ndc = glm::dvec2(centre) * glm::dvec2(1, plan.coc.aspect) / (-centre.z * plan.tanHalfHorizontal);
+    return std::abs(circleOfConfusion(plan.coc, -centre.z, plan.view.width, ndc, object.cocScale));
 }
 
 double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const FramePlan& plan) {
@@ -99,9 +126,7 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     LevelQuery query;
     query.pixelsPerUnit =
         largestScale(object.viewFromObject) * plan.view.width / (2 * plan.tanHalfHorizontal * object.nearestDepth);
-    const double centre = 0.5 * (object.nearestDepth + object.farthestDepth);
-    query.coc = plan.settings.lodCocAtCentre ? std::abs(circleOfConfusion(plan.coc, centre, plan.view.width))
-                                             : object.coc.smallest;
+    query.coc = plan.settings.lodCocAtCentre ? cocAtCentre(pyramid, object, plan) : object.coc.smallest;
     return levelOfDetail(pyramid, query, plan.settings.metric, plan.settings.thresholds);
 }
 
@@ -123,13 +148,35 @@ void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& p
     object.fine = draw(split.level, split.coarseCount, sampleCount - split.coarseCount);
 }
 
+// Can C be taken as linear inside the triangles of the levels that are drawn?
+void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& plan) {
+    if (!plan.usesCocControls) return;
+    if (object.nearestDepth <= plan.view.nearPlane) {
+        object.cocDeviation = {std::numeric_limits<double>::infinity(),
+                               plan.coc.varies() ? std::numeric_limits<double>::infinity() : 0};
+    } else {
+        const auto mesh = static_cast<std::size_t>(object.mesh);
+        const Pyramid& pyramid = world.pyramids[mesh];
+        double longest = 0;
+        for (const LevelDraw& draw : {object.coarse, object.fine})
+            if (draw.sampleCount > 0) longest = std::max(longest, pyramid.levels[draw.level].longestEdge);
+        const CocBox box =
+            cocBoxOf(transformed(pyramid.bounds, object.viewFromObject), object, world.scene->meshes[mesh], plan);
+        object.cocDeviation =
+            cocDeviation(plan.coc, box, longest * largestScale(object.viewFromObject),
+                         plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect), plan.view.width);
+    }
+    if (object.cocDeviation.kinks > plan.settings.cocTolerance) object.refinement = Refinement::split;
+    if (object.cocDeviation.curved > plan.settings.cocTolerance) object.refinement = Refinement::subdivide;
+}
+
 // Why this object need not be drawn; empty if it must.
 std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object, double tanY) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
     if (plan.settings.keepAll) return "";
     const Bounds box = transformed(pyramid.bounds, object.viewFromObject);
-    if (outsideWidenedFrustum(box, plan.view, plan.tanHalfHorizontal, tanY, plan.coc))
+    if (outsideWidenedFrustum(box, plan.view, plan.tanHalfHorizontal, tanY, plan.coc, object.coc.largest))
         return "no lens sample can see it";
     return "";
 }
@@ -140,7 +187,7 @@ double largestBlur(const FramePlan& plan, const World& world) {
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
     const EnvironmentType type = world.environment.type;
     if (!plan.needsAlpha && (type == EnvironmentType::gradient || type == EnvironmentType::map))
-        largest = std::max(largest, std::abs(plan.coc.b) * plan.view.width);
+        largest = std::max(largest, largestCocAtInfinity(plan.coc, plan.view.width));
     return largest;
 }
 
@@ -159,6 +206,13 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     for (ObjectPlan& object : plan.objects) object.coc = {};
 }
 
+bool scalesBlur(const FramePlan& plan, const World& world) {
+    return std::any_of(plan.objects.begin(), plan.objects.end(), [&](const ObjectPlan& object) {
+        const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
+        return object.cocScale != 1 || mesh.cocScaleLeast != 1 || mesh.cocScaleMost != 1;
+    });
+}
+
 void noteUnusedPaths(FramePlan& plan, const World& world) {
     const Scene& scene = *world.scene;
     for (ObjectPlan& object : plan.objects) {
@@ -169,6 +223,8 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     }
     if (!plan.usesTextures) plan.leftOut.push_back({"texture path", "no drawn material has a texture"});
     if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
+    if (!plan.usesCocControls)
+        plan.leftOut.push_back({"controls of the blur", "the lens and the objects have none: C(w) = a + b·w"});
     plan.leftOut.push_back({"motion path", "the scene stands still within a frame"});
 }
 
@@ -218,7 +274,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.settings = settings;
     plan.tanHalfHorizontal = tanHalfHorizontalFov(view.lens);
     plan.apertureDiameter = apertureDiameter(view.lens);
-    plan.coc = clipCircleOfConfusion(view.lens);
+    plan.coc = clipCircleOfConfusion(view.lens, view.width, view.height);
     plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
     for (std::uint32_t i = 0; i < settings.sampleCount; ++i)
         plan.samples.push_back(lensSample(view.lens, std::uint64_t{settings.firstSample} + i, settings.seed));
@@ -237,8 +293,12 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
 
     // Decide on the lens first: levels depend on the blur that remains.
     leaveOutLens(plan, world);
-    for (ObjectPlan& object : plan.objects)
+    plan.usesCocScales = plan.usesLens && scalesBlur(plan, world);
+    plan.usesCocControls = plan.usesLens && (plan.usesCocScales || !plan.coc.thinLens());
+    for (ObjectPlan& object : plan.objects) {
         chooseLevels(object, world.pyramids[static_cast<std::size_t>(object.mesh)], plan);
+        chooseRefinement(object, world, plan);
+    }
 
     // Nearest first: what is drawn first hides the rest.
     std::stable_sort(plan.objects.begin(), plan.objects.end(),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lens/circle_of_confusion.h"
 #include "lens/lens_samples.h"
 #include "plan/view.h"
 
@@ -21,6 +22,13 @@ struct LevelDraw {
     std::uint32_t triangleCount = 0;  // of the level, all primitives
 };
 
+// What it takes to keep C linear inside each drawn triangle, to RenderSettings::cocTolerance.
+enum class Refinement {
+    none,       // the triangles as they are
+    split,      // along the kinks of C, and at the near plane before the shear
+    subdivide,  // into small ones (C is curved), and split
+};
+
 struct ObjectPlan {
     int object = -1;  // into World::pose.objects
     int mesh = -1;
@@ -29,6 +37,7 @@ struct ObjectPlan {
     double nearestDepth = 0;         // m, of the bounding box; ≤ near plane when the box reaches it
     double farthestDepth = 0;        // m
     CocRange coc;                    // px, over the box
+    CocDeviation cocDeviation;       // px, of the drawn levels
     double projectedEdge = 0;        // mean edge of level 0 in px at the nearest depth
     double lambda = 0;               // fractional level
     LevelDraw coarse;                // samples [0, n) at level ⌊λ⌋ + 1; none when λ is whole
@@ -36,6 +45,8 @@ struct ObjectPlan {
     // LodMode::continuous: where the two overlap by a sample (`coarse` then ends with sample n), the share of that
     // sample's pixels that draw `coarse`; the others draw `fine`.
     double boundaryShare = 0;
+    double cocScale = 1;  // of the object's blur, ≥ 0
+    Refinement refinement = Refinement::none;
     bool mirrored = false;  // the transform flips winding
     bool blended = false;   // has alpha-blended primitives
 };
@@ -56,6 +67,8 @@ struct FramePlan {
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // per mesh and level: does any object draw it
     bool usesLens = true;                       // false: nothing is blurred by half a pixel, only antialiasing samples
+    bool usesCocControls = false;               // C isn't a + b·w for all that is drawn
+    bool usesCocScales = false;                 // some of what is drawn scales its blur
     bool usesTextures = false;
     bool usesBlending = false;
     bool needsAlpha = false;                  // transparent background: the accumulation keeps coverage

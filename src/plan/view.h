@@ -30,6 +30,7 @@ struct RenderSettings {
     LodMetric metric = LodMetric::size;
     bool lodCocAtCentre = false;  // c at the box's centre (the paper) instead of the smallest over the box
     LodThresholds thresholds;     // see defaultThresholds
+    double cocTolerance = 0.5;    // px by which C may differ from its interpolation inside a triangle, > 0
     bool keepAll = false;         // leave nothing out: the image must be the same
 };
 

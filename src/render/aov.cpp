@@ -1,6 +1,7 @@
 #include "render/aov.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +33,9 @@ AovImages renderAovs(const World& world, const FramePlan& plan, const std::files
     // Clear to what lies behind everything.
     target.bind();
     glDepthMask(GL_TRUE);
-    const float behind[3] = {std::numeric_limits<float>::infinity(), static_cast<float>(plan.coc.b * plan.view.width),
-                             -1};
+    const float behind[3] = {
+        std::numeric_limits<float>::infinity(),
+        static_cast<float>(circleOfConfusion(plan.coc, std::numeric_limits<double>::infinity(), plan.view.width)), -1};
     for (GLint i = 0; i < 3; ++i) {
         const float value[4] = {behind[i], 0, 0, 0};
         glClearNamedFramebufferfv(target.name(), GL_COLOR, i, value);
@@ -43,8 +45,11 @@ AovImages renderAovs(const World& world, const FramePlan& plan, const std::files
 
     GpuScene scene(world);
     scene.prepare(pinhole);
-    SurfacePass surfaces(
-        scene, {.fragmentShader = "aov/aov.frag", .defines = {}, .shaded = false, .shaderFolder = shaderFolder});
+    SurfacePass surfaces(scene, {.fragmentShader = "aov/aov.frag",
+                                 .defines = {{"READS_COC_SCALE", "1"},
+                                             {"IMAGE_SIZE", fmt::format("{}, {}", plan.view.width, plan.view.height)}},
+                                 .shaded = false,
+                                 .shaderFolder = shaderFolder});
     FrameUniforms frame;
     frame.upload(world, pinhole, 1);
     surfaces.prepare(pinhole, frame);

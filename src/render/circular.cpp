@@ -62,7 +62,7 @@ double largestNearDiameter(const FramePlan& plan) {
 
 // The largest blur behind the focus plane, px, that of the sky included.
 double largestFarDiameter(const FramePlan& plan) {
-    double largest = std::max(plan.coc.b * plan.view.width, 1.0);
+    double largest = std::max(largestCocAtInfinity(plan.coc, plan.view.width), 1.0);
     for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.farthest);
     return largest;
 }
@@ -73,7 +73,7 @@ public:
         : shaderFolder_(options.shaderFolder), options_(circular) {}
 
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
-        if (!split_) makePrograms(frame);
+        if (!split_ || defines_ != frame.defines()) makePrograms(frame);
         const View& view = plan.view;
         if (view.width != width_ || view.height != height_) makeFields(view.width, view.height);
         const double largest = 0.5 * view.width;  // px: a disk as wide as the image
@@ -91,7 +91,7 @@ public:
         frame.bind(0);
         splitTarget_.bind();
         pinhole.color().attach(0);
-        pinhole.depth().attach(1);
+        pinhole.attachForBlur();
         fullscreen_.draw(split_);
         if (hasNear_ || options_.combined) spreadNearRadius();
         if (options_.combined) {
@@ -103,7 +103,7 @@ public:
 
         output.bind();
         pinhole.color().attach(0);
-        pinhole.depth().attach(1);
+        pinhole.attachForBlur();
         far_->result().attach(2);
         if (!options_.combined) near_->result().attach(3);
         fullscreen_.draw(composite_);
@@ -119,6 +119,7 @@ public:
 
 private:
     void makePrograms(const FrameUniforms& frame) {
+        defines_ = frame.defines();
         const auto pass = [&](const char* shader) {
             ShaderDefines defines = frame.defines();
             defines.emplace_back("REDUCTION", std::to_string(options_.reduction));
@@ -189,6 +190,7 @@ private:
     int width_ = 0;
     int height_ = 0;
     bool hasNear_ = true;
+    ShaderDefines defines_;  // that the programs were built with
     Program split_, tile_, reach_, widen_, composite_;
     GlTexture farField_, nearField_, farRadius_, ownNearRadius_, nearRadius_, tiles_, reaching_;
     Target splitTarget_, tileTarget_, reachTarget_, nearRadiusTarget_;

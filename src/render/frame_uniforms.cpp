@@ -11,6 +11,7 @@ namespace defocus {
 
 namespace {
 
+constexpr double unlimitedBlur = 1e9;  // widths of the image: finite, so that 0 times it is 0
 constexpr double goldenRatio = 0.618033988749894848;
 
 GpuLight gpuLight(const PlacedLight& placed, const glm::dmat4& viewFromWorld) {
@@ -75,6 +76,8 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
                 {"ENVIRONMENT_LIGHTING", fmt::format("{:.6f}", world.environment.lighting)},
                 {"LIGHT_COUNT", std::to_string(world.lights.size())}};
     if (type == EnvironmentType::map && !environmentMap_) environmentMap_ = environmentTexture(*world.environment.map);
+    if (plan.usesCocScales) defines_.emplace_back("COC_SCALES", "1");
+    if (plan.usesCocControls) defines_.emplace_back("COC_CONTROLS", "1");
     uploadSamples(plan, layerCount);
 
     const View& view = plan.view;
@@ -82,7 +85,11 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     const double tanY = tanX * view.height / view.width;
     GpuFrame block{};
     block.projection = {1 / tanX, 1 / tanY, view.nearPlane, 0};
-    block.coc = {plan.coc.a, plan.coc.b, view.width, 0};
+    const ClipCircleOfConfusion& coc = plan.coc;
+    block.coc = {coc.a, coc.front, view.width, coc.behind};
+    block.cocField = {coc.tilt, coc.curvature, coc.gain};
+    block.cocLimits = {std::min(coc.foregroundLimit, unlimitedBlur), std::min(coc.backgroundLimit, unlimitedBlur),
+                       1 / (coc.aspect * coc.aspect), plan.settings.cocTolerance};
     block.worldFromView = glm::mat4(glm::mat3(view.worldFromCamera));
     block.environment = {glm::vec4(world.environment.zenith, 1), glm::vec4(world.environment.horizon, 1),
                          glm::vec4(world.environment.nadir, 1)};
@@ -110,13 +117,16 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     samples_ = Buffer::of(std::span<const GpuSample>(samples));
 
     // At infinity C/w = b: the sky seen through a pixel lies where the lens and the jitter moved it from, in units of
-    // the image plane at distance 1. Padded to whole blocks, which are bound one at a time.
+    // the image plane at distance 1. With controls, C/w depends on the pixel, which multiplies what the lens adds.
+    // Padded to whole blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
-    const auto b = static_cast<float>(plan.coc.b);
+    const auto b = static_cast<float>(plan.coc.behind);
     std::vector<glm::vec4> shifts((samples.size() + blockSamples - 1) / blockSamples * blockSamples);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const glm::vec4& s = samples[i].lensAndJitter;
-        shifts[i] = glm::vec4(-(b * glm::vec2(s.x, s.y) + glm::vec2(s.z, s.w)) * imagePlane, 0, 0);
+        const glm::vec2 byLens = -glm::vec2(s.x, s.y) * imagePlane;
+        const glm::vec2 byJitter = -glm::vec2(s.z, s.w) * imagePlane;
+        shifts[i] = plan.usesCocControls ? glm::vec4(byLens, byJitter) : glm::vec4(b * byLens + byJitter, 0, 0);
     }
     sampleShifts_ = Buffer::of(std::span<const glm::vec4>(shifts));
 }

@@ -19,6 +19,8 @@ struct GpuLight {
 struct GpuFrame {
     glm::vec4 projection;
     glm::vec4 coc;
+    glm::vec4 cocField;
+    glm::vec4 cocLimits;
     glm::mat4 worldFromView;
     std::array<glm::vec4, 3> environment;
     std::array<glm::vec4, 9> irradiance;
@@ -54,6 +56,7 @@ enum AttributeLocation : unsigned {
     tangentLocation,
     lensLocation,
     eyeLocation,
+    cocScaleLocation,
 };
 
 }  // namespace defocus

@@ -91,6 +91,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     result.uv0 = prefixBuffer(vertices.uv0, vertexCount);
     result.uv1 = prefixBuffer(vertices.uv1, vertexCount);
     result.tangents = prefixBuffer(vertices.tangents, vertexCount);
+    result.cocScales = prefixBuffer(vertices.cocScales, vertexCount);
     result.indices = prefixBuffer(indices, indices.size());
 
     VertexArray& array = result.vertexArray;
@@ -104,6 +105,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     attach(uv0Location, result.uv0, 2, sizeof(glm::vec2));
     attach(uv1Location, result.uv1, 2, sizeof(glm::vec2));
     attach(tangentLocation, result.tangents, 4, sizeof(glm::vec4));
+    attach(cocScaleLocation, result.cocScales, 1, sizeof(float));
     if (result.colors) {
         array.attribute(colorLocation, 4, GL_UNSIGNED_BYTE, true);
         array.bind(colorLocation, result.colors, 0, sizeof(glm::u8vec4));
@@ -163,8 +165,8 @@ GpuMaterial GpuScene::materialBlock(const Material& material) {
 std::size_t GpuScene::bytes() const {
     std::size_t total = 0;
     for (const auto& [index, mesh] : meshes_)
-        for (const Buffer* buffer :
-             {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.uv0, &mesh.uv1, &mesh.tangents, &mesh.indices})
+        for (const Buffer* buffer : {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.uv0, &mesh.uv1, &mesh.tangents,
+                                     &mesh.cocScales, &mesh.indices})
             total += buffer->bytes();
     for (const auto& [key, texture] : textures_) total += texture.bytes();
     return total;

@@ -23,7 +23,7 @@ struct GpuLevel {
 
 struct GpuMesh {
     VertexArray vertexArray;
-    Buffer positions, normals, colors, uv0, uv1, tangents, indices;
+    Buffer positions, normals, colors, uv0, uv1, tangents, cocScales, indices;
     std::vector<GpuLevel> levels;
 };
 

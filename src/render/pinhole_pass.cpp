@@ -13,6 +13,18 @@ GlTexture texture(int width, int height, TextureFormat format) {
     return GlTexture({.format = format, .width = width, .height = height});
 }
 
+ShaderDefines definesOf(LayerFormat format) {
+    ShaderDefines defines = layerFormatDefines(format);
+    defines.emplace_back("READS_COC_SCALE", "1");
+    return defines;
+}
+
+// Of every surface but the sky and what is blended: those leave the scale as it is.
+void writeCocScales(bool on) {
+    const GLboolean mask = on ? GL_TRUE : GL_FALSE;
+    glColorMaski(1, mask, mask, mask, mask);
+}
+
 }  // namespace
 
 FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count) {
@@ -33,16 +45,22 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
     return pinholes;
 }
 
-PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format,
+PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool cocScales,
                          const std::filesystem::path& shaderFolder)
     : color_(texture(width, height, layerTextureFormat(format))),
       depth_(texture(width, height, TextureFormat::depth32f)),
-      target_({&color_}, &depth_),
+      cocScale_(cocScales ? texture(width, height, TextureFormat::r32f) : GlTexture()),
+      target_(cocScales ? Target({&color_, &cocScale_}, &depth_) : Target({&color_}, &depth_)),
       surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
-                        .defines = layerFormatDefines(format),
+                        .defines = definesOf(format),
                         .vertexShaderLayers = vertexShaderMayPickLayer(),
                         .shaderFolder = shaderFolder}) {
     color_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+}
+
+void PinholePass::attachForBlur() const {
+    depth_.attach(1);
+    if (cocScale_) cocScale_.attach(6);
 }
 
 void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame) {
@@ -56,9 +74,13 @@ void PinholePass::draw(std::uint32_t index) {
     constexpr float black[4] = {0, 0, 0, 1};
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
     glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, black);
+    constexpr float ones[4] = {1, 1, 1, 1};
+    if (cocScale_) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 1, ones);
     surfaces_.drawOpaque(index, 1);
+    if (cocScale_) writeCocScales(false);
     surfaces_.drawSky(index, 1);
     surfaces_.drawBlended(index, 1);
+    if (cocScale_) writeCocScales(true);
     surfaces_.drawBlendedDepth(index, 1);
 }
 

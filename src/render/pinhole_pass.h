@@ -16,8 +16,10 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
 
 class PinholePass {
 public:
-    // `format` holds alpha (rgba16f, rgba32f). Needs a current GL context.
-    PinholePass(GpuScene& scene, int width, int height, LayerFormat format, const std::filesystem::path& shaderFolder);
+    // `format` holds alpha (rgba16f, rgba32f). `cocScales`: the surfaces' scale of the blur is kept too. Needs a
+    // current GL context.
+    PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool cocScales,
+                const std::filesystem::path& shaderFolder);
 
     // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing.
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame);
@@ -29,13 +31,19 @@ public:
     // infinity).
     [[nodiscard]] const GlTexture& color() const { return color_; }
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
+    // What shaders/include/pinhole.glsl reads: depth and scales of the blur.
+    void attachForBlur() const;
+    [[nodiscard]] bool hasCocScales() const { return static_cast<bool>(cocScale_); }
     [[nodiscard]] int width() const { return color_.info().width; }
     [[nodiscard]] int height() const { return color_.info().height; }
-    [[nodiscard]] std::size_t bytes() const { return color_.bytes() + depth_.bytes() + surfaces_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const {
+        return color_.bytes() + depth_.bytes() + cocScale_.bytes() + surfaces_.bytes();
+    }
 
 private:
     GlTexture color_;
     GlTexture depth_;
+    GlTexture cocScale_;  // empty: 1 everywhere
     Target target_;
     SurfacePass surfaces_;
 };

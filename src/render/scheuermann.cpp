@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/error.h"
 #include "gl/fullscreen.h"
 #include "render/post_process.h"
 
@@ -30,7 +31,7 @@ struct GpuTaps {
 };
 
 double largestBlur(const FramePlan& plan) {
-    double largest = std::abs(plan.coc.b) * plan.view.width;  // at infinity
+    double largest = largestCocAtInfinity(plan.coc, plan.view.width);
     for (const ObjectPlan& object : plan.objects)
         if (std::isfinite(object.coc.largest)) largest = std::max(largest, object.coc.largest);
     return std::min(largest, static_cast<double>(plan.view.width));
@@ -45,8 +46,12 @@ public:
           unlimited_(options.settings.at("max-coc") == "unlimited") {}
 
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
+        if (plan.usesCocControls && !thinLens_)
+            fail(
+                "method scheuermann: with coc=published the blur follows the depth alone; coc=thin-lens takes the "
+                "lens's and the objects' controls of the blur");
         makeTextures(plan.view.width, plan.view.height);
-        if (!blurriness_) makePrograms(frame);
+        if (!blurriness_ || defines_ != frame.defines()) makePrograms(frame);
         const double largest = unlimited_ ? std::max(largestBlur(plan), publishedLargest) : publishedLargest;
         largestRadius_ = static_cast<float>(0.5 * largest);
         glProgramUniform1f(blurriness_.name(), 0, static_cast<float>(1 / largest));
@@ -66,7 +71,7 @@ public:
         // Colour with blurriness, and its small pre-blurred copy.
         sharpTarget_.bind();
         pinhole.color().attach(0);
-        pinhole.depth().attach(1);
+        pinhole.attachForBlur();
         fullscreen_.draw(blurriness_);
         reducedTarget_.bind();
         sharp_.attach(0);
@@ -104,6 +109,7 @@ private:
     }
 
     void makePrograms(const FrameUniforms& frame) {
+        defines_ = frame.defines();
         const auto pass = [&](const char* shader, ShaderDefines defines) {
             return Program({{fullscreenShader, shader}, std::move(defines), shaderFolder_});
         };
@@ -130,6 +136,7 @@ private:
     float largestRadius_ = 0;  // px
     GlTexture sharp_, reduced_, small_;
     Target sharpTarget_, reducedTarget_, smallTarget_;
+    ShaderDefines defines_;  // that the programs were built with
     Program blurriness_, reduce_, preblur_, gather_;
     Buffer tapBuffer_;
     Fullscreen fullscreen_;
@@ -141,7 +148,7 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
     const double radius = largest / width;  // in C/w
     BlurrinessPlanes planes;
     // C(w)/w = a/w + b is −radius at the near plane and radius at the far one; a < 0.
-    planes.near = -coc.a / (coc.b + radius);
+    planes.near = -coc.a / (coc.front + radius);
     if (std::isinf(focusDistance)) {  // nothing lies behind the focus
         planes.focus = 2 * planes.near;
         planes.far = std::numeric_limits<double>::infinity();
@@ -149,11 +156,11 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
         return planes;
     }
     planes.focus = focusDistance;
-    if (coc.b > radius) {
-        planes.far = coc.a / (radius - coc.b);
+    if (coc.behind > radius) {
+        planes.far = coc.a / (radius - coc.behind);
         return planes;
     }
-    planes.cutoff = coc.b / radius;
+    planes.cutoff = coc.behind / radius;
     planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);  // half the cutoff at twice the distance
     return planes;
 }

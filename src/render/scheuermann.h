@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "lens/lens.h"
+#include "lens/circle_of_confusion.h"
 #include "render/methods.h"
 
 namespace defocus {

@@ -52,7 +52,7 @@ void SurfacePass::uploadObjects(const FramePlan& plan) {
     for (const ObjectPlan& object : plan.objects)
         blocks.push_back({glm::mat4(object.viewFromObject),
                           glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
-                          glm::vec4(object.lambda, object.boundaryShare, object.object, 0)});
+                          glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale)});
     objectStride_ = aligned(sizeof(GpuObject));
     objectBlocks_ = stridedBuffer(blocks, objectStride_);
 }
@@ -82,6 +82,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
             draw.object = static_cast<std::uint32_t>(index);
             draw.material = mesh.primitives[p].material;
             draw.mirrored = object.mirrored;
+            draw.refinement = object.refinement;
             materialSlots_.try_emplace(draw.material, materialSlots_.size());
             addLevel(draw, object, object.coarse, ScreenDoor::coarseShare);
             addLevel(draw, object, object.fine, ScreenDoor::fineShare);
@@ -114,10 +115,10 @@ void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const Lev
     add(shared + 1, end, ScreenDoor::open);
 }
 
-ShaderDefines SurfacePass::passDefines() const {
+ShaderDefines SurfacePass::passDefines(bool vertexShaderLayers) const {
     ShaderDefines defines = frame_->defines();
     defines.insert(defines.end(), info_.defines.begin(), info_.defines.end());
-    if (info_.vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "1");
+    if (vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "1");
     return defines;
 }
 
@@ -126,7 +127,9 @@ const Program& SurfacePass::program(const Draw& draw) {
                                                       "NORMAL_TEXTURE", "OCCLUSION_TEXTURE", "EMISSIVE_TEXTURE"};
     const Material& material = scene_->material(draw.material);
     const GpuMesh& mesh = scene_->mesh(draw.mesh);
-    ShaderDefines defines = passDefines();
+    const bool refined = draw.refinement != Refinement::none;
+    const bool vertexShaderLayers = info_.vertexShaderLayers && !refined;
+    ShaderDefines defines = passDefines(vertexShaderLayers);
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "1");
     };
@@ -147,6 +150,9 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(lit && draw.level > 0, "COARSE_LEVEL");
     set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
     set(static_cast<bool>(mesh.colors), "VERTEX_COLORS");
+    set(static_cast<bool>(mesh.cocScales), "VERTEX_COC_SCALES");
+    set(refined, "REFINED");
+    set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // other stages: a program of its own
     set(material.doubleSided, "DOUBLE_SIDED");
     set(masked, "ALPHA_MASK");
     set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
@@ -155,7 +161,11 @@ const Program& SurfacePass::program(const Draw& draw) {
     const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));
     if (isNew) {
         std::vector<std::string> shaders = {"accumulation/object.vert", info_.fragmentShader};
-        if (!info_.vertexShaderLayers) shaders.emplace_back("accumulation/object.geom");
+        if (draw.refinement == Refinement::subdivide) {
+            shaders.emplace_back("accumulation/object.tesc");
+            shaders.emplace_back("accumulation/object.tese");
+        }
+        if (!vertexShaderLayers) shaders.emplace_back(refined ? "accumulation/split.geom" : "accumulation/object.geom");
         entry->second = Program({std::move(shaders), std::move(defines), info_.shaderFolder});
     }
     return entry->second;
@@ -186,6 +196,8 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     if (mesh.colors) mesh.vertexArray.bind(colorLocation, mesh.colors, level.colorOffset, sizeof(glm::u8vec4));
     glBindVertexArray(mesh.vertexArray.name());
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
+    const GLenum mode = item.refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
+    if (mode == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
     const std::uint64_t triangles = static_cast<std::uint64_t>(item.indexCount) / 3;
     const std::uint64_t most = pacer_.mostTriangles();
     const std::uint64_t step = most == 0 ? end - begin : std::max<std::uint64_t>(1, most / triangles);
@@ -193,7 +205,7 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
         const std::uint64_t instances = std::min(step, end - at);
         // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
         const auto* const offset = reinterpret_cast<const void*>(level.indexOffsets[item.primitive]);
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, item.indexCount, GL_UNSIGNED_INT, offset,
+        glDrawElementsInstancedBaseInstance(mode, item.indexCount, GL_UNSIGNED_INT, offset,
                                             static_cast<GLsizei>(instances), static_cast<GLuint>(at));
         pacer_.submitted(instances * triangles);
     }
@@ -244,16 +256,16 @@ void SurfacePass::drawBlended(std::uint32_t first, std::uint32_t count) {
 
 void SurfacePass::drawBlendedDepth(std::uint32_t first, std::uint32_t count) {
     if (blended_.empty()) return;
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     drawSolid(blended_, first, count);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
     if (!sky_) {
         std::vector<std::string> shaders = {"accumulation/sky.vert", "accumulation/sky.frag"};
         if (!info_.vertexShaderLayers) shaders.emplace_back("accumulation/sky.geom");
-        sky_ = Program({std::move(shaders), passDefines(), info_.shaderFolder});
+        sky_ = Program({std::move(shaders), passDefines(info_.vertexShaderLayers), info_.shaderFolder});
     }
     bindFrame();
     sky_.use();

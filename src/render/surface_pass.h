@@ -31,7 +31,7 @@ public:
     void drawOpaque(std::uint32_t first, std::uint32_t count);
     // The same for alpha-blended surfaces, back to front (blending onto premultiplied colours).
     void drawBlended(std::uint32_t first, std::uint32_t count);
-    // Only the depth of the alpha-blended surfaces.
+    // Only the depth of the alpha-blended surfaces, and what the shader writes beside the colour.
     void drawBlendedDepth(std::uint32_t first, std::uint32_t count);
     // All surfaces, blended ones too, as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
@@ -58,6 +58,7 @@ private:
         std::uint32_t sampleCount = 0;
         GLsizei indexCount = 0;
         bool mirrored = false;
+        Refinement refinement = Refinement::none;
         ScreenDoor screenDoor = ScreenDoor::open;
         const Program* program = nullptr;
     };
@@ -67,7 +68,7 @@ private:
     void addDraws(const FramePlan& plan);
     void addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary);
     const Program& program(const Draw& draw);
-    [[nodiscard]] ShaderDefines passDefines() const;
+    [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
     void bindFrame();
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
     void draw(const Draw& item, std::uint32_t first, std::uint32_t count);

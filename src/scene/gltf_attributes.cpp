@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/ext/vector_float1.hpp>
 #include <glm/geometric.hpp>
 
 #include "scene/gltf_accessor.h"
@@ -110,6 +111,22 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     return result;
 }
 
+// The factor on a vertex's blur, a scalar.
+std::vector<float> readCocScales(Source& source, const AttributeReader& reader, const std::string& what) {
+    if (!reader.has("_COC_SCALE")) return {};
+    if (reader.components("_COC_SCALE") != 1)
+        fault(source.document, "{}: _COC_SCALE must hold one number a vertex, not {}", what,
+              reader.components("_COC_SCALE"));
+    std::vector<float> scales;
+    for (const glm::vec1& scale : reader.read<glm::vec1>("_COC_SCALE")) {
+        if (!(scale.x >= 0) || !std::isfinite(scale.x))
+            fault(source.document, "{}: _COC_SCALE of vertex {} is {}; it must be a number of 0 or more", what,
+                  scales.size(), scale.x);
+        scales.push_back(scale.x);
+    }
+    return scales;
+}
+
 std::vector<glm::vec2> readTextureCoordinates(const AttributeReader& reader, const std::string& name) {
     std::vector<glm::vec2> result = reader.read<glm::vec2>(name);
     for (glm::vec2& uv : result)
@@ -174,6 +191,7 @@ VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive,
         block.vertices.weights = reader.read<glm::vec4>("WEIGHTS_0");
     }
     if (block.vertices.joints.empty()) block.vertices.weights.clear();
+    block.vertices.cocScales = readCocScales(source, reader, what);
     block.morphTargets = reader.readTargets();
     return block;
 }

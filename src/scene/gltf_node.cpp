@@ -137,6 +137,16 @@ int lightOf(const Source& source, const nlohmann::json& json, const std::string&
     return static_cast<int>(light);
 }
 
+// The extras' factor on the blur of the node's mesh.
+double cocScaleOf(Source& source, const nlohmann::json& json, const std::string& label) {
+    const auto extras = json.find("extras");
+    if (extras == json.end() || !extras->is_object() || !extras->contains("cocScale")) return 1;
+    const nlohmann::json& value = (*extras)["cocScale"];
+    if (!value.is_number() || !(value.get<double>() >= 0))
+        fault(source.document, "{}: its extras' cocScale must be a number of 0 or more, not {}", label, value.dump());
+    return value.get<double>();
+}
+
 Node readNode(Source& source, std::size_t index) {
     const tinygltf::Node& from = source.model.nodes[index];
     const nlohmann::json& json = source.document.json["nodes"][index];
@@ -152,6 +162,7 @@ Node readNode(Source& source, std::size_t index) {
     node.skin = from.mesh >= 0 ? from.skin : -1;
     node.camera = from.camera;
     node.light = lightOf(source, json, label);
+    node.cocScale = cocScaleOf(source, json, label);
     for (const double weight : from.weights) node.morphWeights.push_back(toFloat(weight));
     const nlohmann::json* instancing = findExtension(json, "EXT_mesh_gpu_instancing");
     if (instancing != nullptr && from.mesh >= 0) node.instances = readInstances(source, *instancing, label);

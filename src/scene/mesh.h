@@ -23,6 +23,7 @@ struct Vertices {
     std::vector<glm::u8vec4> colors;   // linear, straight alpha, 255 is 1
     std::vector<glm::u16vec4> joints;  // indices into the skin's joints (first four influences)
     std::vector<glm::vec4> weights;    // sum to 1
+    std::vector<float> cocScales;      // factor on the blur (attribute _COC_SCALE), ≥ 0
 
     [[nodiscard]] std::size_t count() const { return positions.size(); }
 };
@@ -44,6 +45,8 @@ struct Mesh {
     std::vector<Primitive> primitives;
     std::vector<MorphTarget> morphTargets;
     std::vector<float> morphWeights;  // defaults, one a target
+    float cocScaleLeast = 1;          // of vertices.cocScales
+    float cocScaleMost = 1;
 
     [[nodiscard]] std::size_t triangleCount() const;
     [[nodiscard]] Bounds bounds() const;  // of the vertices that triangles use; empty without triangles

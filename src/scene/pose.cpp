@@ -85,15 +85,18 @@ void placeObjects(const Scene& scene, int nodeIndex, Pose& pose) {
     if (node.mesh < 0) return;
     const glm::dmat4& worldFromNode = pose.worldFromNode[static_cast<std::size_t>(nodeIndex)];
     const std::string& name = !node.name.empty() ? node.name : scene.meshes[static_cast<std::size_t>(node.mesh)].name;
+    double cocScale = 1;  // that of the ancestors too: a group is scaled as a whole
+    for (int i = nodeIndex; i >= 0; i = scene.nodes[static_cast<std::size_t>(i)].parent)
+        cocScale *= scene.nodes[static_cast<std::size_t>(i)].cocScale;
     if (node.instances.empty()) {
         const glm::dmat4 world = node.skin < 0 ? worldFromNode
                                                : worldFromSkin(scene.skins[static_cast<std::size_t>(node.skin)],
                                                                pose.worldFromNode, worldFromNode);
-        pose.objects.push_back({node.mesh, nodeIndex, name, world});
+        pose.objects.push_back({node.mesh, nodeIndex, name, world, cocScale});
     }
     for (std::size_t i = 0; i < node.instances.size(); ++i)
         pose.objects.push_back(
-            {node.mesh, nodeIndex, fmt::format("{}#{}", name, i), worldFromNode * node.instances[i]});
+            {node.mesh, nodeIndex, fmt::format("{}#{}", name, i), worldFromNode * node.instances[i], cocScale});
 }
 
 void placeLight(const Scene& scene, int nodeIndex, Pose& pose) {

@@ -16,6 +16,7 @@ struct Object {  // a mesh instance with all its primitives
     int node = -1;
     std::string name;  // the node's, else the mesh's name; instances carry "#i"
     glm::dmat4 worldFromObject{1.0};
+    double cocScale = 1;  // factor on the blur, ≥ 0
 };
 
 struct PlacedLight {

@@ -110,6 +110,7 @@ struct Node {
     int camera = -1;
     int light = -1;
     std::vector<float> morphWeights;
+    double cocScale = 1;                // factor on the blur of its subtree (extras), ≥ 0; 0: always sharp
     std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: the mesh is drawn once for each, in the node's space
 };
 

@@ -48,7 +48,7 @@ VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> or
     VertexBlock result;
     result.vertices = {pick(from.positions, order), pick(from.normals, order), pick(from.tangents, order),
                        pick(from.uv0, order),       pick(from.uv1, order),     pick(from.colors, order),
-                       pick(from.joints, order),    pick(from.weights, order)};
+                       pick(from.joints, order),    pick(from.weights, order), pick(from.cocScales, order)};
     for (const MorphTarget& target : block.morphTargets)
         result.morphTargets.push_back(
             {pick(target.positions, order), pick(target.normals, order), pick(target.tangents, order)});
@@ -105,6 +105,7 @@ std::uint32_t append(Mesh& mesh, const VertexBlock& block) {
     join(to.colors, count, from.colors, added, glm::u8vec4(255));
     join(to.joints, count, from.joints, added, glm::u16vec4(0));
     join(to.weights, count, from.weights, added, glm::vec4(1, 0, 0, 0));
+    join(to.cocScales, count, from.cocScales, added, 1.0f);
 
     if (mesh.morphTargets.size() < block.morphTargets.size()) mesh.morphTargets.resize(block.morphTargets.size());
     for (std::size_t i = 0; i < mesh.morphTargets.size(); ++i) {

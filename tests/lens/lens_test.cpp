@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "lens/circle_of_confusion.h"
 
 namespace defocus {
 namespace {
@@ -16,7 +17,7 @@ TEST(Lens, circleOfConfusionOfATextbookExample) {
     Lens lens;
     lens.fStop = 2;
     lens.focusDistance = 2;
-    const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens);
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1024, 768);
     EXPECT_NEAR(circleOfConfusion(coc, 4, 1000), 0.025 * 0.25 * 1000 / 0.72, 1e-12);
     EXPECT_NEAR(circleOfConfusion(coc, 1, 1000), -0.025 * 0.5 * 1000 / 0.72, 1e-12);
     EXPECT_NEAR(circleOfConfusion(coc, 2, 1000), 0, 1e-12);
@@ -26,7 +27,7 @@ TEST(Lens, clipFormIsTheFormulaForEveryDepth) {
     Lens lens;
     for (const double s : {0.3, 2.5, 1e6}) {
         lens.focusDistance = s;
-        const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens);
+        const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1024, 768);
         for (const double z : {0.01, 0.5, 3.0, 1e4}) {
             const double expected = apertureDiameter(lens) * (1 / s - 1 / z) * 640 / (2 * tanHalfHorizontalFov(lens));
             EXPECT_NEAR(circleOfConfusion(coc, z, 640), expected, 1e-9 * std::abs(expected));
@@ -38,7 +39,7 @@ TEST(Lens, clipFormIsTheFormulaForEveryDepth) {
 TEST(Lens, focusAtInfinityBlursTheForegroundOnly) {
     Lens lens;
     lens.focusDistance = std::numeric_limits<double>::infinity();
-    const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens);
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1024, 768);
     EXPECT_EQ(circleOfConfusion(coc, std::numeric_limits<double>::infinity(), 1024), 0);
     EXPECT_LT(circleOfConfusion(coc, 10, 1024), 0);
 }
@@ -53,16 +54,16 @@ TEST(Lens, focusBreathingIsTheThinLens) {
     const double i = f * 1 / (1 - f);
     const double A = apertureDiameter(lens);
     const double onSensor = A * (3.0 - 1.0) / 3.0 * i / 1.0;
-    EXPECT_NEAR(circleOfConfusion(clipCircleOfConfusion(lens), 3, 1024), onSensor * 1024 / 0.036, 1e-9);
+    EXPECT_NEAR(circleOfConfusion(clipCircleOfConfusion(lens, 1024, 768), 3, 1024), onSensor * 1024 / 0.036, 1e-9);
 }
 
 TEST(Lens, rangeThatStraddlesFocusHasNoSmallestBlur) {
-    const ClipCircleOfConfusion coc = clipCircleOfConfusion(Lens{});
-    EXPECT_EQ(circleOfConfusionRange(coc, 1, 5, 1024).smallest, 0);
-    const CocRange behind = circleOfConfusionRange(coc, 3, 5, 1024);
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(Lens{}, 1024, 768);
+    EXPECT_EQ(circleOfConfusionRange(coc, {1, 5}, 1024).smallest, 0);
+    const CocRange behind = circleOfConfusionRange(coc, {3, 5}, 1024);
     EXPECT_DOUBLE_EQ(behind.smallest, behind.nearest);
     EXPECT_DOUBLE_EQ(behind.largest, behind.farthest);
-    const CocRange front = circleOfConfusionRange(coc, 1, 2, 1024);
+    const CocRange front = circleOfConfusionRange(coc, {1, 2}, 1024);
     EXPECT_DOUBLE_EQ(front.smallest, -front.farthest);
     EXPECT_DOUBLE_EQ(front.largest, -front.nearest);
 }
@@ -71,7 +72,7 @@ TEST(Lens, disabledDepthOfFieldIsAPinhole) {
     Lens lens;
     lens.dofEnabled = false;
     EXPECT_EQ(apertureDiameter(lens), 0);
-    EXPECT_EQ(circleOfConfusion(clipCircleOfConfusion(lens), 0.1, 1024), 0);
+    EXPECT_EQ(circleOfConfusion(clipCircleOfConfusion(lens, 1024, 768), 0.1, 1024), 0);
 }
 
 TEST(Lens, fieldOfViewAndFocalLengthAreInverses) {

@@ -126,9 +126,11 @@ TEST(FramePlan, cullingIsConservative) {
                     const glm::dvec4 p = object.worldFromObject * glm::dvec4(corner, 1);
                     const double w = -p.z;
                     if (w < small->view.nearPlane) continue;
-                    const double ndcX = (p.x / plan.tanHalfHorizontal + plan.coc.at(w) * sample.lens.x) / w;
-                    const double ndcY =
-                        (p.y / (plan.tanHalfHorizontal * 0.75) + plan.coc.at(w) * sample.lens.y * 4 / 3) / w;
+                    const double ndcX =
+                        (p.x / plan.tanHalfHorizontal + (plan.coc.a + plan.coc.front * w) * sample.lens.x) / w;
+                    const double ndcY = (p.y / (plan.tanHalfHorizontal * 0.75) +
+                                         (plan.coc.a + plan.coc.front * w) * sample.lens.y * 4 / 3) /
+                                        w;
                     seen |= std::abs(ndcX) <= 1 && std::abs(ndcY) <= 1;
                 }
             if (seen) {

@@ -16,7 +16,7 @@ ClipCircleOfConfusion cocOf(double fStop, double focusDistance) {
     Lens lens;
     lens.fStop = fStop;
     lens.focusDistance = focusDistance;
-    return clipCircleOfConfusion(lens);
+    return clipCircleOfConfusion(lens, 1024, 768);
 }
 
 TEST(BlurrinessPlanes, lieWhereTheThinLensReachesTheLargestBlur) {

@@ -1,0 +1,81 @@
+// How finely a triangle must be divided so that C is linear in each part to the tolerance: decided for each edge from that edge
+// alone, so that neighbours agree.
+
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+#include "include/coc_pieces.glsl"
+
+layout(vertices = 3) out;
+
+in Surface {
+#include "include/surface_varyings.glsl"
+} corners[];
+in Unsheared {
+#include "include/unsheared_varyings.glsl"
+} unsheared[];
+
+out Surface {
+#include "include/surface_varyings.glsl"
+} toNext[];
+out Unsheared {
+#include "include/unsheared_varyings.glsl"
+} unshearedOut[];
+
+#define SURFACE_CORNERS corners
+#define SURFACE_OUT toNext[gl_InvocationID]
+#include "include/surface_weighted.glsl"
+
+// The two smooth pieces of C.
+vec2 smoothPieces(vec3 pinhole, float scale) {
+    CocPieces pieces = cocPieces(pinhole, scale);
+    return pieces.factor * vec2(pieces.front, pieces.behind);
+}
+
+bool comesFirst(vec3 p, vec3 q) {
+    if (p.x != q.x) return p.x < q.x;
+    return p.y != q.y ? p.y < q.y : p.z < q.z;
+}
+
+// Parts that the edge needs. A smooth function's distance from its chord falls with the square of their number.
+float partsOf(int first, int second) {
+    if (comesFirst(unsheared[second].pinhole, unsheared[first].pinhole)) {
+        int swapped = first;
+        first = second;
+        second = swapped;
+    }
+    vec3 p = unsheared[first].pinhole;
+    vec3 q = unsheared[second].pinhole;
+    float scaleP = unsheared[first].cocScale;
+    float scaleQ = unsheared[second].cocScale;
+    // Only what lies in front of the near plane counts.
+    float near = frame.projection.z;
+    if (p.z <= near && q.z <= near) return 1.0;
+    float begin = p.z < near ? (near - p.z) / (q.z - p.z) : 0.0;
+    float end = q.z < near ? (near - p.z) / (q.z - p.z) : 1.0;
+    vec2 atBegin = smoothPieces(mix(p, q, begin), mix(scaleP, scaleQ, begin));
+    vec2 atEnd = smoothPieces(mix(p, q, end), mix(scaleP, scaleQ, end));
+    float deviation = 0.0;   // px
+    for (int i = 1; i < 8; ++i) {
+        float part = float(i) / 8.0;
+        float at = mix(begin, end, part);
+        vec3 middle = mix(p, q, at);
+        vec2 away = abs(smoothPieces(middle, mix(scaleP, scaleQ, at)) - mix(atBegin, atEnd, part));
+        deviation = max(deviation, max(away.x, away.y) / max(middle.z, near) * frame.coc.z);
+    }
+    return clamp(ceil(sqrt(1.5 * deviation / frame.cocLimits.w) / (end - begin)), 1.0, 64.0);
+}
+
+void main() {
+    writeSurface(vec3(equal(ivec3(gl_InvocationID), ivec3(0, 1, 2))));
+    unshearedOut[gl_InvocationID].pinhole = unsheared[gl_InvocationID].pinhole;
+    unshearedOut[gl_InvocationID].cocScale = unsheared[gl_InvocationID].cocScale;
+    unshearedOut[gl_InvocationID].lensAndJitter = unsheared[gl_InvocationID].lensAndJitter;
+    unshearedOut[gl_InvocationID].ditherAndLayer = unsheared[gl_InvocationID].ditherAndLayer;
+    if (gl_InvocationID == 0) {
+        vec3 parts = vec3(partsOf(1, 2), partsOf(2, 0), partsOf(0, 1));
+        gl_TessLevelOuter[0] = parts.x;
+        gl_TessLevelOuter[1] = parts.y;
+        gl_TessLevelOuter[2] = parts.z;
+        gl_TessLevelInner[0] = max(parts.x, max(parts.y, parts.z));
+    }
+}

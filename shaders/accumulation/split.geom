@@ -1,0 +1,120 @@
+// Cuts a triangle at the near plane and along the kinks of C, then shears the pieces: inside each of them C is linear (Munkberg,
+// Toth and Akenine-Möller 2012, Figures 2 and 10), and |C/w| is at most what it is at the piece's vertices. Along the kinks
+//   F·factor = −R₁ | F = 0 | B = 0 | B·factor = R₂        (src/lens/circle_of_confusion.h)
+// the pieces follow each other from front to back. Where a cut meets an edge is found from that edge's two ends alone, by terms
+// that don't depend on their order: neighbours agree, and no gap opens.
+
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+#include "include/coc_pieces.glsl"
+
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 30) out;   // 5 pieces of at most 6 vertices
+
+in Surface {
+#include "include/surface_varyings.glsl"
+} corners[];
+in Unsheared {
+#include "include/unsheared_varyings.glsl"
+} unsheared[];
+
+out Surface {
+#include "include/surface_varyings.glsl"
+} surface;
+flat out float ditherOffset;
+
+#define SURFACE_CORNERS corners
+#define SURFACE_OUT surface
+#include "include/surface_weighted.glsl"
+
+// A convex piece by the barycentric coordinates of its vertices.
+struct Piece {
+    int count;
+    vec3 vertices[6];
+};
+
+// Where `values` (at the triangle's corners) is 0 between p and q.
+vec3 cut(vec3 p, vec3 q, vec3 values) {
+    for (int k = 0; k < 3; ++k) {
+        if (p[k] != 0.0 || q[k] != 0.0) continue;   // both on the edge opposite to corner k
+        int i = (k + 1) % 3;
+        int j = (k + 2) % 3;
+        precise float atI = values[j] / (values[j] - values[i]);
+        precise float atJ = values[i] / (values[i] - values[j]);
+        vec3 weights = vec3(0.0);
+        weights[i] = atI;
+        weights[j] = atJ;
+        return weights;
+    }
+    float atP = dot(p, values);
+    float atQ = dot(q, values);
+    return (atQ * p - atP * q) / (atQ - atP);
+}
+
+// The part of the piece where `values` ≥ 0 (Sutherland and Hodgman 1974).
+Piece kept(Piece piece, vec3 values) {
+    Piece result;
+    result.count = 0;
+    for (int i = 0; i < piece.count; ++i) {
+        vec3 p = piece.vertices[i];
+        vec3 q = piece.vertices[i + 1 < piece.count ? i + 1 : 0];
+        bool pInside = dot(p, values) >= 0.0;
+        bool qInside = dot(q, values) >= 0.0;
+        if (pInside && result.count < 6) result.vertices[result.count++] = p;
+        if (pInside != qInside && result.count < 6) result.vertices[result.count++] = cut(p, q, values);
+    }
+    return result;
+}
+
+void emit(vec3 weights) {
+    precise vec3 pinhole = weights.x * unsheared[0].pinhole + weights.y * unsheared[1].pinhole + weights.z * unsheared[2].pinhole;
+    precise float scale = weights.x * unsheared[0].cocScale + weights.y * unsheared[1].cocScale + weights.z * unsheared[2].cocScale;
+    writeSurface(weights);
+    gl_Position = throughLens(pinhole, scale, unsheared[0].lensAndJitter);
+    gl_Layer = int(unsheared[0].ditherAndLayer.y);
+    ditherOffset = unsheared[0].ditherAndLayer.x;
+    EmitVertex();
+}
+
+// From both sides inwards: 0, 1, n − 1, 2, …
+void emit(Piece piece) {
+    if (piece.count < 3) return;
+    emit(piece.vertices[0]);
+    for (int low = 1, high = piece.count - 1; low <= high; ++low, --high) {
+        emit(piece.vertices[low]);
+        if (low != high) emit(piece.vertices[high]);
+    }
+    EndPrimitive();
+}
+
+void main() {
+    // The kinks' functions at the corners, linear where the pieces of C are; growing from front to back.
+    vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
+    for (int i = 0; i < 3; ++i) {
+        vec3 pinhole = unsheared[i].pinhole;
+        CocPieces pieces = cocPieces(pinhole, unsheared[i].cocScale);
+        atLimitInFront[i] = pieces.factor * pieces.front + frame.cocLimits.x * pinhole.z;
+        front[i] = pieces.front;
+        behind[i] = pieces.behind;
+        atLimitBehind[i] = pieces.factor * pieces.behind - frame.cocLimits.y * pinhole.z;
+        beyondNear[i] = pinhole.z - frame.projection.z;
+    }
+    Piece whole = Piece(3, vec3[6](vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(0), vec3(0), vec3(0)));
+    if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
+    if (whole.count < 3) return;
+
+    bool range = frame.coc.y != frame.coc.w;       // else F = B: one piece between the limits
+    if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
+    Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;
+    if (any(greaterThan(atLimitBehind, vec3(0.0)))) {
+        emit(kept(middle, atLimitBehind));
+        middle = kept(middle, -atLimitBehind);
+    }
+    if (!range) {
+        emit(middle);
+        return;
+    }
+    emit(kept(middle, -front));
+    emit(kept(middle, behind));
+    emit(kept(kept(middle, front), -behind));
+}

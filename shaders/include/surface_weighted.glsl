@@ -1,0 +1,28 @@
+// SURFACE_OUT.… = Σ weights·corner.… over the corners of a triangle, whose varyings are SURFACE_CORNERS[0 … 2]. For the stages that make
+// vertices. Where a weight is 0 the sum is the same whichever side of an edge asks for it.
+
+#define SURFACE_WEIGHTED(member) \
+    (weights.x * SURFACE_CORNERS[0].member + weights.y * SURFACE_CORNERS[1].member + weights.z * SURFACE_CORNERS[2].member)
+
+void writeSurface(vec3 weights) {
+    SURFACE_OUT.color = SURFACE_WEIGHTED(color);
+#ifndef UNLIT
+    SURFACE_OUT.normal = SURFACE_WEIGHTED(normal);
+#ifdef COARSE_LEVEL
+    SURFACE_OUT.agreement = SURFACE_WEIGHTED(agreement);
+#endif
+    SURFACE_OUT.toEye = SURFACE_WEIGHTED(toEye);
+#endif
+#if defined(LOCAL_LIGHTS)
+    SURFACE_OUT.position = SURFACE_WEIGHTED(position);
+#endif
+#ifdef TEXTURED
+    SURFACE_OUT.uv = SURFACE_WEIGHTED(uv);
+#endif
+#ifdef NORMAL_TEXTURE
+    SURFACE_OUT.tangent = SURFACE_WEIGHTED(tangent);
+#endif
+#if defined(COC_SCALES) && defined(READS_COC_SCALE)
+    SURFACE_OUT.cocScale = SURFACE_WEIGHTED(cocScale);
+#endif
+}
