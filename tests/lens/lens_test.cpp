@@ -31,7 +31,7 @@ TEST(Lens, clipFormIsTheFormulaForEveryDepth) {
         for (const double z : {0.01, 0.5, 3.0, 1e4}) {
             const double expected = apertureDiameter(lens) * (1 / s - 1 / z) * 640 / (2 * tanHalfHorizontalFov(lens));
             EXPECT_NEAR(circleOfConfusion(coc, z, 640), expected, 1e-9 * std::abs(expected));
-            EXPECT_NEAR(coc.at(z) / z * 640, expected, 1e-9 * std::abs(expected));
+            EXPECT_NEAR((coc.a + coc.front * z) / z * 640, expected, 1e-9 * std::abs(expected));
         }
     }
 }

@@ -1,0 +1,175 @@
+#include "lens/circle_of_confusion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <random>
+
+namespace defocus {
+namespace {
+
+Lens lensAt(double focusDistance) {
+    Lens lens;
+    lens.fStop = 1;
+    lens.focusDistance = focusDistance;
+    return lens;
+}
+
+// Every control at once, at random.
+Lens anyLens(std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(0, 1);
+    Lens lens = lensAt(0.5 + 4 * unit(random));
+    if (unit(random) < 0.5) lens.focusRangeFront = lens.focusDistance * 0.9 * unit(random);
+    if (unit(random) < 0.5) lens.focusRangeBehind = 3 * unit(random);
+    if (unit(random) < 0.5) lens.focusTilt = 2 * unit(random) - 1;
+    if (unit(random) < 0.5) lens.focusSwing = 2 * unit(random) - 1;
+    if (unit(random) < 0.5) lens.fieldCurvature = 4 * unit(random) - 2;
+    if (unit(random) < 0.5) lens.radialBlurGain = 3 * unit(random);
+    if (unit(random) < 0.5) lens.foregroundLimit = 60 * unit(random);
+    if (unit(random) < 0.5) lens.backgroundLimit = 30 * unit(random);
+    return lens;
+}
+
+double random(std::mt19937& source, double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(source);
+}
+
+// Munkberg et al. 2012, Eq. 1 and 2 with our signs: the kink lies at w = −a/(b + R), and nothing changes behind it.
+TEST(CircleOfConfusion, foregroundLimitHasItsKinkWhereThePaperSays) {
+    Lens lens = lensAt(2);
+    const ClipCircleOfConfusion free = clipCircleOfConfusion(lens, 1000, 750);
+    lens.foregroundLimit = 20;
+    const ClipCircleOfConfusion limited = clipCircleOfConfusion(lens, 1000, 750);
+    const double kink = -free.a / (free.front + 20.0 / 1000);
+    EXPECT_NEAR(circleOfConfusion(free, kink, 1000), -20, 1e-9);
+    for (const double z : {0.01, 0.1, 0.5 * kink, kink}) EXPECT_NEAR(circleOfConfusion(limited, z, 1000), -20, 1e-9);
+    for (const double z : {1.01 * kink, 2.0, 5.0, 1e9})
+        EXPECT_EQ(circleOfConfusion(limited, z, 1000), circleOfConfusion(free, z, 1000));
+}
+
+TEST(CircleOfConfusion, backgroundLimitHasItsKinkBehindTheFocus) {
+    Lens lens = lensAt(2);
+    const ClipCircleOfConfusion free = clipCircleOfConfusion(lens, 1000, 750);
+    lens.backgroundLimit = 10;
+    const ClipCircleOfConfusion limited = clipCircleOfConfusion(lens, 1000, 750);
+    const double kink = free.a / (10.0 / 1000 - free.behind);
+    ASSERT_GT(kink, 2);
+    EXPECT_NEAR(circleOfConfusion(free, kink, 1000), 10, 1e-9);
+    EXPECT_NEAR(circleOfConfusion(limited, 2 * kink, 1000), 10, 1e-9);
+    EXPECT_EQ(circleOfConfusion(limited, 1, 1000), circleOfConfusion(free, 1, 1000));
+}
+
+TEST(CircleOfConfusion, tiltedPlaneIsInFocus) {
+    Lens lens = lensAt(3);
+    lens.focusTilt = 0.7;
+    lens.focusSwing = -0.4;
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1200, 800);
+    const double tanX = tanHalfHorizontalFov(lens);
+    for (const double x : {-0.5, 0.0, 0.8})
+        for (const double y : {-0.6, 0.3}) {
+            const double z = 3 - std::tan(-0.4) * x - std::tan(0.7) * y;  // m, view space
+            const glm::dvec2 ndc(x / (z * tanX), y / (z * tanX) * 1.5);
+            EXPECT_NEAR(circleOfConfusion(coc, z, 1200, ndc), 0, 1e-9);
+        }
+}
+
+TEST(CircleOfConfusion, curvedFocusSurfaceIsWhereDesignSays) {
+    Lens lens = lensAt(3);
+    lens.fieldCurvature = 0.8;
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1200, 800);
+    for (const glm::dvec2 ndc : {glm::dvec2(0), glm::dvec2(1, 0), glm::dvec2(-0.3, 0.9)}) {
+        const double radius2 = ndc.x * ndc.x + ndc.y * ndc.y / 2.25;
+        EXPECT_NEAR(circleOfConfusion(coc, 3 / (1 + 0.8 * radius2), 1200, ndc), 0, 1e-9);
+    }
+}
+
+// Level selection and culling rely on it.
+TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
+    std::mt19937 source(7);
+    for (int trial = 0; trial < 400; ++trial) {
+        const ClipCircleOfConfusion coc = clipCircleOfConfusion(anyLens(source), 1000, 600);
+        CocBox box;
+        box.zNear = random(source, 0.1, 5);
+        box.zFar = box.zNear + random(source, 0, 5);
+        box.ndcLeast = {random(source, -1.2, 1), random(source, -1.2, 1)};
+        box.ndcMost = box.ndcLeast + glm::dvec2(random(source, 0, 1), random(source, 0, 1));
+        box.scaleLeast = random(source, 0, 1);
+        box.scaleMost = box.scaleLeast + random(source, 0, 1);
+        const CocRange range = circleOfConfusionRange(coc, box, 1000);
+        for (int i = 0; i < 50; ++i) {
+            const glm::dvec2 ndc(random(source, box.ndcLeast.x, box.ndcMost.x),
+                                 random(source, box.ndcLeast.y, box.ndcMost.y));
+            const double c = circleOfConfusion(coc, random(source, box.zNear, box.zFar), 1000, ndc,
+                                               random(source, box.scaleLeast, box.scaleMost));
+            const double slack = 1e-9 * (1 + range.largest);
+            EXPECT_GE(c, range.nearest - slack);
+            EXPECT_LE(c, range.farthest + slack);
+            EXPECT_GE(std::abs(c), range.smallest - slack);
+            EXPECT_LE(std::abs(c), range.largest + slack);
+        }
+    }
+}
+
+// Munkberg et al. 2012, 4.1: |C/w| of a triangle that is cut at the near plane is at most the larger of the limit and
+// the thin lens's value there, wherever between the cut and the farther vertex.
+TEST(CircleOfConfusion, limitHoldsUpToTheNearPlane) {
+    Lens lens = lensAt(2);
+    lens.foregroundLimit = 15;
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1000, 750);
+    const double near = 0.01;
+    const double kink = -coc.a / (coc.front + 15.0 / 1000);
+    const auto clip = [&](double w) { return w * circleOfConfusion(coc, w, 1000) / 1000; };
+    for (const double far : {0.02, 0.5 * kink, kink})
+        for (double w = near; w <= far; w *= 1.07) {
+            const double t = (w - near) / (far - near);
+            const double linear = (1 - t) * clip(near) + t * clip(far);
+            EXPECT_LE(std::abs(linear / w) * 1000, 15 * (1 + 1e-12)) << "w = " << w;
+        }
+    // Not cut: from behind the camera the interpolation has no bound.
+    const double behind = -1;
+    const double t = (near - behind) / (kink - behind);
+    const double uncut = (1 - t) * (coc.a + coc.front * behind) + t * clip(kink);
+    EXPECT_GT(std::abs(uncut / near) * 1000, 15);
+}
+
+// The bound on C's distance from its chord is one: edges inside the box, at random.
+TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
+    std::mt19937 source(11);
+    const int width = 1000;
+    int large = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+        Lens lens = anyLens(source);
+        const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, width, 600);
+        const double tanX = tanHalfHorizontalFov(lens);
+        const glm::dvec2 tanHalf(tanX, tanX * 0.6);
+        glm::dvec3 ends[2];  // x, y, depth in view space, m
+        for (glm::dvec3& end : ends) {
+            end.z = random(source, 0.5, 4);
+            end.x = random(source, -1, 1) * tanHalf.x * end.z;
+            end.y = random(source, -1, 1) * tanHalf.y * end.z;
+        }
+        const double shrink = std::pow(10.0, random(source, -3, 0));
+        ends[1] = ends[0] + (ends[1] - ends[0]) * shrink;
+        const auto ndcOf = [&](const glm::dvec3& p) { return glm::dvec2(p) / (tanHalf * p.z); };
+        const auto clip = [&](const glm::dvec3& p) { return p.z * circleOfConfusion(coc, p.z, width, ndcOf(p)); };
+        CocBox box{std::min(ends[0].z, ends[1].z), std::max(ends[0].z, ends[1].z)};
+        box.ndcLeast = glm::min(ndcOf(ends[0]), ndcOf(ends[1]));
+        box.ndcMost = glm::max(ndcOf(ends[0]), ndcOf(ends[1]));
+        const CocDeviation bound = cocDeviation(coc, box, glm::length(ends[1] - ends[0]), tanHalf, width);
+        double deviation = 0;
+        for (double t = 0; t <= 1; t += 0.05) {
+            const glm::dvec3 p = ends[0] + t * (ends[1] - ends[0]);
+            const double chord = (1 - t) * clip(ends[0]) + t * clip(ends[1]);
+            deviation = std::max(deviation, std::abs(clip(p) - chord) / p.z);
+        }
+        EXPECT_LE(deviation, bound.kinks + bound.curved + 1e-6) << "trial " << trial;
+        large += deviation > 0.5 ? 1 : 0;
+    }
+    EXPECT_GT(large, 300) << "edges that deviate must be among them";
+}
+
+}  // namespace
+}  // namespace defocus

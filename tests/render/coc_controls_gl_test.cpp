@@ -1,0 +1,311 @@
+// The controls of C(w) in the image: what each promises, and that large triangles show the same as small ones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "lens/circle_of_confusion.h"
+#include "render/aov.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class CocControls : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> CocControls::context_;
+
+Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance = 0.5,
+               const char* method = "accumulation") {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::off;
+    settings.cocTolerance = tolerance;
+    settings.keepAll = true;  // pinhole images keep all their samples
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const MethodUse use = parseMethodUse(method);
+    options.settings = completeSettings(use.method->name, use.method->settings, use.settings);
+    const auto renderer = use.method->make(small.world, options);
+    renderer->start(planFrame(small.world, small.view, settings));
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+double rootMeanSquare(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const double difference = double(a.pixels[i]) - double(b.pixels[i]);
+        sum += difference * difference;
+    }
+    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+}
+
+// A checkered floor 0.5 m below the camera, from `begin` to `end` m ahead of it, of `cells` x `cells` squares of two
+// triangles.
+std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) {
+    auto small = std::make_unique<SmallWorld>();
+    TextureImage image;
+    image.width = image.height = 64;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const std::uint8_t value = (x + y) % 2 == 0 ? 255 : 20;
+            image.rgba.insert(image.rgba.end(), {value, value, static_cast<std::uint8_t>(4 * x), 255});
+        }
+    small->scene.images.push_back(image);
+    small->scene.imageNames.emplace_back("checkers");
+    Texture texture;
+    texture.image = 0;
+    texture.magnification = Filter::nearest;
+    small->scene.textures.push_back(texture);
+    Material material = unlitMaterial(glm::vec4(1));
+    material.baseColor.texture = 0;
+    material.doubleSided = true;
+    small->scene.materials.push_back(material);
+
+    Mesh mesh;
+    mesh.name = "floor";
+    Primitive primitive{0, {}};
+    for (int y = 0; y <= cells; ++y)
+        for (int x = 0; x <= cells; ++x) {
+            const glm::dvec2 part = glm::dvec2(x, y) / double(cells);
+            mesh.vertices.positions.emplace_back(-6 + 12 * part.x, -0.5, -(begin + (end - begin) * part.y));
+            mesh.vertices.normals.emplace_back(0, 1, 0);
+            mesh.vertices.uv0.emplace_back(part);
+            if (x == cells || y == cells) continue;
+            const auto first = static_cast<std::uint32_t>(y * (cells + 1) + x);
+            const auto next = first + static_cast<std::uint32_t>(cells) + 1;
+            primitive.indices.insert(primitive.indices.end(), {first, first + 1, next, first + 1, next + 1, next});
+        }
+    mesh.primitives.push_back(primitive);
+    small->scene.meshes.push_back(mesh);
+    place(*small, 0, glm::dmat4(1));
+    small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
+    small->world.environment = {EnvironmentType::uniform, {0.2f, 0.3f, 0.5f}, {}, {}, nullptr, 1};
+    small->view.width = 160;
+    small->view.height = 120;
+    small->view.nearPlane = 0.05;
+    small->view.lens.fStop = 0.7;
+    small->view.lens.focusDistance = 2.5;
+    return small;
+}
+
+struct Control {
+    const char* name;
+    std::function<void(Lens&)> set;
+    double begin;  // m, of the floor
+};
+
+void PrintTo(const Control& control, std::ostream* out) {
+    *out << control.name;
+}
+
+class LargeTriangles : public CocControls, public testing::WithParamInterface<Control> {};
+
+// Munkberg et al. 2012, Figures 2 and 10: C is linear inside a triangle, so that a large one across a kink moves the
+// focus. A floor of two triangles must look like one of many (whose own deviation is small).
+TEST_P(LargeTriangles, lookLikeSmallOnes) {
+    const auto large = checkeredFloor(1, GetParam().begin, 12);
+    const auto fine = checkeredFloor(160, GetParam().begin, 12);
+    GetParam().set(large->view.lens);
+    GetParam().set(fine->view.lens);
+    const Image truth = rendered(*fine, 16, 1e6);
+    const Image divided = rendered(*large, 16, 0.1);
+    const double error = rootMeanSquare(divided, truth);
+    if (GetParam().begin < 0) {  // what reaches the camera is always cut
+        EXPECT_LT(error, 0.002);
+        return;
+    }
+    EXPECT_LT(error, 0.012);
+    EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), truth), 2.5 * error) << "undivided triangles must differ";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , LargeTriangles,
+    testing::Values(
+        Control{"foregroundLimit", [](Lens& lens) { lens.foregroundLimit = 3; }, 0.7},
+        Control{"backgroundLimit", [](Lens& lens) { lens.backgroundLimit = 1; }, 0.7},
+        Control{"bothLimits", [](Lens& lens) { lens.foregroundLimit = 2, lens.backgroundLimit = 1; }, 0.7},
+        Control{"focusRange", [](Lens& lens) { lens.focusRangeFront = 1.2, lens.focusRangeBehind = 2; }, 0.7},
+        Control{"rangeAndLimits",
+                [](Lens& lens) {
+                    lens.focusRangeFront = 0.5, lens.focusRangeBehind = 1;
+                    lens.foregroundLimit = 4, lens.backgroundLimit = 1;
+                },
+                0.7},
+        Control{"tiltAndLimit", [](Lens& lens) { lens.focusTilt = -1, lens.backgroundLimit = 1; }, 0.7},
+        Control{"fieldCurvature", [](Lens& lens) { lens.fieldCurvature = 1.5; }, 0.7},
+        Control{"radialBlurGain", [](Lens& lens) { lens.radialBlurGain = 3; }, 0.7},
+        Control{"curvedAndLimit", [](Lens& lens) { lens.fieldCurvature = 1, lens.foregroundLimit = 3; }, 0.7},
+        Control{"limitThroughTheCamera", [](Lens& lens) { lens.foregroundLimit = 6; }, -4},
+        Control{"rangeThroughTheCamera", [](Lens& lens) { lens.focusRangeFront = 1.5, lens.foregroundLimit = 6; }, -4}),
+    [](const testing::TestParamInfo<Control>& control) { return std::string(control.param.name); });
+
+// Three patches at 1, 2.5 and 8 m beside each other, on black.
+std::unique_ptr<SmallWorld> threePatches() {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial({0.9f, 0.8f, 0.6f, 1}));
+    small->scene.meshes.push_back(quad(0));
+    const double depths[3] = {1, 2.5, 8};
+    for (int i = 0; i < 3; ++i) {
+        const double size = 0.05 * depths[i];
+        const glm::dvec3 at((i - 1) * 0.2 * depths[i], 0, -depths[i]);
+        place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), at), glm::dvec3(size)));
+    }
+    small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
+    small->view.width = 160;
+    small->view.height = 120;
+    small->view.lens.fStop = 1.4;
+    small->view.lens.focusDistance = 2.5;
+    finish(*small);
+    return small;
+}
+
+Image part(const Image& image, int third) {
+    const int width = image.width / 3;
+    Image result(width, image.height, image.channels);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < width; ++x) std::copy_n(image.at(third * width + x, y), image.channels, result.at(x, y));
+    return result;
+}
+
+TEST_F(CocControls, limitInFrontLeavesFocusAndBackground) {
+    const auto small = threePatches();
+    const Image before = rendered(*small, 64);
+    small->view.lens.foregroundLimit = 0;
+    const Image after = rendered(*small, 64);
+    EXPECT_LT(rootMeanSquare(part(before, 1), part(after, 1)), 1e-6);
+    EXPECT_LT(rootMeanSquare(part(before, 2), part(after, 2)), 1e-6);
+    EXPECT_GT(rootMeanSquare(part(before, 0), part(after, 0)), 0.02);
+    small->view.lens.dofEnabled = false;
+    EXPECT_LT(rootMeanSquare(part(after, 0), part(rendered(*small, 64), 0)), 1e-5) << "no blur is left in front";
+}
+
+TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
+    const auto small = threePatches();
+    const Image before = rendered(*small, 64);
+    small->view.lens.backgroundLimit = 0;
+    const Image after = rendered(*small, 64);
+    EXPECT_LT(rootMeanSquare(part(before, 0), part(after, 0)), 1e-6);
+    EXPECT_LT(rootMeanSquare(part(before, 1), part(after, 1)), 1e-6);
+    EXPECT_GT(rootMeanSquare(part(before, 2), part(after, 2)), 0.01);
+}
+
+// The blur in front is that of a lens focused at the range's near end, behind it that of one focused at the far end.
+TEST_F(CocControls, focusRangeKeepsTheBlurOnEitherSide) {
+    const auto small = threePatches();
+    small->view.lens.focusRangeFront = 0.5;
+    small->view.lens.focusRangeBehind = 2;
+    const Image range = rendered(*small, 64);
+    small->view.lens.focusRangeFront = small->view.lens.focusRangeBehind = 0;
+    small->view.lens.focusDistance = 2;
+    EXPECT_LT(rootMeanSquare(part(range, 0), part(rendered(*small, 64), 0)), 1e-4);
+    small->view.lens.focusDistance = 4.5;
+    EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
+}
+
+TEST_F(CocControls, scaleOfAnObjectIsItsOwn) {
+    const auto small = threePatches();
+    const Image before = rendered(*small, 64);
+    small->world.pose.objects[0].cocScale = 0;
+    small->world.pose.objects[2].cocScale = 2;
+    const Image after = rendered(*small, 64);
+    EXPECT_LT(rootMeanSquare(part(before, 1), part(after, 1)), 1e-6);
+    small->world.pose.objects[0].cocScale = small->world.pose.objects[2].cocScale = 1;
+    small->view.lens.blurScale = 2;
+    EXPECT_LT(rootMeanSquare(part(rendered(*small, 64), 2), part(after, 2)), 1e-4) << "as the whole lens's scale";
+    small->view.lens.dofEnabled = false;
+    EXPECT_LT(rootMeanSquare(part(rendered(*small, 64), 0), part(after, 0)), 1e-5);
+}
+
+TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
+    const auto small = threePatches();
+    small->world.pose.objects[2].cocScale = 0.25;
+    const Image expected = rendered(*small, 64);
+    small->world.pose.objects[2].cocScale = 1;
+    // A mesh of its own for the third patch, with the attribute.
+    Mesh scaled = quad(0);
+    scaled.vertices.cocScales.assign(4, 0.25f);
+    scaled.cocScaleLeast = scaled.cocScaleMost = 0.25f;
+    small->scene.meshes.push_back(scaled);
+    small->world.pose.objects[2].mesh = 1;
+    small->world.pyramids.push_back(buildPyramid(scaled));
+    EXPECT_LT(rootMeanSquare(rendered(*small, 64), expected), 1e-6);
+}
+
+// The blurred point of the tilted plane w + m·X = s is sharp wherever it lies.
+TEST_F(CocControls, tiltedPlaneIsSharpAllAlong) {
+    const auto small = threePatches();
+    Lens& lens = small->view.lens;
+    lens.fStop = 0.5;
+    // Patches at (X, depth) on one plane: depth = s − tan(swing)·X.
+    const double m = std::tan(0.9);
+    lens.focusSwing = 0.9;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double x = (static_cast<double>(i) - 1) * 0.7;
+        const glm::dmat4 at = glm::translate(glm::dmat4(1), glm::dvec3(x, 0, -(2.5 - m * x)));
+        small->world.pose.objects[i].worldFromObject =
+            glm::scale(glm::rotate(at, -std::atan(m), glm::dvec3(0, 1, 0)), glm::dvec3(0.12));
+    }
+    const Image tilted = rendered(*small, 64);
+    lens.dofEnabled = false;
+    EXPECT_LT(rootMeanSquare(tilted, rendered(*small, 64)), 0.001);
+    lens.dofEnabled = true;
+    lens.focusSwing = 0;
+    EXPECT_GT(rootMeanSquare(tilted, rendered(*small, 64)), 0.006) << "without the swing the sides are blurred";
+}
+
+// The AOV and the function of the plan agree, whatever is combined.
+TEST_F(CocControls, aovIsTheFunctionOfThePlan) {
+    const auto small = checkeredFloor(4, 0.7, 12);
+    Lens& lens = small->view.lens;
+    lens.focusTilt = 0.3;
+    lens.focusSwing = -0.2;
+    lens.fieldCurvature = 0.5;
+    lens.radialBlurGain = 0.8;
+    lens.focusRangeFront = 0.3;
+    lens.focusRangeBehind = 0.6;
+    lens.foregroundLimit = 9;
+    lens.backgroundLimit = 3;
+    small->world.pose.objects[0].cocScale = 1.5;
+    RenderSettings settings;
+    const FramePlan plan = planFrame(small->world, small->view, settings);
+    const AovImages aovs = renderAovs(small->world, plan, {});
+    const int width = small->view.width;
+    const int height = small->view.height;
+    for (int y = 0; y < height; y += 7)
+        for (int x = 0; x < width; x += 7) {
+            const double depth = aovs.depth.at(x, y)[0];
+            if (!std::isfinite(depth)) continue;
+            const glm::dvec2 ndc((x + 0.5) / width * 2 - 1, 1 - (y + 0.5) / height * 2);
+            EXPECT_NEAR(aovs.coc.at(x, y)[0], circleOfConfusion(plan.coc, depth, width, ndc, 1.5), 2e-3)
+                << "at pixel " << x << "," << y;
+        }
+}
+
+// Post-process methods take the same CoC: with everything limited to nothing they give the pinhole image.
+TEST_F(CocControls, postProcessMethodsFollow) {
+    for (const char* method : {"circular", "scheuermann:coc=thin-lens"}) {
+        const auto small = threePatches();
+        const Image blurred = rendered(*small, 4, 0.5, method);
+        small->world.pose.objects[0].cocScale = 0;
+        small->view.lens.backgroundLimit = 0;
+        const Image sharp = rendered(*small, 4, 0.5, method);
+        small->view.lens.dofEnabled = false;
+        const Image pinhole = rendered(*small, 4, 0.5, method);
+        EXPECT_GT(rootMeanSquare(blurred, pinhole), 0.01) << method;
+        EXPECT_LT(rootMeanSquare(sharp, pinhole), 1e-3) << method;
+    }
+}
+
+}  // namespace
+}  // namespace defocus
