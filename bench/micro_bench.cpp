@@ -26,13 +26,15 @@ Scene smallSchool(int fish) {
 void lensSamplePoint(benchmark::State& state) {
     Lens lens;
     lens.bladeCount = static_cast<int>(state.range(0));
+    const Aperture aperture = makeAperture(lens);
+    const auto sequence = static_cast<Sequence>(state.range(1));
     std::uint64_t index = 0;
     glm::dvec2 sum(0);
-    for (auto _ : state) sum += glm::dvec2(lensSample(lens, index++, 1).lens);
+    for (auto _ : state) sum += glm::dvec2(lensSample(aperture, sequence, index++, 1).lens);
     // The aperture is centred on the lens.
     if (index > 1000 && glm::length(sum) / static_cast<double>(index) > 0.05) state.SkipWithError("samples off centre");
 }
-BENCHMARK(lensSamplePoint)->ArgName("blades")->Arg(0)->Arg(6);
+BENCHMARK(lensSamplePoint)->ArgNames({"blades", "sequence"})->ArgsProduct({{0, 6}, {0, 1, 2, 3}});
 
 // One level of detail for an object, over blurs from 0 to 40 px.
 void levelOfDetailOfObject(benchmark::State& state) {

@@ -70,8 +70,8 @@ std::uint64_t subjectHash(const ReferenceImage& reference, const ConvergenceSubj
                           const ConvergenceOptions& options) {
     const RenderSettings& plan = options.plan;
     const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {}", subject.bench.program, subject.commit, subject.bench.device,
-                    subject.bench.driver, plan.seed, plan.lodCocAtCentre, plan.keepAll,
+        fmt::format("{} {} {} {} {} {} {} {} {} {}", subject.bench.program, subject.commit, subject.bench.device,
+                    subject.bench.driver, sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, plan.keepAll,
                     static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
     return hashBytes(std::as_bytes(std::span(text)), reference.hash);
 }

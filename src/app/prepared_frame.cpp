@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "image/image_io.h"
+#include "lens/aperture.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid_cache.h"
 #include "scene/fish_school.h"
@@ -50,6 +51,17 @@ std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path) 
     return map;
 }
 
+std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path) {
+    Lens lens;
+    lens.apertureImage = std::make_shared<Image>(readImage(path));
+    try {
+        static_cast<void>(makeAperture(lens));  // finds fault with what it holds
+    } catch (const Error& error) {
+        fail("{}: {}", path.string(), error.what());
+    }
+    return lens.apertureImage;
+}
+
 Environment chosenEnvironment(const SceneOptions& options, const Scene& scene) {
     Environment environment = environmentOrDefault(scene);
     if (!options.environment.empty()) {
@@ -77,12 +89,22 @@ Lens chosenLens(const SceneOptions& options, const Camera& camera, std::vector<s
     const double aspect = static_cast<double>(options.width) / options.height;
     if (!options.lens.contains("focalLength") && !camera.lens.contains("focalLength"))
         lens.focalLength = focalLengthFromFov(aspect * std::tan(camera.yfov / 2), lens.horizontalAperture);
+    if (!options.apertureImage.empty()) {
+        lens.apertureImage = loadApertureImage(options.apertureImage);
+    } else if (!camera.apertureImage.empty()) {
+        try {
+            lens.apertureImage = loadApertureImage(options.path.parent_path() / camera.apertureImage);
+        } catch (const Error& error) {
+            refused.emplace_back(error.what());
+        }
+    }
     return lens;
 }
 
 RenderSettings chosenSettings(const SceneOptions& options) {
     RenderSettings settings;
     settings.sampleCount = options.samples;
+    settings.sequence = options.sequence;
     settings.seed = options.seed;
     settings.lod = options.lod;
     settings.metric = options.metric;

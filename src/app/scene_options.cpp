@@ -158,11 +158,24 @@ void addLens(CLI::App& command, SceneOptions& options) {
     addNumber(command, "--coc-tolerance", options.cocTolerance, {1e-3, 1e3}, "PX",
               "By how much the blur inside a triangle may differ from what its corners give; larger ones are divided")
         ->group("Lens");
+    command
+        .add_option("--aperture-image", options.apertureImage,
+                    "Image of the aperture, in place of blades and rings: light passes where it is bright; its longer "
+                    "side spans the lens")
+        ->type_name("FILE")
+        ->group("Lens");
 }
 
 void addLevels(CLI::App& command, SceneOptions& options) {
     const char* group = "Samples and level of detail";
     addWhole(command, "--samples", options.samples, 1, mostSamples, "Lens samples")->group(group);
+    addChoice<Sequence>(command, "--sequence", options.sequence,
+                        {{"sobol", Sequence::sobol},
+                         {"halton", Sequence::halton},
+                         {"scrambled-halton", Sequence::scrambledHalton},
+                         {"r2", Sequence::r2}},
+                        "Where the samples lie on the lens and in the pixel; the paper has halton")
+        ->group(group);
     addWhole(command, "--seed", options.seed, 0, std::numeric_limits<std::uint32_t>::max(),
              "Picks another set of sample points")
         ->group(group);

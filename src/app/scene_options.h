@@ -37,6 +37,7 @@ struct SceneOptions {
 
     // Lens: what the command line sets of it, by the names and in the units of lens/lens_fields.h.
     std::map<std::string, double, std::less<>> lens;
+    std::filesystem::path apertureImage;  // empty: the camera's own, or none
     std::string focusNode;
     std::optional<glm::ivec2> focusPixel;                  // column from the left, row from the top
     std::optional<std::array<glm::ivec2, 3>> focusPoints;  // three pixels: the focus plane goes through what they show
@@ -46,6 +47,7 @@ struct SceneOptions {
 
     // Samples and levels of detail.
     std::uint32_t samples = 64;
+    Sequence sequence = RenderSettings{}.sequence;
     std::uint32_t seed = 0;
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::size;

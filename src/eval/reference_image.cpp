@@ -104,6 +104,7 @@ Part rendered(const World& world, const View& view, const ReferenceOptions& opti
               const Progress& progress) {
     RenderSettings settings;
     settings.sampleCount = half.count;
+    settings.sequence = referenceSequence;
     settings.firstSample = referenceOffset + half.first;
     settings.lod = LodMode::off;
     settings.keepAll = true;  // brute force: nothing that a plan decides can be wrong in it

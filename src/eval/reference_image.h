@@ -19,6 +19,8 @@ namespace defocus {
 
 // Where references begin in the sequence of lens samples: far beyond what others use.
 inline constexpr std::uint32_t referenceOffset = 1u << 20;
+// Whatever the methods sample with, so that a reference stays the truth for all of them.
+inline constexpr Sequence referenceSequence = Sequence::halton;
 
 struct ReferenceOptions {
     std::uint32_t samples = 4096;  // of both halves together, 2 … 65,536

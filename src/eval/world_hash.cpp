@@ -11,6 +11,7 @@
 #include "core/file.h"
 #include "core/hash.h"
 #include "gl/shader_source.h"
+#include "lens/lens_fields.h"
 #include "lod/pyramid_file.h"
 
 namespace defocus {
@@ -97,8 +98,11 @@ void addLight(Hasher& hasher, const World& world) {
 void addView(Hasher& hasher, const View& view) {
     const Lens& l = view.lens;
     hasher.add(view.worldFromCamera, view.nearPlane, view.width, view.height);
-    hasher.add(l.focalLength, l.fStop, l.focusDistance, l.horizontalAperture, l.bladeCount, l.bladeRotation,
-               l.anamorphicRatio, l.dofEnabled, l.blurScale, l.focusBreathing);
+    for (const LensField& field : lensFields()) hasher.add(lensFieldValue(l, field));
+    hasher.add(l.apertureImage != nullptr);
+    if (l.apertureImage == nullptr) return;
+    hasher.add(l.apertureImage->width, l.apertureImage->height, l.apertureImage->channels);
+    hasher.addAll(l.apertureImage->pixels);
 }
 
 void addShaders(Hasher& hasher, const fs::path& folder) {

@@ -276,8 +276,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.apertureDiameter = apertureDiameter(view.lens);
     plan.coc = clipCircleOfConfusion(view.lens, view.width, view.height);
     plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
-    for (std::uint32_t i = 0; i < settings.sampleCount; ++i)
-        plan.samples.push_back(lensSample(view.lens, std::uint64_t{settings.firstSample} + i, settings.seed));
+    plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);
 
     // Place every object and drop those that cannot be seen.
     const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lens/lens.h"
+#include "lens/sequences.h"
 #include "lod/level_selection.h"
 #include "scene/defaults.h"
 #include "scene/pose.h"
@@ -24,6 +25,7 @@ struct View {
 
 struct RenderSettings {
     std::uint32_t sampleCount = 64;  // 1 … 65,536
+    Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;
     std::uint32_t firstSample = 0;  // offset into the sequence (a reference takes its own)
     LodMode lod = LodMode::fractional;

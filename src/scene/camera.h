@@ -16,6 +16,7 @@ struct Camera {
     // Numbers of the camera's extras by their names ("fStop", "focusDistance" …; lens/lens_fields.h knows which count);
     // truth values are 0 and 1.
     std::map<std::string, double, std::less<>> lens;
+    std::string apertureImage;  // of the extras: a file's path, relative to the scene's; empty: none
     std::optional<std::string> orthographic;  // set to why the camera can't be used (orthographic cameras)
 
     [[nodiscard]] std::optional<double> lensValue(std::string_view lensName) const {

@@ -183,6 +183,14 @@ std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& came
     return values;
 }
 
+// A path among them; empty where there is none.
+std::string apertureImageOf(const nlohmann::json& camera) {
+    const auto extras = camera.find("extras");
+    if (extras == camera.end() || !extras->is_object()) return {};
+    const auto path = extras->find("apertureImage");
+    return path != extras->end() && path->is_string() ? path->get<std::string>() : std::string();
+}
+
 }  // namespace
 
 Hierarchy readHierarchy(Source& source) {
@@ -219,6 +227,7 @@ std::vector<Camera> readCameras(Source& source) {
         Camera camera;
         camera.name = from.name;
         camera.lens = lensValues(json);
+        camera.apertureImage = apertureImageOf(json);
         if (from.type == "orthographic") {
             camera.orthographic = "orthographic cameras are not supported";
             ignore(source, label, *camera.orthographic);

@@ -2,95 +2,97 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <glm/geometric.hpp>
 
 namespace defocus {
 namespace {
 
-TEST(LensSamples, radicalInverseOfTheFirstIntegers) {
-    const double base2[] = {0, 0.5, 0.25, 0.75, 0.125};
-    for (std::uint64_t i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(radicalInverse(2, i), base2[i]);
-    EXPECT_NEAR(radicalInverse(3, 5), 2.0 / 3 + 1.0 / 9, 1e-15);  // 5 = 12 in base 3, mirrored 0.21
+constexpr Sequence sequences[] = {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2};
+
+std::vector<LensSample> samplesOf(const Lens& lens, std::uint32_t count, Sequence sequence = Sequence::sobol) {
+    return lensSamples(lens, sequence, 0, count, 0);
 }
 
-TEST(LensSamples, firstSampleIsThePinhole) {
-    for (const int blades : {0, 3, 6}) {
-        Lens lens;
-        lens.bladeCount = blades;
-        const LensSample sample = lensSample(lens, 0, 0);
-        EXPECT_NEAR(sample.lens.x, 0, 1e-7);
-        EXPECT_NEAR(sample.lens.y, 0, 1e-7);
-        EXPECT_NEAR(sample.pixel.x, 0, 1e-7);
-        EXPECT_NEAR(sample.pixel.y, 0, 1e-7);
-    }
-}
-
-// Moments of a uniform shape: mean 0, and per axis the second moment 1/4 for the disk, and for a regular n-gon
-// inscribed in the unit circle (1/12)(1 + 2cos²(π/n))·… = (2 + cos(2π/n))/12.
-TEST(LensSamples, momentsAreThoseOfTheShape) {
-    for (const int blades : {0, 3, 5, 6, 8}) {
-        Lens lens;
-        lens.bladeCount = blades;
-        lens.bladeRotation = 0.3;
-        const int n = 1 << 16;
-        glm::dvec2 mean(0);
-        glm::dvec2 square(0);
-        for (const LensSample& sample : lensSamples(lens, n, 0)) {
-            const glm::dvec2 p(sample.lens);
-            EXPECT_LE(p.x * p.x + p.y * p.y, 1 + 1e-6);
-            mean += p / double(n);
-            square += p * p / double(n);
+TEST(LensSamples, firstSampleIsThePinholeInTheMiddleOfTheShutter) {
+    for (const Sequence sequence : sequences)
+        for (const int blades : {0, 3, 6}) {
+            Lens lens;
+            lens.bladeCount = blades;
+            lens.bladeCurvature = 0.4;
+            lens.sphericalAberration = blades == 6 ? 1 : 0;
+            const LensSample sample = samplesOf(lens, 1, sequence).front();
+            EXPECT_NEAR(sample.lens.x, 0, 1e-4) << sequenceName(sequence);
+            EXPECT_NEAR(sample.lens.y, 0, 1e-4) << sequenceName(sequence);
+            EXPECT_NEAR(sample.pixel.x, 0, 1e-7) << sequenceName(sequence);
+            EXPECT_NEAR(sample.pixel.y, 0, 1e-7) << sequenceName(sequence);
+            EXPECT_NEAR(sample.time, 0.5, 1e-7) << sequenceName(sequence);
+            EXPECT_NEAR(sample.band, 0.5, 1e-7) << sequenceName(sequence);
         }
-        const double expected = blades == 0 ? 0.25 : (2 + std::cos(2 * std::numbers::pi / blades)) / 12;
-        EXPECT_NEAR(mean.x, 0, 1e-3) << blades;
-        EXPECT_NEAR(mean.y, 0, 1e-3) << blades;
-        EXPECT_NEAR(square.x, expected, 2e-3) << blades;
-        EXPECT_NEAR(square.y, expected, 2e-3) << blades;
+}
+
+TEST(LensSamples, fillLensPixelTimeAndBandEvenly) {
+    for (const Sequence sequence : sequences) {
+        int pixels[4] = {};
+        int times[4] = {};
+        int bands[4] = {};
+        for (const LensSample& sample : samplesOf(Lens{}, 4096, sequence)) {
+            ASSERT_LE(glm::dot(sample.lens, sample.lens), 1 + 1e-6f);
+            for (int c = 0; c < 2; ++c) {
+                ASSERT_GE(sample.pixel[c], -0.5f);
+                ASSERT_LT(sample.pixel[c], 0.5f);
+            }
+            ASSERT_GE(std::min(sample.time, sample.band), 0.0f);
+            ASSERT_LT(std::max(sample.time, sample.band), 1.0f);
+            ++pixels[(sample.pixel.x < 0 ? 0 : 1) + (sample.pixel.y < 0 ? 0 : 2)];
+            ++times[static_cast<int>(sample.time * 4)];
+            ++bands[static_cast<int>(sample.band * 4)];
+        }
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_NEAR(pixels[i], 1024, 12) << sequenceName(sequence);
+            EXPECT_NEAR(times[i], 1024, 12) << sequenceName(sequence);
+            EXPECT_NEAR(bands[i], 1024, 12) << sequenceName(sequence);
+        }
     }
 }
 
-TEST(LensSamples, anamorphicRatioNarrowsOneAxis) {
-    Lens lens;
-    lens.anamorphicRatio = 2;
-    double widest = 0;
-    double tallest = 0;
-    for (const LensSample& sample : lensSamples(lens, 4096, 0)) {
-        widest = std::max(widest, std::abs(double(sample.lens.x)));
-        tallest = std::max(tallest, std::abs(double(sample.lens.y)));
+// Sheared by time or band, the lens must stay covered: in each eighth of them the mean of n independent points of the
+// disk strays by √(0.5/n).
+TEST(LensSamples, everyPartOfTimeAndBandSeesAllOfTheLens) {
+    for (const Sequence sequence : sequences) {
+        glm::dvec2 times[8] = {};
+        glm::dvec2 bands[8] = {};
+        for (const LensSample& sample : samplesOf(Lens{}, 512, sequence)) {
+            times[static_cast<int>(sample.time * 8)] += glm::dvec2(sample.lens) / 64.0;
+            bands[static_cast<int>(sample.band * 8)] += glm::dvec2(sample.lens) / 64.0;
+        }
+        for (int i = 0; i < 8; ++i) {
+            EXPECT_LT(glm::length(times[i]), std::sqrt(0.5 / 64)) << sequenceName(sequence) << i;
+            EXPECT_LT(glm::length(bands[i]), std::sqrt(0.5 / 64)) << sequenceName(sequence) << i;
+        }
     }
-    EXPECT_NEAR(widest, 0.5, 0.01);
-    EXPECT_NEAR(tallest, 1, 0.01);
 }
 
-TEST(LensSamples, pixelOffsetsFillThePixelEvenly) {
-    int quadrants[4] = {};
-    for (const LensSample& sample : lensSamples(Lens{}, 4096, 0)) {
-        ASSERT_GE(sample.pixel.x, -0.5f);
-        ASSERT_LE(sample.pixel.x, 0.5f);
-        ++quadrants[(sample.pixel.x < 0 ? 0 : 1) + (sample.pixel.y < 0 ? 0 : 2)];
-    }
-    for (const int count : quadrants) EXPECT_NEAR(count, 1024, 12);
-}
-
-// The sample split draws a prefix of the sequence with one level and the suffix with the other: both must cover the
-// lens. The mean of n independent points strays by √(0.5/n); taking every other Halton point instead halves the lens
-// and strays by 0.4.
-TEST(LensSamples, prefixesAndSuffixesAreWellSpread) {
-    const std::vector<LensSample> samples = lensSamples(Lens{}, 64, 0);
-    for (std::size_t cut = 16; cut <= 48; cut += 4) {
-        glm::dvec2 prefix(0);
-        glm::dvec2 suffix(0);
-        for (std::size_t i = 0; i < 64; ++i) (i < cut ? prefix : suffix) += glm::dvec2(samples[i].lens);
-        EXPECT_LT(std::hypot(prefix.x, prefix.y) / double(cut), std::sqrt(0.5 / double(cut))) << cut;
-        EXPECT_LT(std::hypot(suffix.x, suffix.y) / double(64 - cut), std::sqrt(0.5 / double(64 - cut))) << cut;
+TEST(LensSamples, rangesAreThoseOfTheWholeSequence) {
+    for (const Sequence sequence : sequences) {
+        const std::vector<LensSample> all = lensSamples(Lens{}, sequence, 0, 200, 3);
+        const std::vector<LensSample> part = lensSamples(Lens{}, sequence, 128, 64, 3);
+        for (std::size_t i = 0; i < part.size(); ++i) {
+            EXPECT_EQ(part[i].lens, all[128 + i].lens);
+            EXPECT_EQ(part[i].pixel, all[128 + i].pixel);
+            EXPECT_EQ(part[i].time, all[128 + i].time);
+        }
     }
 }
 
 TEST(LensSamples, seedsGiveOtherPointsOfTheSameShape) {
-    EXPECT_NE(lensSample(Lens{}, 5, 1).lens, lensSample(Lens{}, 5, 0).lens);
-    EXPECT_NE(lensSample(Lens{}, 5, 1).lens, lensSample(Lens{}, 5, 2).lens);
-    EXPECT_EQ(lensSample(Lens{}, 5, 2).lens, lensSample(Lens{}, 5, 2).lens);
+    const Aperture disk = makeAperture(Lens{});
+    for (const Sequence sequence : sequences) {
+        EXPECT_NE(lensSample(disk, sequence, 5, 1).lens, lensSample(disk, sequence, 5, 0).lens);
+        EXPECT_NE(lensSample(disk, sequence, 5, 1).lens, lensSample(disk, sequence, 5, 2).lens);
+        EXPECT_EQ(lensSample(disk, sequence, 5, 2).lens, lensSample(disk, sequence, 5, 2).lens);
+    }
 }
 
 }  // namespace

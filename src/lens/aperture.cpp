@@ -1,0 +1,211 @@
+// Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
+
+#include "lens/aperture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Cells along the longer side of an image: enough for the disk's rim to be round, and no more than pays.
+constexpr int fewestCells = 256;
+constexpr int mostCells = 1024;
+
+// ---- blades ---------------------------------------------------------------------------------------------------------
+
+struct Blade {
+    double halfAngle = 0;  // π/n
+    double curvature = 0;
+};
+
+double edgeRadius(const Blade& blade, double angle) {
+    return (1 - blade.curvature) * std::cos(blade.halfAngle) / std::cos(angle) + blade.curvature;
+}
+
+// ∫ edgeRadius² from 0 to `angle`.
+double sectorArea(const Blade& blade, double angle) {
+    const double chord = (1 - blade.curvature) * std::cos(blade.halfAngle);
+    const double tangent = std::tan(angle);
+    return chord * chord * tangent + 2 * chord * blade.curvature * std::asinh(tangent) +
+           blade.curvature * blade.curvature * angle;
+}
+
+// The angle between which and the blade's middle lies the signed `share` ∈ [−1, 1] of half the blade's area. Newton's
+// steps from the straight blade's angle: the integrand varies by no more than 4 (three straight blades), and they
+// settle in three or four.
+double angleOfShare(const Blade& blade, double share) {
+    double angle = std::atan(share * std::tan(blade.halfAngle));
+    if (blade.curvature == 0) return angle;
+    const double wanted = share * sectorArea(blade, blade.halfAngle);
+    for (int i = 0; i < 5; ++i) {
+        const double radius = edgeRadius(blade, angle);
+        angle -= (sectorArea(blade, angle) - wanted) / (radius * radius);
+        angle = std::clamp(angle, -blade.halfAngle, blade.halfAngle);
+    }
+    return angle;
+}
+
+// From the disk to the area between the blades, keeping areas' shares: the angle picks the blade and the share of its
+// area, the distance from the centre becomes that share of the distance to the edge. The first corner lies at angle 0.
+glm::dvec2 betweenBlades(const Aperture& aperture, const glm::dvec2& disk) {
+    const Blade blade{pi / aperture.bladeCount, aperture.bladeCurvature};
+    const double turn = std::atan2(disk.y, disk.x) / (2 * blade.halfAngle);
+    const double index = std::floor(turn);
+    const double angle = angleOfShare(blade, 2 * (turn - index) - 1);
+    const double radius = glm::length(disk) * edgeRadius(blade, angle);
+    const double direction = (2 * index + 1) * blade.halfAngle + angle;
+    return radius * glm::dvec2(std::cos(direction), std::sin(direction));
+}
+
+// ---- light over the radius ------------------------------------------------------------------------------------------
+
+// The t at which ∫₀ᵗ 1 + k(2τ − 1) dτ = (1 − k)t + kt² is `share`, k ∈ [−1, 1].
+double aberratedShare(double k, double share) {
+    const double linear = 1 - k;
+    const double divisor = linear + std::sqrt(std::max(linear * linear + 4 * k * share, 0.0));
+    return divisor > 0 ? std::min(2 * share / divisor, 1.0) : 0;
+}
+
+// Moves a point of the disk along its radius.
+glm::dvec2 spreadOverRadius(const Aperture& aperture, const glm::dvec2& disk) {
+    const double share = glm::dot(disk, disk);
+    const double lit = aberratedShare(aperture.sphericalAberration, share);
+    const double radius = std::sqrt(aperture.obstruction + (1 - aperture.obstruction) * lit);
+    return share > 0 ? disk * (radius / std::sqrt(share)) : glm::dvec2(radius, 0);
+}
+
+// ---- images ---------------------------------------------------------------------------------------------------------
+
+// Rec. 709 luminance, or the only channel.
+double valueAt(const Image& image, int x, int y) {
+    const float* pixel = image.at(x, y);
+    for (int c = 0; c < image.channels; ++c)
+        if (!(pixel[c] >= 0) || !std::isfinite(pixel[c]))
+            fail("the aperture's image holds {} at pixel {},{}: light that passes is a number of 0 or more", pixel[c],
+                 x, y);
+    if (image.channels < 3) return static_cast<double>(pixel[0]);
+    return glm::dot(glm::dvec3(pixel[0], pixel[1], pixel[2]), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+// From cells to the unit square around the longer side, y up.
+glm::dvec2 lensPoint(const ApertureImage& image, double column, double row) {
+    const double half = 0.5 * std::max(image.columns, image.rows);
+    return {(column - 0.5 * image.columns) / half, (0.5 * image.rows - row) / half};
+}
+
+// Each cell's light, 0 where its middle lies outside the unit disk.
+std::vector<double> cellValues(const Image& image, ApertureImage& cells) {
+    const int longer = std::max(image.width, image.height);
+    const int parts = (fewestCells + longer - 1) / longer;   // of a pixel, each way
+    const int group = (longer + mostCells - 1) / mostCells;  // of pixels, each way
+    cells.columns = (image.width * parts + group - 1) / group;
+    cells.rows = (image.height * parts + group - 1) / group;
+    std::vector<double> values(static_cast<std::size_t>(cells.columns) * static_cast<std::size_t>(cells.rows));
+    for (int y = 0; y < image.height * parts; ++y)
+        for (int x = 0; x < image.width * parts; ++x) {
+            const double value = valueAt(image, x / parts, y / parts);
+            const glm::dvec2 middle = lensPoint(cells, x / group + 0.5, y / group + 0.5);
+            if (glm::dot(middle, middle) <= 1)
+                values[static_cast<std::size_t>(y / group) * static_cast<std::size_t>(cells.columns) +
+                       static_cast<std::size_t>(x / group)] += value;
+        }
+    return values;
+}
+
+ApertureImage readApertureImage(const Image& image) {
+    if (image.empty()) fail("the aperture's image is empty");
+    ApertureImage cells;
+    const std::vector<double> values = cellValues(image, cells);
+    const auto columns = static_cast<std::size_t>(cells.columns);
+    cells.cellEnds.resize(values.size());
+    double all = 0;
+    for (std::size_t first = 0; first < values.size(); first += columns) {
+        double row = 0;
+        for (std::size_t i = first; i < first + columns; ++i) row += values[i];
+        double end = 0;
+        for (std::size_t i = first; i < first + columns; ++i)
+            cells.cellEnds[i] = row > 0 ? static_cast<float>((end += values[i]) / row) : 1.0f;
+        cells.rowEnds.push_back(all += row);
+    }
+    if (!(all > 0)) fail("the aperture's image is black within the lens's circle: no light would pass");
+    for (double& end : cells.rowEnds) end /= all;
+    return cells;
+}
+
+// Where `share` falls among the ends of intervals that cover [0, 1]: the interval's index plus the place in it.
+template <typename Iterator>
+double placeAmong(Iterator first, Iterator last, double share) {
+    const Iterator found = std::min(std::upper_bound(first, last, share), last - 1);
+    const double before = found == first ? 0.0 : static_cast<double>(*(found - 1));
+    const double width = static_cast<double>(*found) - before;
+    const double place = width > 0 ? std::clamp((share - before) / width, 0.0, 1.0) : 0.5;
+    return static_cast<double>(found - first) + place;
+}
+
+// The inverse of the cumulative sums: `s` picks the row, from the bottom, and `r` the place in it.
+glm::dvec2 throughImage(const ApertureImage& image, const glm::dvec2& square) {
+    const double share = std::min(1 - square.y, 1 - 0x1p-32);  // below 1: a black row at the end has no share
+    const double row = placeAmong(image.rowEnds.begin(), image.rowEnds.end(), share);
+    const auto index = std::min(static_cast<std::ptrdiff_t>(row), static_cast<std::ptrdiff_t>(image.rows) - 1);
+    const auto first = image.cellEnds.begin() + index * image.columns;
+    const glm::dvec2 point = lensPoint(image, placeAmong(first, first + image.columns, square.x), row);
+    // Cells on the rim reach over it by less than one of them.
+    return point / std::max(glm::length(point), 1.0);
+}
+
+glm::dvec2 turned(const glm::dvec2& point, double angle) {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    return {c * point.x - s * point.y, s * point.x + c * point.y};
+}
+
+}  // namespace
+
+glm::dvec2 concentricDisk(const glm::dvec2& square) {
+    const glm::dvec2 offset = 2.0 * square - 1.0;
+    if (offset.x == 0 && offset.y == 0) return offset;
+    constexpr double quarter = pi / 4;
+    if (std::abs(offset.x) > std::abs(offset.y)) {
+        const double angle = quarter * (offset.y / offset.x);
+        return offset.x * glm::dvec2(std::cos(angle), std::sin(angle));
+    }
+    const double angle = 2 * quarter - quarter * (offset.x / offset.y);
+    return offset.y * glm::dvec2(std::cos(angle), std::sin(angle));
+}
+
+Aperture makeAperture(const Lens& lens) {
+    Aperture aperture{lens.bladeCount,
+                      lens.bladeRotation,
+                      lens.bladeCurvature,
+                      lens.anamorphicRatio,
+                      lens.obstruction * lens.obstruction,
+                      lens.sphericalAberration,
+                      {}};
+    if (lens.apertureImage) aperture.image = readApertureImage(*lens.apertureImage);
+    return aperture;
+}
+
+glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square) {
+    glm::dvec2 point(0);
+    if (aperture.image.rows > 0) {
+        point = throughImage(aperture.image, square);
+    } else {
+        point = concentricDisk(square);
+        if (aperture.obstruction > 0 || aperture.sphericalAberration != 0) point = spreadOverRadius(aperture, point);
+        if (aperture.bladeCount >= 3) point = betweenBlades(aperture, point);
+    }
+    if (aperture.bladeRotation != 0) point = turned(point, aperture.bladeRotation);
+    const double ratio = aperture.anamorphicRatio;
+    return {ratio > 1 ? point.x / ratio : point.x, ratio < 1 ? point.y * ratio : point.y};
+}
+
+}  // namespace defocus

@@ -1,0 +1,294 @@
+#include "lens/aperture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/error.h"
+
+namespace defocus {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int gridSize = 700;  // cells a side of the square's even subdivision: 490,000 points
+
+// The middles of even cells of the square, mapped to the lens.
+std::vector<glm::dvec2> mapped(const Lens& lens) {
+    const Aperture aperture = makeAperture(lens);
+    std::vector<glm::dvec2> points;
+    for (int y = 0; y < gridSize; ++y)
+        for (int x = 0; x < gridSize; ++x)
+            points.push_back(apertureSample(aperture, glm::dvec2(x + 0.5, y + 0.5) / double(gridSize)));
+    return points;
+}
+
+// ---- what a shape should be, straight from its definition
+// ------------------------------------------------------------
+
+// The polygon's edge in the direction of `p`, as the blades' curvature has it; the first corner lies at the rotation.
+double edgeTowards(const Lens& lens, const glm::dvec2& p) {
+    if (lens.bladeCount == 0) return 1;
+    const double width = 2 * pi / lens.bladeCount;
+    const double angle = std::atan2(p.y, p.x) - lens.bladeRotation;
+    const double fromMiddle = angle - (std::floor(angle / width) + 0.5) * width;
+    const double chord = std::cos(width / 2) / std::cos(fromMiddle);
+    return (1 - lens.bladeCurvature) * chord + lens.bladeCurvature;
+}
+
+// The light's density at a point, up to a factor.
+double density(const Lens& lens, glm::dvec2 p) {
+    p.x *= std::max(lens.anamorphicRatio, 1.0);
+    p.y /= std::min(lens.anamorphicRatio, 1.0);
+    const double area = glm::dot(p, p) / std::pow(edgeTowards(lens, p), 2);  // share that lies nearer to the centre
+    const double hidden = lens.obstruction * lens.obstruction;
+    if (area > 1 || area < hidden) return 0;
+    return 1 + lens.sphericalAberration * (2 * (area - hidden) / (1 - hidden) - 1);
+}
+
+constexpr int cellCount = 24;  // a side, over [−1, 1]²
+
+std::size_t cellOf(const glm::dvec2& p) {
+    const auto index = [](double c) { return std::clamp(static_cast<int>((c + 1) / 2 * cellCount), 0, cellCount - 1); };
+    return static_cast<std::size_t>(index(p.y) * cellCount + index(p.x));
+}
+
+// Each cell's share of the light, by `light` at 40 × 40 places a cell.
+template <typename Light>
+std::vector<double> expectedShares(const Light& light) {
+    constexpr int fine = 40 * cellCount;
+    std::vector<double> shares(cellCount * cellCount);
+    double all = 0;
+    for (int y = 0; y < fine; ++y)
+        for (int x = 0; x < fine; ++x) {
+            const glm::dvec2 p((x + 0.5) / fine * 2 - 1, (y + 0.5) / fine * 2 - 1);
+            const double value = light(p);
+            shares[cellOf(p)] += value;
+            all += value;
+        }
+    for (double& share : shares) share /= all;
+    return shares;
+}
+
+std::vector<double> sharesOf(const std::vector<glm::dvec2>& points) {
+    std::vector<double> shares(cellCount * cellCount);
+    for (const glm::dvec2& p : points) shares[cellOf(p)] += 1 / static_cast<double>(points.size());
+    return shares;
+}
+
+// Half the sum of all cells' differences: the share of light that lies in the wrong cell.
+double misplaced(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]) / 2;
+    return sum;
+}
+
+struct Shape {
+    const char* name;
+    int blades = 0;
+    double rotation = 0;
+    double curvature = 0;
+    double ratio = 1;
+    double obstruction = 0;
+    double aberration = 0;
+
+    [[nodiscard]] Lens lens() const {
+        Lens lens;
+        lens.bladeCount = blades;
+        lens.bladeRotation = rotation;
+        lens.bladeCurvature = curvature;
+        lens.anamorphicRatio = ratio;
+        lens.obstruction = obstruction;
+        lens.sphericalAberration = aberration;
+        return lens;
+    }
+};
+
+const Shape shapes[] = {
+    {.name = "disk"},
+    {.name = "triangle", .blades = 3, .rotation = 0.2},
+    {.name = "pentagon", .blades = 5, .rotation = -2},
+    {.name = "curvedTriangle", .blades = 3, .rotation = 0.2, .curvature = 0.5},
+    {.name = "curvedHexagon", .blades = 6, .curvature = 0.7},
+    {.name = "sixtyFourBlades", .blades = 64},
+    {.name = "fullyCurvedIsADisk", .blades = 7, .curvature = 1},
+    {.name = "tallOval", .ratio = 2},
+    {.name = "wideHexagon", .blades = 6, .rotation = 0.3, .ratio = 0.5},
+    {.name = "ring", .obstruction = 0.5},
+    {.name = "thinRing", .obstruction = 0.9},
+    {.name = "pentagonalRing", .blades = 5, .rotation = 1, .curvature = 0.3, .obstruction = 0.4},
+    {.name = "soapBubble", .aberration = 1},
+    {.name = "creamy", .aberration = -1},
+    {.name = "slightBubbleOfBlades", .blades = 8, .rotation = 0.1, .aberration = 0.6},
+    {.name = "creamyRing", .obstruction = 0.6, .aberration = -0.7},
+};
+
+class ApertureShape : public testing::TestWithParam<Shape> {};
+
+TEST_P(ApertureShape, hasTheDensityOfItsDefinition) {
+    const Lens lens = GetParam().lens();
+    const std::vector<glm::dvec2> points = mapped(lens);
+    const std::vector<double> wanted = expectedShares([&](const glm::dvec2& p) { return density(lens, p); });
+    EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
+    // The bound tells shapes apart: those a little off miss it.
+    Lens other = lens;
+    other.bladeRotation += 0.1;
+    other.bladeCurvature = std::abs(other.bladeCurvature - 0.3);
+    other.obstruction = std::abs(other.obstruction - 0.15);
+    other.sphericalAberration += other.sphericalAberration > 0 ? -0.2 : 0.2;
+    EXPECT_GT(misplaced(sharesOf(mapped(other)), wanted), 0.012);
+}
+
+TEST_P(ApertureShape, liesInTheUnitDisk) {
+    double farthest = 0;
+    for (const glm::dvec2& p : mapped(GetParam().lens())) farthest = std::max(farthest, glm::length(p));
+    EXPECT_LE(farthest, 1 + 1e-12);
+    EXPECT_GT(farthest, 0.95);  // and reaches its rim: a polygon with its corners
+}
+
+TEST_P(ApertureShape, keepsTheCentreWhereItHasOne) {
+    const Lens lens = GetParam().lens();
+    const double fromCentre = glm::length(apertureSample(makeAperture(lens), glm::dvec2(0.5)));
+    if (lens.obstruction == 0)
+        EXPECT_LT(fromCentre, 1e-12);
+    else
+        EXPECT_GT(fromCentre, 0.3 * lens.obstruction);
+}
+
+// The squares' diagonals meet in the centre, where a ring is cut; elsewhere neighbours stay neighbours.
+TEST_P(ApertureShape, isContinuous) {
+    const Lens lens = GetParam().lens();
+    const Aperture aperture = makeAperture(lens);
+    constexpr double step = 1e-4;
+    double farthest = 0;
+    for (double y = 0.003; y < 1; y += 0.0137)
+        for (double x = 0.002; x < 1; x += 0.0131) {
+            if (lens.obstruction > 0 && glm::length(glm::dvec2(x, y) - 0.5) < 0.02) continue;
+            const glm::dvec2 here = apertureSample(aperture, {x, y});
+            for (const glm::dvec2& move : {glm::dvec2(step, 0), glm::dvec2(0, step)})
+                farthest = std::max(farthest, glm::length(apertureSample(aperture, glm::dvec2(x, y) + move) - here));
+        }
+    EXPECT_LT(farthest, 300 * step);  // √ behaves like that at the rim of a creamy disk and around a ring's centre
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, ApertureShape, testing::ValuesIn(shapes),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// ---- images
+// ----------------------------------------------------------------------------------------------------------
+
+Lens lensWith(Image image) {
+    Lens lens;
+    lens.apertureImage = std::make_shared<const Image>(std::move(image));
+    return lens;
+}
+
+// The value of the pixel under a point of the lens, 0 outside the disk.
+double pixelUnder(const Image& image, const glm::dvec2& p) {
+    const double half = 0.5 * std::max(image.width, image.height);
+    const int x = static_cast<int>(std::floor(p.x * half + 0.5 * image.width));
+    const int y = static_cast<int>(std::floor(0.5 * image.height - p.y * half));
+    if (glm::dot(p, p) > 1 || x < 0 || y < 0 || x >= image.width || y >= image.height) return 0;
+    return *image.at(x, y);
+}
+
+// Wider than tall, with black parts, a black last row and a value far above 1.
+Image lopsidedImage() {
+    Image image(9, 5, 1);
+    const char* const rows[] = {"001230000", "000450021", "090002112", "003300220", "000000000"};
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 9; ++x) *image.at(x, y) = static_cast<float>(rows[y][x] - '0');
+    return image;
+}
+
+TEST(ApertureImage, passesLightWhereItIsBright) {
+    const Image image = lopsidedImage();
+    const std::vector<glm::dvec2> points = mapped(lensWith(image));
+    const auto wanted = expectedShares([&](const glm::dvec2& p) { return pixelUnder(image, p); });
+    EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
+    for (const glm::dvec2& p : points) {
+        ASSERT_LE(glm::length(p), 1 + 1e-12);
+        if (glm::length(p) < 0.99) {
+            ASSERT_GT(pixelUnder(image, p * (1 - 1e-12)), 0) << p.x << ", " << p.y;
+        }
+    }
+}
+
+TEST(ApertureImage, whiteOneIsADisk) {
+    for (const int size : {1, 2, 77, 1500}) {
+        Image white(size, size, 3);
+        std::fill(white.pixels.begin(), white.pixels.end(), 0.4f);
+        const auto wanted = expectedShares([](const glm::dvec2& p) { return glm::dot(p, p) <= 1 ? 1 : 0; });
+        EXPECT_LT(misplaced(sharesOf(mapped(lensWith(white))), wanted), 0.01) << size;
+    }
+}
+
+TEST(ApertureImage, colourPassesByItsLuminance) {
+    Image image(2, 1, 3);
+    image.pixels = {1, 0, 0, 0, 1, 0};  // red, green
+    double right = 0;
+    for (const glm::dvec2& p : mapped(lensWith(image))) right += p.x > 0 ? 1.0 / (gridSize * gridSize) : 0;
+    EXPECT_NEAR(right, 0.7152 / (0.7152 + 0.2126), 0.005);
+}
+
+TEST(ApertureImage, turnsWithTheBladesAndNarrowsWithTheRatio) {
+    Image image(3, 3, 1);
+    *image.at(2, 1) = 1;  // right of the middle
+    Lens lens = lensWith(image);
+    lens.bladeRotation = pi / 2;
+    lens.anamorphicRatio = 0.5;
+    glm::dvec2 mean(0);
+    for (const glm::dvec2& p : mapped(lens)) mean += p / double(gridSize * gridSize);
+    EXPECT_NEAR(mean.x, 0, 1e-3);
+    EXPECT_GT(mean.y, 0.5 / 3);
+    EXPECT_LT(mean.y, 0.5);
+}
+
+TEST(ApertureImage, goodPointsStayWellSpread) {
+    // The same square points through a disk and a disk's image: cells of the square stay whole, so an even 16 × 16 grid
+    // puts its share of 1/2 right of the middle to within a row of cells.
+    Image white(64, 64, 1);
+    std::fill(white.pixels.begin(), white.pixels.end(), 1.0f);
+    const Aperture aperture = makeAperture(lensWith(white));
+    int right = 0;
+    int up = 0;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const glm::dvec2 p = apertureSample(aperture, glm::dvec2(x + 0.5, y + 0.5) / 16.0);
+            right += p.x > 0 ? 1 : 0;
+            up += p.y > 0 ? 1 : 0;
+        }
+    EXPECT_EQ(right, 128);
+    EXPECT_EQ(up, 128);
+}
+
+TEST(ApertureImage, thoseThatPassNoLightAreNamed) {
+    const auto message = [](const Image& image) -> std::string {
+        try {
+            static_cast<void>(makeAperture(lensWith(image)));
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    Image image(8, 8, 1);
+    EXPECT_NE(message(image).find("black"), std::string::npos);
+    *image.at(0, 0) = 1;  // outside the disk
+    EXPECT_NE(message(image).find("black"), std::string::npos);
+    *image.at(3, 5) = -1;
+    EXPECT_NE(message(image).find("-1 at pixel 3,5"), std::string::npos);
+    *image.at(3, 5) = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NE(message(image).find("nan at pixel 3,5"), std::string::npos);
+    *image.at(3, 5) = std::numeric_limits<float>::infinity();
+    EXPECT_NE(message(image).find("inf at pixel 3,5"), std::string::npos);
+    EXPECT_NE(message(Image()).find("empty"), std::string::npos);
+    *image.at(3, 5) = 1;
+    EXPECT_EQ(message(image), "");
+}
+
+}  // namespace
+}  // namespace defocus
