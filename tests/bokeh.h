@@ -1,8 +1,10 @@
 #pragma once
 // Scenes with closed-form images, and what is measured on them: a small emissive quad on black, through a lens.
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 #include <vector>
 
 #include "image/moments.h"
@@ -96,6 +98,49 @@ inline Environment blackBackground() {
     Environment environment;
     environment.type = EnvironmentType::uniform;
     return environment;
+}
+
+// The image of a square of `square` px around the image's middle, at a depth behind the focus, whose light adds up to
+// `energy`: `light` (of a point of the lens) spread over the blur, the square and the pixels.
+template <typename Light>
+Image expectedBokeh(const View& view, double depth, double square, double energy, const Light& light) {
+    constexpr int size = 400;  // places a side of the lens
+    const double radius = blurDiameter(view, depth) / 2;
+    Image image(view.width, view.height, 1);
+    double all = 0;
+    for (int v = 0; v < size; ++v)
+        for (int u = 0; u < size; ++u) {
+            const glm::dvec2 lens(2 * (u + 0.5) / size - 1, 2 * (v + 0.5) / size - 1);
+            const double value = light(lens);
+            if (!(value > 0)) continue;
+            all += value;
+            const double left = view.width / 2.0 + radius * lens.x - square / 2;
+            const double top = view.height / 2.0 - radius * lens.y - square / 2;
+            const auto covered = [square](int pixel, double from) {
+                return std::max(0.0, std::min(pixel + 1.0, from + square) - std::max<double>(pixel, from));
+            };
+            for (int y = std::max(0, static_cast<int>(top)); y < std::min<double>(view.height, top + square); ++y)
+                for (int x = std::max(0, static_cast<int>(left)); x < std::min<double>(view.width, left + square); ++x)
+                    *image.at(x, y) += static_cast<float>(value * covered(x, left) * covered(y, top));
+        }
+    for (float& pixel : image.pixels) pixel *= static_cast<float>(energy / (all * square * square));
+    return image;
+}
+
+// Which share of the light of `a` lies in other blocks of 2 × 2 px than that of `b`; of the first channel.
+inline double misplacedLight(const Image& a, const Image& b) {
+    double sum = 0;
+    double all = 0;
+    for (int y = 0; y + 1 < a.height; y += 2)
+        for (int x = 0; x + 1 < a.width; x += 2) {
+            double difference = 0;
+            for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+                difference += static_cast<double>(*a.at(x + dx, y + dy)) - static_cast<double>(*b.at(x + dx, y + dy));
+                all += static_cast<double>(*b.at(x + dx, y + dy));
+            }
+            sum += std::abs(difference) / 2;
+        }
+    return sum / all;
 }
 
 inline Image renderedImage(Renderer& renderer, const FramePlan& plan) {

@@ -4,10 +4,12 @@
 #include <array>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "embree/aperture_mask.h"
 #include "embree/lens_rays.h"
 #include "embree/traced_scene.h"
 #include "embree/traced_shading.h"
@@ -55,6 +57,7 @@ private:
     RenderSettings settings_;
     std::vector<LensSample> planned_;  // EmbreeSampling::planned only
     LensCamera camera_;
+    std::optional<ApertureMask> mask_;  // of apertures that need one
     glm::dmat3 worldFromCamera_{1.0};
     std::unique_ptr<TracedScene> scene_;
     glm::dmat4 tracedFrom_{0.0};  // the camera that scene_ was built for
@@ -70,6 +73,8 @@ void EmbreeRenderer::start(const FramePlan& plan) {
     settings_ = plan.settings;
     if (sampling_ == EmbreeSampling::planned) planned_ = plan.samples;
     camera_ = lensCamera(view_);
+    mask_.reset();
+    if (ApertureMask::isNeeded(view_.lens) && sampling_ != EmbreeSampling::planned) mask_.emplace(view_.lens);
     worldFromCamera_ = glm::dmat3(view_.worldFromCamera);
     if (!scene_ || tracedFrom_ != view_.worldFromCamera) {
         const Clock::time_point begin = Clock::now();
@@ -99,7 +104,9 @@ EmbreeRenderer::SamplePoints EmbreeRenderer::samplePoints(int x, int y, std::uin
         const std::uint32_t stream = sampling_ == EmbreeSampling::shared ? 0 : pixel;
         const std::uint32_t index = settings_.firstSample + sample;
         place += scrambledPoint(index, stream, SamplePair::pixel, settings_.seed);
-        points.lens = aperturePoint(view_.lens, scrambledPoint(index, stream, SamplePair::lens, settings_.seed));
+        points.lens = mask_
+                          ? mask_->lensPoint(index, stream, settings_.seed)
+                          : aperturePoint(view_.lens, scrambledPoint(index, stream, SamplePair::lens, settings_.seed));
     }
     points.image = {2 * place.x / view_.width - 1, 1 - 2 * place.y / view_.height};
     return points;

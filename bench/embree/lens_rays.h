@@ -44,7 +44,8 @@ enum class SamplePair : std::uint32_t { lens, pixel };
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
 // (r, s) ∈ [0, 1)² → the aperture, uniformly: the unit disk, or the polygon inscribed in it whose first corner lies at
-// bladeRotation, then squeezed by the anamorphic ratio (horizontally above 1, vertically below).
+// bladeRotation, then squeezed by the anamorphic ratio (horizontally above 1, vertically below). Curved blades, rings,
+// aberration and images are for ApertureMask.
 glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square);
 
 }  // namespace defocus

@@ -49,7 +49,7 @@ void finish(Renderer& renderer, const FramePlan& plan) {
 Image reference(const World& world, const View& view, const SpeedupOptions& options) {
     RenderSettings settings;
     settings.sampleCount = options.referenceSamples;
-    settings.sequence = referenceSequence;
+    settings.sequence = Sequence::halton;  // its own too
     settings.firstSample = referenceOffset;
     settings.lod = LodMode::off;
     RendererOptions precise = options.renderer;

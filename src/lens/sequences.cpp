@@ -103,10 +103,14 @@ std::uint32_t owenScrambled(std::uint32_t x, std::uint32_t seed) {
     return x ^ flips;
 }
 
+// What seed 0 is scrambled with: of 3,000 scrambles the one whose first 8 to 256 points, and whose prefixes and
+// suffixes of 64, err least in the area of half planes of the lens.
+constexpr std::uint32_t chosenScramble = 935;
+
 // As owenScrambled; with seed 0 index 0, whose coordinates are all 0, becomes 1/2 by a further flip of the same bits of
 // all points.
 double scrambled(std::uint32_t x, std::uint32_t dimension, std::uint32_t seed) {
-    const std::uint32_t stream = hashOf(seed, 100 + dimension);
+    const std::uint32_t stream = hashOf(seed == 0 ? chosenScramble : seed, 100 + dimension);
     const std::uint32_t flips = seed == 0 ? owenScrambled(0, stream) ^ 1u << 31 : 0;
     return (owenScrambled(x, stream) ^ flips) * 0x1p-32;
 }

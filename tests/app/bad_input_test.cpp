@@ -1,10 +1,12 @@
 // Whatever is wrong gives one line and an exit code, and leaves no file behind.
 
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/program.h"
 #include "app/two_quads.h"
+#include "image/image_io.h"
 #include "models.h"
 
 namespace defocus {
@@ -78,6 +80,7 @@ TEST_F(BadInput, sizes) {
 TEST_F(BadInput, wordsThatAreNotKnown) {
     expectFault(2, "did you mean '--samples'", {"--smaples", "10"});
     expectFault(2, "did you mean 'fractional'", {"--lod", "fractoinal"});
+    expectFault(2, "did you mean 'halton'", {"--sequence", "haltno"});
     expectFault(2, "size, error", {"--lod-metric", "speed"});
     expectFault(2, "did you mean 'accumulation'", {"--method", "acumulation"});
     expectFault(2, "none, aces, agx", {"--tonemap", "filmic"});
@@ -155,6 +158,25 @@ TEST_F(BadInput, filesThatAreNoScene) {
 TEST_F(BadInput, environmentsThatAreNone) {
     expectFault(1, "missing.hdr", {"--environment", "missing.hdr"});
     expectFault(1, "quads.gltf", {"--environment", "quads.gltf"});
+}
+
+TEST_F(BadInput, apertureImagesThatPassNoLight) {
+    expectFault(1, "missing.png", {"--aperture-image", "missing.png"});
+    expectFault(1, "quads.gltf", {"--aperture-image", "quads.gltf"});
+    Image image(4, 4, 1);
+    writeImage(folder() / "black.exr", image);
+    *image.at(1, 1) = -1;
+    writeImage(folder() / "negative.exr", image);
+    *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
+    writeImage(folder() / "nan.exr", image);
+    for (const char* name : {"black.exr", "negative.exr", "nan.exr"}) {
+        const Outcome outcome = run({"render", "quads.gltf", "--aperture-image", name});
+        SCOPED_TRACE(name);
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("aperture"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(fileCount(), 4u);
 }
 
 TEST_F(BadInput, shaderFolderThatIsNone) {

@@ -64,9 +64,34 @@ TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {
     EXPECT_EQ(number("defocus:horizontalAperture"), 36);
     EXPECT_EQ(number("defocus:samples"), 4);
     EXPECT_EQ(number("defocus:seed"), 7);
+    EXPECT_EQ(std::get<std::string>(metadata.at("defocus:sequence")), "sobol");
     EXPECT_GT(number("defocus:seconds"), 0);
     EXPECT_EQ(std::get<std::string>(metadata.at("cameraLabel")), "Main");
     EXPECT_TRUE(std::get<std::string>(metadata.at("software")).starts_with("defocus "));
+}
+
+// The camera's own image, beside the file, is the one of the option; one that can't be read is left out with a warning.
+TEST_F(Render, apertureImageOfTheCameraLiesBesideTheScene) {
+    Image image(8, 8, 1);
+    *image.at(6, 3) = 1;
+    writeImage(folder() / "hole.exr", image);
+    json scene = json::parse(textOf(folder() / "quads.gltf"));
+    scene["cameras"][0]["extras"] = {{"apertureImage", "hole.exr"}};
+    std::ofstream(folder() / "own.gltf") << scene.dump();
+    scene["cameras"][0]["extras"] = {{"apertureImage", "missing.exr"}};
+    std::ofstream(folder() / "missing.gltf") << scene.dump();
+    const auto rendered = [&](const char* name, std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", name, "-o", "out.exr", "--size", "64x48", "--samples", "8"});
+        const Outcome outcome = run(more);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(outcome.err.find("missing.exr") != std::string::npos, std::string(name) == "missing.gltf");
+        return readImage(folder() / "out.exr").pixels;
+    };
+    const std::vector<float> plain = rendered("quads.gltf", {});
+    const std::vector<float> own = rendered("own.gltf", {});
+    EXPECT_EQ(own, rendered("quads.gltf", {"--aperture-image", "hole.exr"}));
+    EXPECT_NE(own, plain);
+    EXPECT_EQ(rendered("missing.gltf", {}), plain);
 }
 
 TEST_F(Render, methodAndItsSettingsStandInTheMetadata) {

@@ -39,6 +39,7 @@ TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
     const ReferenceImage mean = reference(31);
     RenderSettings settings;
     settings.sampleCount = 31;
+    settings.sequence = referenceSequence;
     settings.firstSample = referenceOffset;
     settings.lod = LodMode::off;
     RendererOptions precise;

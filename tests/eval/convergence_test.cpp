@@ -281,6 +281,8 @@ TEST(ConvergenceHash, changesWithWhateverTheImageShows) {
     changed(small->view.nearPlane, 0.02);
     changed(small->view.lens.fStop, 1.1);
     changed(small->view.lens.bladeCount, 6);
+    changed(small->view.lens.bladeCurvature, 0.5);
+    changed(small->view.lens.apertureImage, std::make_shared<const Image>(Image(1, 1, 1)));
     changed(small->view.worldFromCamera[3].z, 0.001);
     EXPECT_EQ(hash, worldHash(small->world, small->view));
 }

@@ -9,12 +9,12 @@
 #include <numbers>
 #include <vector>
 
+#include "aperture_shapes.h"
 #include "core/error.h"
 
 namespace defocus {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int gridSize = 700;  // cells a side of the square's even subdivision: 490,000 points
 
 // The middles of even cells of the square, mapped to the lens.
@@ -25,29 +25,6 @@ std::vector<glm::dvec2> mapped(const Lens& lens) {
         for (int x = 0; x < gridSize; ++x)
             points.push_back(apertureSample(aperture, glm::dvec2(x + 0.5, y + 0.5) / double(gridSize)));
     return points;
-}
-
-// ---- what a shape should be, straight from its definition
-// ------------------------------------------------------------
-
-// The polygon's edge in the direction of `p`, as the blades' curvature has it; the first corner lies at the rotation.
-double edgeTowards(const Lens& lens, const glm::dvec2& p) {
-    if (lens.bladeCount == 0) return 1;
-    const double width = 2 * pi / lens.bladeCount;
-    const double angle = std::atan2(p.y, p.x) - lens.bladeRotation;
-    const double fromMiddle = angle - (std::floor(angle / width) + 0.5) * width;
-    const double chord = std::cos(width / 2) / std::cos(fromMiddle);
-    return (1 - lens.bladeCurvature) * chord + lens.bladeCurvature;
-}
-
-// The light's density at a point, up to a factor.
-double density(const Lens& lens, glm::dvec2 p) {
-    p.x *= std::max(lens.anamorphicRatio, 1.0);
-    p.y /= std::min(lens.anamorphicRatio, 1.0);
-    const double area = glm::dot(p, p) / std::pow(edgeTowards(lens, p), 2);  // share that lies nearer to the centre
-    const double hidden = lens.obstruction * lens.obstruction;
-    if (area > 1 || area < hidden) return 0;
-    return 1 + lens.sphericalAberration * (2 * (area - hidden) / (1 - hidden) - 1);
 }
 
 constexpr int cellCount = 24;  // a side, over [−1, 1]²
@@ -87,52 +64,12 @@ double misplaced(const std::vector<double>& a, const std::vector<double>& b) {
     return sum;
 }
 
-struct Shape {
-    const char* name;
-    int blades = 0;
-    double rotation = 0;
-    double curvature = 0;
-    double ratio = 1;
-    double obstruction = 0;
-    double aberration = 0;
+class ApertureOf : public testing::TestWithParam<ApertureShape> {};
 
-    [[nodiscard]] Lens lens() const {
-        Lens lens;
-        lens.bladeCount = blades;
-        lens.bladeRotation = rotation;
-        lens.bladeCurvature = curvature;
-        lens.anamorphicRatio = ratio;
-        lens.obstruction = obstruction;
-        lens.sphericalAberration = aberration;
-        return lens;
-    }
-};
-
-const Shape shapes[] = {
-    {.name = "disk"},
-    {.name = "triangle", .blades = 3, .rotation = 0.2},
-    {.name = "pentagon", .blades = 5, .rotation = -2},
-    {.name = "curvedTriangle", .blades = 3, .rotation = 0.2, .curvature = 0.5},
-    {.name = "curvedHexagon", .blades = 6, .curvature = 0.7},
-    {.name = "sixtyFourBlades", .blades = 64},
-    {.name = "fullyCurvedIsADisk", .blades = 7, .curvature = 1},
-    {.name = "tallOval", .ratio = 2},
-    {.name = "wideHexagon", .blades = 6, .rotation = 0.3, .ratio = 0.5},
-    {.name = "ring", .obstruction = 0.5},
-    {.name = "thinRing", .obstruction = 0.9},
-    {.name = "pentagonalRing", .blades = 5, .rotation = 1, .curvature = 0.3, .obstruction = 0.4},
-    {.name = "soapBubble", .aberration = 1},
-    {.name = "creamy", .aberration = -1},
-    {.name = "slightBubbleOfBlades", .blades = 8, .rotation = 0.1, .aberration = 0.6},
-    {.name = "creamyRing", .obstruction = 0.6, .aberration = -0.7},
-};
-
-class ApertureShape : public testing::TestWithParam<Shape> {};
-
-TEST_P(ApertureShape, hasTheDensityOfItsDefinition) {
+TEST_P(ApertureOf, hasTheDensityOfItsDefinition) {
     const Lens lens = GetParam().lens();
     const std::vector<glm::dvec2> points = mapped(lens);
-    const std::vector<double> wanted = expectedShares([&](const glm::dvec2& p) { return density(lens, p); });
+    const std::vector<double> wanted = expectedShares([&](const glm::dvec2& p) { return lightDensity(lens, p); });
     EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
     // The bound tells shapes apart: those a little off miss it.
     Lens other = lens;
@@ -143,14 +80,14 @@ TEST_P(ApertureShape, hasTheDensityOfItsDefinition) {
     EXPECT_GT(misplaced(sharesOf(mapped(other)), wanted), 0.012);
 }
 
-TEST_P(ApertureShape, liesInTheUnitDisk) {
+TEST_P(ApertureOf, liesInTheUnitDisk) {
     double farthest = 0;
     for (const glm::dvec2& p : mapped(GetParam().lens())) farthest = std::max(farthest, glm::length(p));
     EXPECT_LE(farthest, 1 + 1e-12);
     EXPECT_GT(farthest, 0.95);  // and reaches its rim: a polygon with its corners
 }
 
-TEST_P(ApertureShape, keepsTheCentreWhereItHasOne) {
+TEST_P(ApertureOf, keepsTheCentreWhereItHasOne) {
     const Lens lens = GetParam().lens();
     const double fromCentre = glm::length(apertureSample(makeAperture(lens), glm::dvec2(0.5)));
     if (lens.obstruction == 0)
@@ -160,7 +97,7 @@ TEST_P(ApertureShape, keepsTheCentreWhereItHasOne) {
 }
 
 // The squares' diagonals meet in the centre, where a ring is cut; elsewhere neighbours stay neighbours.
-TEST_P(ApertureShape, isContinuous) {
+TEST_P(ApertureOf, isContinuous) {
     const Lens lens = GetParam().lens();
     const Aperture aperture = makeAperture(lens);
     constexpr double step = 1e-4;
@@ -175,7 +112,7 @@ TEST_P(ApertureShape, isContinuous) {
     EXPECT_LT(farthest, 300 * step);  // √ behaves like that at the rim of a creamy disk and around a ring's centre
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, ApertureShape, testing::ValuesIn(shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, ApertureOf, testing::ValuesIn(apertureShapes),
                          [](const auto& test) { return std::string(test.param.name); });
 
 // ---- images
@@ -187,33 +124,15 @@ Lens lensWith(Image image) {
     return lens;
 }
 
-// The value of the pixel under a point of the lens, 0 outside the disk.
-double pixelUnder(const Image& image, const glm::dvec2& p) {
-    const double half = 0.5 * std::max(image.width, image.height);
-    const int x = static_cast<int>(std::floor(p.x * half + 0.5 * image.width));
-    const int y = static_cast<int>(std::floor(0.5 * image.height - p.y * half));
-    if (glm::dot(p, p) > 1 || x < 0 || y < 0 || x >= image.width || y >= image.height) return 0;
-    return *image.at(x, y);
-}
-
-// Wider than tall, with black parts, a black last row and a value far above 1.
-Image lopsidedImage() {
-    Image image(9, 5, 1);
-    const char* const rows[] = {"001230000", "000450021", "090002112", "003300220", "000000000"};
-    for (int y = 0; y < 5; ++y)
-        for (int x = 0; x < 9; ++x) *image.at(x, y) = static_cast<float>(rows[y][x] - '0');
-    return image;
-}
-
 TEST(ApertureImage, passesLightWhereItIsBright) {
     const Image image = lopsidedImage();
     const std::vector<glm::dvec2> points = mapped(lensWith(image));
-    const auto wanted = expectedShares([&](const glm::dvec2& p) { return pixelUnder(image, p); });
+    const auto wanted = expectedShares([&](const glm::dvec2& p) { return apertureImageAt(image, p); });
     EXPECT_LT(misplaced(sharesOf(points), wanted), 0.006);
     for (const glm::dvec2& p : points) {
         ASSERT_LE(glm::length(p), 1 + 1e-12);
         if (glm::length(p) < 0.99) {
-            ASSERT_GT(pixelUnder(image, p * (1 - 1e-12)), 0) << p.x << ", " << p.y;
+            ASSERT_GT(apertureImageAt(image, p * (1 - 1e-12)), 0) << p.x << ", " << p.y;
         }
     }
 }
@@ -239,7 +158,7 @@ TEST(ApertureImage, turnsWithTheBladesAndNarrowsWithTheRatio) {
     Image image(3, 3, 1);
     *image.at(2, 1) = 1;  // right of the middle
     Lens lens = lensWith(image);
-    lens.bladeRotation = pi / 2;
+    lens.bladeRotation = std::numbers::pi / 2;
     lens.anamorphicRatio = 0.5;
     glm::dvec2 mean(0);
     for (const glm::dvec2& p : mapped(lens)) mean += p / double(gridSize * gridSize);

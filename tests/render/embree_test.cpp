@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "aperture_shapes.h"
 #include "bokeh.h"
 #include "core/error.h"
 #include "embree/embree_renderer.h"
@@ -159,6 +160,21 @@ TEST(EmbreeBokehShape, AnamorphicRatioMakesTallOvals) {
     const double radius = blurDiameter(view, 6) / 2;
     EXPECT_NEAR(2 * std::sqrt(moments.variance.y - 10.0 / 12), radius, 0.1);
     EXPECT_NEAR(2 * std::sqrt(moments.variance.x - 10.0 / 12), radius / 2, 0.1);
+}
+
+// Every shape, and an image, against the light's density itself, as coarse blocks of the blur: half the sum of their
+// differences is the share of light in the wrong block.
+TEST(EmbreeBokehShape, ApertureShapesShowTheirDefinition) {
+    for (const ApertureShape& shape : apertureShapes) {
+        View view = bokehView(48, 48);
+        const double depth = 6;
+        view.lens = shape.lens(view.lens);
+        view.lens.fStop = 0.03;
+        const Image image = traced(rectangleScene(view, {quadAt(view, depth)}, glm::vec3(100)), view, 2048);
+        const Image expected = expectedBokeh(view, depth, 3, 100 * 9, lightOf(view.lens));
+        EXPECT_LT(misplacedLight(image, expected), 0.03) << shape.name;
+        EXPECT_NEAR(momentsOf(image).energy, 900, 900 * 0.01) << shape.name;
+    }
 }
 
 // Share of a disk of radius 1 that lies left of the chord at `x`.

@@ -1,0 +1,334 @@
+// Which points on the lens? The sequences that can be chosen, and patterns that must know their number beforehand:
+// Vogel's spiral, rings of points, a set relaxed to blue noise.
+//
+// First by the points alone: how much of the lens's or the pixel's area they get wrong. Then by images: the error
+// against the number of lens samples. Held equal: scene, camera, lens, full detail, 32-bit layers, and one reference a
+// scene of 8,192 samples of its own stretch of the Halton sequence. Errors are root mean squares over the seeds 0, 1
+// and 2 of the RMSE of display-encoded values, and means of FLIP. Patterns take the pixel's points from `sobol`.
+//
+//   defocus_sequence_bench [MODEL…]
+//
+// Without models it renders the school of fish and meshes/bokeh.gltf, and FlightHelmet where ../shared/models has it.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+#include "app/prepared_frame.h"
+#include "core/error.h"
+#include "eval/reference_image.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "render/methods.h"
+
+namespace defocus {
+namespace {
+
+constexpr std::uint32_t referenceSamples = 8192;
+constexpr std::uint32_t seeds = 3;
+constexpr double fullTurn = 2 * std::numbers::pi;
+const std::vector<std::uint32_t> counts = {8, 16, 32, 64, 128, 256, 512, 1024};
+
+struct Pattern {
+    std::string name;
+    bool needsCount = false;  // other points for another number: a prefix of them is no smaller set
+    std::function<std::vector<LensSample>(std::uint32_t count, std::uint32_t seed)> samples;
+};
+
+// ---- patterns that need their count ---------------------------------------------------------------------------------
+
+glm::dvec2 polar(double radius, double angle) {
+    return radius * glm::dvec2(std::cos(angle), std::sin(angle));
+}
+
+// Vogel 1979, A Better Way to Construct the Sunflower Head.
+std::vector<glm::dvec2> vogelSpiral(std::uint32_t count, std::uint32_t seed) {
+    const double golden = fullTurn * (2 - std::numbers::phi);
+    std::vector<glm::dvec2> points;
+    for (std::uint32_t i = 0; i < count; ++i) points.push_back(polar(std::sqrt((i + 0.5) / count), golden * i + seed));
+    return points;
+}
+
+// Rings of 1, 6, 12, 18 … points, as the cells of a hexagonal grid; the last takes what is left. Radii by area.
+std::vector<glm::dvec2> hexagonalRings(std::uint32_t count, std::uint32_t seed) {
+    std::vector<glm::dvec2> points;
+    std::uint32_t size = 1;
+    for (std::uint32_t before = 0; before < count; before += size, size = size == 1 ? 6 : size + 6) {
+        size = std::min(size, count - before);
+        const double radius = before == 0 ? 0 : std::sqrt((before + 0.5 * size) / count);
+        for (std::uint32_t i = 0; i < size; ++i) points.push_back(polar(radius, fullTurn * i / size + before + seed));
+    }
+    return points;
+}
+
+// Points of the square that pushed each other apart on the torus, so that they stay even at its edges.
+std::vector<glm::dvec2> relaxed(std::uint32_t count, std::uint32_t seed) {
+    std::vector<glm::dvec2> square;
+    for (std::uint32_t i = 0; i < count; ++i) square.push_back(sequencePoint(Sequence::sobol, i, seed + 1).lens);
+    const double reach = 1.5 / std::sqrt(count);
+    for (int step = 0; step < 40; ++step) {
+        std::vector<glm::dvec2> moved = square;
+        for (std::uint32_t i = 0; i < count; ++i)
+            for (std::uint32_t j = 0; j < count; ++j) {
+                const glm::dvec2 apart = square[i] - square[j];
+                const glm::dvec2 away(apart.x - std::round(apart.x), apart.y - std::round(apart.y));
+                const double distance = glm::length(away);
+                if (distance < reach && distance > 0) moved[i] += 0.05 * (reach - distance) / distance * away;
+            }
+        for (glm::dvec2& p : moved) p = {p.x - std::floor(p.x), p.y - std::floor(p.y)};
+        square = moved;
+    }
+    for (glm::dvec2& p : square) p = concentricDisk(p);
+    return square;
+}
+
+Pattern patternOf(const char* name, std::vector<glm::dvec2> (*points)(std::uint32_t, std::uint32_t)) {
+    return {name, true, [points](std::uint32_t count, std::uint32_t seed) {
+                std::vector<LensSample> samples = lensSamples(Lens{}, Sequence::sobol, 0, count, seed);
+                const std::vector<glm::dvec2> lens = points(count, seed);
+                for (std::size_t i = 0; i < samples.size(); ++i) samples[i].lens = glm::vec2(lens[i]);
+                return samples;
+            }};
+}
+
+std::vector<Pattern> patterns() {
+    std::vector<Pattern> list;
+    for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})
+        list.push_back({std::string(sequenceName(sequence)), false, [=](std::uint32_t count, std::uint32_t seed) {
+                            return lensSamples(Lens{}, sequence, 0, count, seed);
+                        }});
+    list.push_back(patternOf("(vogel's spiral)", vogelSpiral));
+    list.push_back(patternOf("(hexagonal rings)", hexagonalRings));
+    list.push_back(patternOf("(relaxed)", relaxed));
+    return list;
+}
+
+// ---- points alone ---------------------------------------------------------------------------------------------------
+
+struct Region {
+    double area = 0;  // of 1
+    std::function<bool(const LensSample&)> holds;
+};
+
+// Halves of the lens: what a straight edge out of focus lets through.
+std::vector<Region> halfPlanes() {
+    std::vector<Region> regions;
+    for (int direction = 0; direction < 32; ++direction)
+        for (int offset = -7; offset <= 7; ++offset) {
+            const glm::vec2 normal(polar(1, fullTurn * (direction + 0.3) / 32));
+            const double h = offset / 8.0;
+            regions.push_back({(std::acos(h) - h * std::sqrt(1 - h * h)) / std::numbers::pi,
+                               [=](const LensSample& s) { return static_cast<double>(glm::dot(s.lens, normal)) > h; }});
+        }
+    return regions;
+}
+
+// Boxes from the pixel's lower left corner.
+std::vector<Region> boxes() {
+    std::vector<Region> regions;
+    for (int x = 1; x <= 16; ++x)
+        for (int y = 1; y <= 16; ++y)
+            regions.push_back({x * y / 256.0, [right = x / 16.0f - 0.5f, top = y / 16.0f - 0.5f](const LensSample& s) {
+                                   return s.pixel.x < right && s.pixel.y < top;
+                               }});
+    return regions;
+}
+
+struct Discrepancy {
+    double all = 0;     // root mean square over regions of the error of their area, all points
+    double prefix = 0;  // the largest error, over regions and prefixes of 16 points and more
+    double suffix = 0;
+};
+
+double largestOfPrefixes(const std::vector<LensSample>& samples, const Region& region) {
+    double largest = 0;
+    double inside = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        inside += region.holds(samples[i]) ? 1 : 0;
+        if (i >= 15) largest = std::max(largest, std::abs(inside / static_cast<double>(i + 1) - region.area));
+    }
+    return largest;
+}
+
+Discrepancy discrepancyOf(std::vector<LensSample> samples, const std::vector<Region>& regions) {
+    Discrepancy result;
+    for (const Region& region : regions) {
+        const auto inside = static_cast<double>(std::count_if(samples.begin(), samples.end(), region.holds));
+        const double error = inside / static_cast<double>(samples.size()) - region.area;
+        result.all += error * error / static_cast<double>(regions.size());
+        result.prefix = std::max(result.prefix, largestOfPrefixes(samples, region));
+    }
+    std::reverse(samples.begin(), samples.end());
+    for (const Region& region : regions) result.suffix = std::max(result.suffix, largestOfPrefixes(samples, region));
+    result.all = std::sqrt(result.all);
+    return result;
+}
+
+double nanosecondsASample(const Pattern& pattern) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t made = pattern.samples(1024, 5).size();
+    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - start;
+    return taken.count() / static_cast<double>(made);
+}
+
+void measurePoints() {
+    const std::vector<Region> lens = halfPlanes();
+    const std::vector<Region> pixel = boxes();
+    fmt::print(
+        "Points alone, errors of areas in 1/1000, mean over the seeds: rms over half planes of the lens by the number "
+        "of\n"
+        "samples; largest over them in all prefixes and suffixes (16 samples and more) of 64; the mean's distance "
+        "from\n"
+        "the lens's centre; the same rms and largest for boxes of the pixel; what a sample takes to make\n\n"
+        "{:<18}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}{:>9}{:>9}{:>8}\n{:<18}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>8}{:>9}"
+        "{:>9}{:>9}{:>8}\n",
+        "", "lens 16", "32", "64", "256", "prefixes", "suffixes", "mean", "pixel 64", "prefixes", "suffixes", "ns", "",
+        "", "", "", "", "of 64", "of 64", "of 64", "", "of 64", "of 64", "");
+    for (const Pattern& pattern : patterns()) {
+        std::vector<double> row(10);
+        for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+            const auto add = [&](std::size_t column, double value) { row[column] += 1000 * value / seeds; };
+            std::size_t column = 0;
+            for (const std::uint32_t count : {16u, 32u, 64u, 256u})
+                add(column++, discrepancyOf(pattern.samples(count, seed), lens).all);
+            const std::vector<LensSample> samples = pattern.samples(64, seed);
+            const Discrepancy onLens = discrepancyOf(samples, lens);
+            const Discrepancy inPixel = discrepancyOf(samples, pixel);
+            glm::dvec2 mean(0);
+            for (const LensSample& s : samples) mean += glm::dvec2(s.lens) / 64.0;
+            for (const double value :
+                 {onLens.prefix, onLens.suffix, glm::length(mean), inPixel.all, inPixel.prefix, inPixel.suffix})
+                add(column++, value);
+        }
+        fmt::print("{:<18}", pattern.name);
+        for (std::size_t i = 0; i < row.size(); ++i) fmt::print("{:>{}.1f}", row[i], i < 4 || i == 6 ? 8 : 9);
+        fmt::print("{:>8.0f}\n", nanosecondsASample(pattern));
+    }
+}
+
+// ---- images ---------------------------------------------------------------------------------------------------------
+
+RendererOptions precise() {
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    options.wave = 8;  // so that an image can be had after every 8 samples
+    return options;
+}
+
+RenderSettings fullDetailSettings(const PreparedFrame& frame, std::uint32_t count) {
+    RenderSettings settings = frame.settings;
+    settings.sampleCount = count;
+    settings.lod = LodMode::off;
+    settings.keepAll = true;
+    return settings;
+}
+
+// The images after `reads` samples, ascending, of one render of the last of them.
+std::vector<Image> rendered(Renderer& renderer, FramePlan plan, const std::vector<LensSample>& samples,
+                            const std::vector<std::uint32_t>& reads) {
+    if (!samples.empty()) plan.samples = samples;
+    std::vector<Image> images;
+    renderer.start(plan);
+    bool more = true;
+    while (more) {
+        more = renderer.advance();
+        if (images.size() < reads.size() && renderer.samples() == reads[images.size()])
+            images.push_back(renderer.image());
+    }
+    if (images.size() != reads.size()) fail("the renderer stopped before {} samples", reads.back());
+    return images;
+}
+
+struct Errors {
+    std::vector<double> square;  // by counts: mean over the seeds of RMSE²
+    std::vector<double> flip;
+};
+
+Errors errorsOf(const Pattern& pattern, Renderer& renderer, const PreparedFrame& frame, const Image& reference) {
+    Errors errors{std::vector<double>(counts.size()), std::vector<double>(counts.size())};
+    const auto add = [&](std::size_t i, const Image& image) {
+        const Difference difference = compareImages(reference, image);
+        errors.square[i] += difference.rmse * difference.rmse / seeds;
+        errors.flip[i] += difference.flip / seeds;
+    };
+    const auto planOf = [&](std::uint32_t count) {
+        return planFrame(frame.world, frame.view, fullDetailSettings(frame, count));
+    };
+    for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+        if (!pattern.needsCount) {
+            const std::vector<LensSample> samples = pattern.samples(counts.back(), seed);
+            const std::vector<Image> images = rendered(renderer, planOf(counts.back()), samples, counts);
+            for (std::size_t i = 0; i < counts.size(); ++i) add(i, images[i]);
+            continue;
+        }
+        for (std::size_t i = 0; i < counts.size(); ++i)
+            add(i, rendered(renderer, planOf(counts[i]), pattern.samples(counts[i], seed), {counts[i]}).front());
+    }
+    return errors;
+}
+
+void measureImages(const SceneOptions& options) {
+    const PreparedFrame frame = prepareFrame(options);
+    const auto renderer = methodNamed("accumulation").make(frame.world, precise());
+    RenderSettings settings = fullDetailSettings(frame, referenceSamples);
+    settings.sequence = referenceSequence;
+    settings.firstSample = referenceOffset;
+    const Image reference =
+        rendered(*renderer, planFrame(frame.world, frame.view, settings), {}, {referenceSamples}).front();
+
+    fmt::print("\n{}, {} x {} px, f/{:g}: 1000 RMSE (1000 FLIP) by lens samples; ms a sample\n\n{:<18}",
+               frame.sceneName, options.width, options.height, frame.view.lens.fStop, "");
+    for (const std::uint32_t count : counts) fmt::print("{:>15}", count);
+    fmt::print("{:>8}\n", "ms");
+    for (const Pattern& pattern : patterns()) {
+        const Errors errors = errorsOf(pattern, *renderer, frame, reference);
+        fmt::print("{:<18}", pattern.name);
+        for (std::size_t i = 0; i < counts.size(); ++i)
+            fmt::print("{:>15}",
+                       fmt::format("{:.2f} ({:.1f})", 1000 * std::sqrt(errors.square[i]), 1000 * errors.flip[i]));
+        fmt::print("{:>8.2f}\n", renderer->stats().renderMilliseconds / renderer->samples());
+        std::fflush(stdout);
+    }
+}
+
+void run(int argc, char** argv) {
+    const auto context = createHeadlessContext();
+    fmt::print("{}, {}\n\n", context->device(), context->driver());
+    measurePoints();
+    SceneOptions options;
+    options.width = 320;
+    options.height = 240;
+    options.fishCount = 8;
+    options.trianglesPerFish = 4000;
+    std::vector<std::filesystem::path> scenes(argv + 1, argv + argc);
+    if (scenes.empty()) {
+        scenes = {"", DEFOCUS_SOURCE_DIR "/meshes/bokeh.gltf"};
+        const std::filesystem::path helmet = DEFOCUS_SOURCE_DIR "/../shared/models/FlightHelmet/FlightHelmet.gltf";
+        if (std::filesystem::exists(helmet)) scenes.push_back(helmet);
+    }
+    for (const std::filesystem::path& scene : scenes) {
+        options.path = scene;
+        measureImages(options);
+    }
+}
+
+}  // namespace
+}  // namespace defocus
+
+int main(int argc, char** argv) {
+    try {
+        defocus::run(argc, argv);
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "defocus_sequence_bench: {}\n", error.what());
+        return 1;
+    }
+}

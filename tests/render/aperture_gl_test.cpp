@@ -1,0 +1,92 @@
+// What each aperture makes of a point of light, against its definition drawn without the renderer.
+
+#include <gtest/gtest.h>
+
+#include "aperture_shapes.h"
+#include "bokeh.h"
+#include "gl/context.h"
+#include "render/methods.h"
+
+namespace defocus {
+namespace {
+
+class ApertureBokeh : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> ApertureBokeh::context_;
+
+constexpr double square = 3;  // px
+constexpr double energy = 900;
+constexpr double depth = 6;  // m, behind the focus: the blur shows the aperture upright
+
+// A lens that blurs the square to about two thirds of the image's height.
+View wideView() {
+    View view = bokehView(96, 72);
+    view.lens.fStop = 0.05;
+    return view;
+}
+
+Image bokehOf(const View& view) {
+    const double left = (view.width - square) / 2;
+    const double top = (view.height - square) / 2;
+    const Scene scene = rectangleScene(view, {{left, top, left + square, top + square, depth}},
+                                       glm::vec3(static_cast<float>(energy / (square * square))));
+    World world = flatWorld(scene, blackBackground());
+    world.pyramids.push_back(fullDetail(scene.meshes.front()));
+    RenderSettings settings;
+    settings.sampleCount = 1024;
+    settings.lod = LodMode::off;
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const auto renderer = methodNamed("accumulation").make(world, options);
+    return renderedImage(*renderer, planFrame(world, view, settings));
+}
+
+void expectBokeh(const View& view, const std::string& name) {
+    const Image image = bokehOf(view);
+    const Image expected = expectedBokeh(view, depth, square, energy, lightOf(view.lens));
+    const Moments found = momentsOf(image);
+    const Moments wanted = momentsOf(expected);
+    EXPECT_NEAR(found.energy, energy, 0.005 * energy) << name;
+    EXPECT_NEAR(found.mean.x, wanted.mean.x, 0.1) << name;
+    EXPECT_NEAR(found.mean.y, wanted.mean.y, 0.1) << name;
+    EXPECT_NEAR(std::sqrt(found.variance.x), std::sqrt(wanted.variance.x), 0.05) << name;
+    EXPECT_NEAR(std::sqrt(found.variance.y), std::sqrt(wanted.variance.y), 0.05) << name;
+    EXPECT_LT(misplacedLight(image, expected), 0.04) << name;
+}
+
+TEST_F(ApertureBokeh, hasTheShapeAndTheEnergyOfItsDefinition) {
+    for (const ApertureShape& shape : apertureShapes) {
+        View view = wideView();
+        view.lens = shape.lens(view.lens);
+        expectBokeh(view, shape.name);
+    }
+}
+
+TEST_F(ApertureBokeh, showsTheApertureImageUpright) {
+    View view = wideView();
+    view.lens.apertureImage = std::make_shared<const Image>(lopsidedImage());
+    expectBokeh(view, "image");
+}
+
+// The bounds above tell a shape from its neighbours.
+TEST_F(ApertureBokeh, differsFromOtherShapes) {
+    View view = wideView();
+    view.lens.bladeCount = 6;
+    const Image hexagon = bokehOf(view);
+    View other = view;
+    other.lens.bladeRotation = 0.15;
+    EXPECT_GT(misplacedLight(hexagon, expectedBokeh(other, depth, square, energy, lightOf(other.lens))), 0.06);
+    other = view;
+    other.lens.bladeCurvature = 0.5;
+    EXPECT_GT(misplacedLight(hexagon, expectedBokeh(other, depth, square, energy, lightOf(other.lens))), 0.06);
+    other = view;
+    other.lens.sphericalAberration = 0.3;
+    EXPECT_GT(misplacedLight(hexagon, expectedBokeh(other, depth, square, energy, lightOf(other.lens))), 0.06);
+}
+
+}  // namespace
+}  // namespace defocus
