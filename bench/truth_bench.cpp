@@ -4,12 +4,13 @@
 // differ: PSNR, and by how many px the image is moved or grown. One line of JSON a scene; the exit code is 1 where the
 // first PSNR is below 45 dB.
 //
-//   defocus_truth_bench [--samples 1024] [--size 1024x768] [--output FOLDER] [SCENE.glb …]
+//   defocus_truth_bench [--samples 1024] [--size 1024x768] [--sequence sobol] [--output FOLDER] [SCENE.glb …]
 //
 // With no scene it compares the fish school.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -26,6 +27,7 @@ namespace {
 struct Options {
     std::uint32_t samples = 1024;
     std::string size = "1024x768";
+    Sequence sequence = RenderSettings{}.sequence;  // of the rasteriser
     std::string output;
     std::vector<std::string> scenes;
     int width = 0;
@@ -37,20 +39,22 @@ struct Rendered {
     RenderStats stats;
 };
 
-Rendered rendered(const char* method, const TruthScene& truth, std::uint32_t samples) {
+Rendered rendered(const char* method, const TruthScene& truth, const Options& wanted) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
     const std::unique_ptr<Renderer> renderer = methodNamed(method).make(truth.world, options);
-    Image image = renderedImage(*renderer, planFrame(truth.world, truth.view, fullDetailSettings(samples)));
+    RenderSettings settings = fullDetailSettings(wanted.samples);
+    settings.sequence = wanted.sequence;
+    Image image = renderedImage(*renderer, planFrame(truth.world, truth.view, settings));
     return {std::move(image), renderer->stats()};
 }
 
 // Prints the comparison; true where it is as good as it must be.
 bool compareScene(const std::string& name, Scene scene, const Options& options) {
     const std::unique_ptr<TruthScene> truth = truthScene(std::move(scene), options.width, options.height);
-    const Rendered traced = rendered("embree", *truth, options.samples);
-    const Rendered raster = rendered("accumulation", *truth, options.samples);
-    const Rendered planned = rendered("embree-planned", *truth, options.samples);
+    const Rendered traced = rendered("embree", *truth, options);
+    const Rendered raster = rendered("accumulation", *truth, options);
+    const Rendered planned = rendered("embree-planned", *truth, options);
     const Difference difference = compareImages(traced.image, raster.image);
     const BlockDifference blocks = blockDifference(traced.image, raster.image);
     const Misplacement moved = misplacement(planned.image, raster.image);
@@ -101,6 +105,12 @@ int main(int argc, char** argv) {
     defocus::Options options;
     CLI::App app("The accumulation method against an independent thin-lens ray tracer");
     app.add_option("--samples", options.samples, "samples a pixel, of both")->check(CLI::Range(1, 65536));
+    const std::map<std::string, Sequence> sequences = {{"halton", Sequence::halton},
+                                                       {"scrambled-halton", Sequence::scrambledHalton},
+                                                       {"sobol", Sequence::sobol},
+                                                       {"r2", Sequence::r2}};
+    app.add_option("--sequence", options.sequence, "the rasteriser's lens samples: sobol, halton, scrambled-halton, r2")
+        ->transform(CLI::CheckedTransformer(sequences));
     app.add_option("--size", options.size, "WxH in px");
     app.add_option("--output", options.output, "folder for images and differences")->check(CLI::ExistingDirectory);
     app.add_option("SCENE", options.scenes, "glTF files; none: the fish school");

@@ -37,6 +37,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
 
     SpeedupOptions options = arguments.speedup;
     options.metric = arguments.scene.metric;
+    options.sequence = arguments.scene.sequence;
     options.renderer.layerFormat = arguments.scene.layerFormat;
     options.renderer.wave = arguments.scene.wave;
     options.renderer.shaderFolder = global.shaderDir;

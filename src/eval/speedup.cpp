@@ -31,12 +31,13 @@ std::vector<Setting> settingsOf(const View& view, const SpeedupOptions& options)
     return settings;
 }
 
-FramePlan planOf(const World& world, const Setting& setting, LodMode mode, LodMetric metric) {
+FramePlan planOf(const World& world, const Setting& setting, LodMode mode, const SpeedupOptions& options) {
     RenderSettings settings;
     settings.sampleCount = setting.samples;
+    settings.sequence = options.sequence;
     settings.lod = mode;
-    settings.metric = metric;
-    settings.thresholds = defaultThresholds(metric, setting.samples);
+    settings.metric = options.metric;
+    settings.thresholds = defaultThresholds(options.metric, setting.samples);
     return planFrame(world, setting.view, settings);
 }
 
@@ -107,10 +108,10 @@ void measureSpeedup(const World& world, const View& view, const SpeedupOptions& 
         std::array<Mode, modes.size()> measured;
         for (std::size_t m = 0; m < modes.size(); ++m) {
             measured[m].renderer = methodNamed("accumulation").make(world, options.renderer);
-            measured[m].plan = planOf(world, setting, modes[m], options.metric);
+            measured[m].plan = planOf(world, setting, modes[m], options);
             Setting few = setting;
             few.samples = std::min(setting.samples, warmUpSamples);
-            finish(*measured[m].renderer, planOf(world, few, modes[m], options.metric));
+            finish(*measured[m].renderer, planOf(world, few, modes[m], options));
         }
         for (int i = 0; i < options.runs; ++i)
             for (Mode& mode : measured) {

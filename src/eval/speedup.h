@@ -27,6 +27,7 @@ struct SpeedupOptions {
     std::uint32_t referenceSamples =
         0;  // of a full-detail reference with its own samples, for the view's lens; 0: none
     LodMetric metric = LodMetric::size;  // thresholds are the defaults for each number of samples
+    Sequence sequence = RenderSettings{}.sequence;
     RendererOptions renderer;
 };
 
