@@ -103,23 +103,11 @@ std::uint32_t owenScrambled(std::uint32_t x, std::uint32_t seed) {
     return x ^ flips;
 }
 
-// What seed 0 is scrambled with: of 3,000 scrambles the one whose first 8 to 256 points, and whose prefixes and
-// suffixes of 64, err least in the area of half planes of the lens.
-constexpr std::uint32_t chosenScramble = 935;
-
-// As owenScrambled; with seed 0 index 0, whose coordinates are all 0, becomes 1/2 by a further flip of the same bits of
-// all points.
-double scrambled(std::uint32_t x, std::uint32_t dimension, std::uint32_t seed) {
-    const std::uint32_t stream = hashOf(seed == 0 ? chosenScramble : seed, 100 + dimension);
-    const std::uint32_t flips = seed == 0 ? owenScrambled(0, stream) ^ 1u << 31 : 0;
-    return (owenScrambled(x, stream) ^ flips) * 0x1p-32;
-}
-
 // A primitive polynomial over the integers modulo 2 and the first direction numbers, as Joe and Kuo list them.
 struct Direction {
     std::uint32_t degree = 0;
     std::uint32_t coefficients = 0;  // of the inner powers, highest first
-    std::array<std::uint32_t, 3> first{};
+    std::array<std::uint32_t, 4> first{};
 };
 
 using Columns = std::array<std::uint32_t, 32>;  // of the generator matrix; the first bit is the highest
@@ -139,9 +127,10 @@ constexpr Columns columnsOf(const Direction& direction) {
     return columns;
 }
 
-// Dimensions 2 to 4; the first is the index with its bits in reverse.
-constexpr std::array<Columns, 3> sobolColumns = {columnsOf({1, 0, {1}}), columnsOf({2, 1, {1, 3}}),
-                                                 columnsOf({3, 1, {1, 3, 1}})};
+// Dimensions 2 to 6; the first is the index with its bits in reverse.
+constexpr std::array<Columns, dimensionCount - 1> sobolColumns = {
+    columnsOf({1, 0, {1}}), columnsOf({2, 1, {1, 3}}), columnsOf({3, 1, {1, 3, 1}}), columnsOf({3, 2, {1, 1, 1}}),
+    columnsOf({4, 1, {1, 1, 3, 3}})};
 
 std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
     if (dimension == 0) return reversedBits(index);
@@ -151,14 +140,15 @@ std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
     return result;
 }
 
-// The pixel takes the first two dimensions again, in an order of its own, so that its points and the lens's are
-// strangers to each other. That order is the index scrambled as a fraction: aligned blocks stay aligned blocks.
-Coordinates sobolPoint(std::uint32_t index, std::uint32_t seed) {
-    const std::uint32_t order = hashOf(seed, 99);
-    const std::uint32_t other = owenScrambled(index, order) ^ (seed == 0 ? owenScrambled(0, order) : 0);
-    return {scrambled(sobol(index, 0), 0, seed), scrambled(sobol(index, 1), 1, seed),
-            scrambled(sobol(other, 0), 2, seed), scrambled(sobol(other, 1), 3, seed),
-            scrambled(sobol(index, 2), 4, seed), scrambled(sobol(index, 3), 5, seed)};
+// What seed 0 is scrambled with: of 3,000 scrambles the one whose first 8 to 256 points, and whose prefixes and
+// suffixes of 64, err least in the area of half planes of the lens.
+constexpr std::uint32_t chosenScramble = 935;
+
+// With seed 0 index 0, whose coordinates are all 0, becomes 1/2 by a further flip of the same bits of all points.
+double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t seed) {
+    const std::uint32_t stream = hashOf(seed == 0 ? chosenScramble : seed, 100 + static_cast<std::uint32_t>(dimension));
+    const std::uint32_t flips = seed == 0 ? owenScrambled(0, stream) ^ 1u << 31 : 0;
+    return (owenScrambled(sobol(index, dimension), stream) ^ flips) * 0x1p-32;
 }
 
 // ---- additive recurrences -------------------------------------------------------------------------------------------
@@ -192,10 +182,10 @@ std::string_view sequenceName(Sequence sequence) {
 
 SequencePoint sequencePoint(Sequence sequence, std::uint64_t index, std::uint32_t seed) {
     Coordinates at{};
-    if (sequence == Sequence::sobol) at = sobolPoint(static_cast<std::uint32_t>(index), seed);
     for (std::size_t i = 0; i < dimensionCount; ++i) {
         if (sequence == Sequence::halton) at[i] = shiftedHalton(index, i, seed);
         if (sequence == Sequence::scrambledHalton) at[i] = scrambledHalton(index, i, seed);
+        if (sequence == Sequence::sobol) at[i] = scrambledSobol(static_cast<std::uint32_t>(index), i, seed);
         if (sequence == Sequence::r2)
             at[i] = fraction(static_cast<double>(index) * r2Steps[i] + 0.5 + seedShift(seed, i));
     }

@@ -15,7 +15,7 @@ namespace defocus {
 enum class Sequence {
     halton,           // bases 2, 3 on the lens, 5, 7 in the pixel, as Jeong, Kim and Lee have it; 11 and 13 after them
     scrambledHalton,  // the same with its digits permuted at random, each by those before it
-    sobol,            // Owen-scrambled: a net on the lens, in lens and time, and in the pixel
+    sobol,            // six dimensions, Owen-scrambled: a net on the lens
     r2,               // additive recurrence by powers of the plastic number
 };
 

@@ -18,8 +18,8 @@ protected:
 };
 std::unique_ptr<GlContext> ApertureBokeh::context_;
 
-constexpr double square = 3;  // px
-constexpr double energy = 900;
+constexpr double square = 5;  // px
+constexpr double energy = 2500;
 constexpr double depth = 6;  // m, behind the focus: the blur shows the aperture upright
 
 // A lens that blurs the square to about two thirds of the image's height.
@@ -84,7 +84,7 @@ TEST_F(ApertureBokeh, differsFromOtherShapes) {
     other.lens.bladeCurvature = 0.5;
     EXPECT_GT(misplacedLight(hexagon, expectedBokeh(other, depth, square, energy, lightOf(other.lens))), 0.06);
     other = view;
-    other.lens.sphericalAberration = 0.3;
+    other.lens.sphericalAberration = 0.6;
     EXPECT_GT(misplacedLight(hexagon, expectedBokeh(other, depth, square, energy, lightOf(other.lens))), 0.06);
 }
 
