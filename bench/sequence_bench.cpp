@@ -8,7 +8,7 @@
 //
 //   defocus_sequence_bench [MODEL…]
 //
-// Without models it renders the school of fish and meshes/bokeh.gltf, and FlightHelmet where ../shared/models has it.
+// Without models it renders a small school of fish, meshes/bokeh.gltf and meshes/staircase.gltf.
 
 #include <fmt/format.h>
 
@@ -311,11 +311,8 @@ void run(int argc, char** argv) {
     options.trianglesPerFish = 2000;
     options.lens["fStop"] = 0.95;
     std::vector<std::filesystem::path> scenes(argv + 1, argv + argc);
-    if (scenes.empty()) {
-        scenes = {"", DEFOCUS_SOURCE_DIR "/meshes/bokeh.gltf"};
-        const std::filesystem::path helmet = DEFOCUS_SOURCE_DIR "/../shared/models/FlightHelmet/FlightHelmet.gltf";
-        if (std::filesystem::exists(helmet)) scenes.push_back(helmet);
-    }
+    if (scenes.empty())
+        scenes = {"", DEFOCUS_SOURCE_DIR "/meshes/bokeh.gltf", DEFOCUS_SOURCE_DIR "/meshes/staircase.gltf"};
     for (const std::filesystem::path& scene : scenes) {
         options.path = scene;
         measureImages(options);
