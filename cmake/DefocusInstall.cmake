@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 add_library(defocus INTERFACE)
 add_library(defocus::defocus ALIAS defocus)
-target_link_libraries(defocus INTERFACE defocus_eval)
+target_link_libraries(defocus INTERFACE defocus_capture)
 
 get_property(MODULES GLOBAL PROPERTY DEFOCUS_MODULES)
 list(TRANSFORM MODULES PREPEND defocus_ OUTPUT_VARIABLE MODULE_TARGETS)

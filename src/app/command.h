@@ -31,5 +31,7 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global);
 void addCompareCommand(CLI::App& program, const GlobalOptions& global);
 void addBenchCommand(CLI::App& program, const GlobalOptions& global);
 void addCacheCommand(CLI::App& program);
+void addCaptureCommand(CLI::App& program, const GlobalOptions& global);
+void addMergeCommand(CLI::App& program, const GlobalOptions& global);
 
 }  // namespace defocus

@@ -15,7 +15,7 @@
 
 #include "app/command.h"
 #include "app/help_format.h"
-#include "app/suggestion.h"
+#include "core/suggestion.h"
 
 namespace defocus {
 
@@ -111,6 +111,8 @@ int run(int argc, char** argv) {
     program.formatter(std::make_shared<HelpFormat>());
     addGlobalOptions(program, global);
     addRenderCommand(program, global);
+    addCaptureCommand(program, global);
+    addMergeCommand(program, global);
     addPlanCommand(program, global);
     addInfoCommand(program, global);
     addPyramidCommand(program, global);

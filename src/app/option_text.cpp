@@ -4,7 +4,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "app/suggestion.h"
+#include "core/suggestion.h"
 
 namespace defocus {
 

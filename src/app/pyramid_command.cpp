@@ -18,10 +18,10 @@
 
 #include "app/command.h"
 #include "app/option_text.h"
-#include "app/suggestion.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "core/suggestion.h"
 #include "lod/pyramid.h"
 #include "lod/surface_distance.h"
 #include "scene/fish_school.h"

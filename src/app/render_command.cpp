@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/film_settings.h"
 #include "app/option_text.h"
 #include "app/prepared_frame.h"
 #include "app/render_report.h"
 #include "app/scene_options.h"
+#include "capture/partial.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "gl/context.h"
@@ -42,6 +44,7 @@ struct RenderArguments {
     std::filesystem::path stats;
     AovRequest aovs;
     WriteOptions write;
+    std::optional<SampleRange> samples;  // only these, for `merge`
 };
 
 void parseAovs(const std::string& text, AovRequest& aovs) {
@@ -79,6 +82,10 @@ void checkOutputs(const RenderArguments& arguments) {
     }
     for (const std::filesystem::path& path : aovPaths(arguments)) checkWritable(path);
     if (!arguments.stats.empty()) checkWritable(arguments.stats);
+    if (!arguments.samples) return;
+    checkSampleRange(*arguments.samples, arguments.scene.samples);
+    if (arguments.outputs.size() != 1 || arguments.outputs.front().extension() != ".exr" || arguments.aovs.any())
+        fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
 }
 
 Image renderImage(Renderer& renderer, const FramePlan& plan, const Progress& progress) {
@@ -87,6 +94,21 @@ Image renderImage(Renderer& renderer, const FramePlan& plan, const Progress& pro
         report(progress, "samples", renderer.samples(), renderer.sampleTotal());
     } while (renderer.advance());
     return renderer.image();
+}
+
+// Part of the samples: their sums, block by block, to one file.
+void writeSums(const RenderArguments& arguments, FramePart part, const PreparedFrame& frame, const MethodUse& use,
+               const std::filesystem::path& shaderFolder, const Metadata& metadata) {
+    SequenceFrame single;
+    single.time = arguments.scene.time;
+    single.pose = frame.world.pose;
+    single.lights = frame.world.lights;
+    single.view = frame.view;
+    single.settings = frame.settings;
+    part.settings = frameSettings(filmSettings(frame, arguments.scene, use, shaderFolder), single);
+    part.metadata = metadata;
+    part.metadata["defocus:samples"] = static_cast<int>(part.frameSamples);
+    writePart(arguments.outputs.front(), part);
 }
 
 void writeAovs(const RenderArguments& arguments, const AovImages& images, const Metadata& metadata) {
@@ -135,7 +157,13 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     options.shaderFolder = global.shaderDir;
     options.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
-    const Image image = renderImage(*renderer, plan, progress);
+    Image image;
+    FramePart part;
+    if (arguments.samples)
+        part = renderPart(*renderer, plan, *arguments.samples,
+                          [&] { report(progress, "samples", renderer->samples(), renderer->sampleTotal()); });
+    else
+        image = renderImage(*renderer, plan, progress);
     progress = {};
 
     // Write.
@@ -143,7 +171,10 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const bool software = context == nullptr || context->software();
     const RenderReport report{arguments.scene, use.text(), frame, plan, renderer->stats(), software, milliseconds};
     const Metadata metadata = renderMetadata(report);
-    for (const std::filesystem::path& path : arguments.outputs) writeImage(path, image, metadata, arguments.write);
+    if (arguments.samples)
+        writeSums(arguments, std::move(part), frame, use, global.shaderDir, metadata);
+    else
+        for (const std::filesystem::path& path : arguments.outputs) writeImage(path, image, metadata, arguments.write);
     if (arguments.aovs.any()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
     if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
     printWarnings(frame, global);
@@ -171,6 +202,10 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
               "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px) and out.level.exr with "
               "out.level.png (level of detail)",
               [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
+        ->group(group);
+    addParsed(command, "--sample-range", "FIRST:END",
+              "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
+              [&arguments](const std::string& text) { arguments.samples = parseSampleRange(text); })
         ->group(group);
     command.add_option("--stats", arguments.stats, "Write times, triangles and memory as JSON")
         ->type_name("FILE")

@@ -1,13 +1,13 @@
 #include "eval/popping_paths.h"
 
 #include <algorithm>
-#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
 
 #include "core/error.h"
+#include "plan/camera_path.h"
 #include "plan/frame_plan.h"
 
 namespace defocus {
@@ -37,24 +37,14 @@ Depths depthsOf(const World& world, const View& view) {
 
 View pulled(const View& view, const Depths& depths, double place) {
     View result = view;
-    result.lens.focusDistance = 1 / ((1 - place) / depths.nearest + place / depths.farthest);
+    result.lens.focusDistance = focusBetween(depths.nearest, depths.farthest, place);
     return result;
 }
 
-View dollied(const View& view, double focusDistance, double place) {
+View dolliedToPlace(const View& view, double focusDistance, double place) {
     const double forward = dollyLength * focusDistance * (place - 0.5);
-    View result = view;
-    result.worldFromCamera = glm::translate(view.worldFromCamera, glm::dvec3(0, 0, -forward));
-    result.lens.focusDistance = view.lens.focusDistance - forward;
-    return result;
-}
-
-View turned(const View& view, const glm::dvec3& centre, double place) {
-    const double angle = 2 * std::numbers::pi * (place - 0.5);
-    glm::dmat4 turn = glm::translate(glm::dmat4(1), centre);
-    turn = glm::rotate(turn, angle, glm::dvec3(0, 1, 0));
-    View result = view;
-    result.worldFromCamera = glm::translate(turn, -centre) * view.worldFromCamera;
+    View result = dollied(view, forward);
+    result.lens.focusDistance -= forward;
     return result;
 }
 
@@ -93,10 +83,10 @@ std::vector<View> viewsAlong(Movement movement, const World& world, const View& 
                 views.push_back(pulled(view, depths, place));
                 break;
             case Movement::dolly:
-                views.push_back(dollied(view, focusDistance, place));
+                views.push_back(dolliedToPlace(view, focusDistance, place));
                 break;
             case Movement::turntable:
-                views.push_back(turned(view, centre, place));
+                views.push_back(carriedAround(view, centre, 2 * std::numbers::pi * (place - 0.5)));
                 break;
         }
     }

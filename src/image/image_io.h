@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "image/image.h"
 #include "image/tone_map.h"
@@ -34,12 +35,22 @@ struct WriteOptions {
     double exposure = 0;              // EV; PNG and JPEG only
 };
 
-// Writes by extension: .exr (32-bit float, ZIP, linear, metadata; capDate is added), .png (tone-mapped, sRGB-encoded, 8
-// bit, metadata as text) and .jpg or .jpeg (the same over black, without metadata). A PNG with 4 channels has straight
-// alpha: the colour is divided by its coverage before the tone map. The file appears whole or not at all. Throws Error
-// naming the file and the fault; unknown extensions list the known ones.
+// Writes by extension: .exr (32-bit float, ZIP, linear, metadata; capDate is added where it isn't given), .png
+// (tone-mapped, sRGB-encoded, 8 bit, metadata as text) and .jpg or .jpeg (the same over black, of the metadata only
+// `comments`). A PNG with 4 channels has straight alpha: the colour is divided by its coverage before the tone map. The
+// file appears whole or not at all. Throws Error naming the file and the fault; unknown extensions list the known ones.
 void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {},
                 const WriteOptions& options = {});
+
+// Images of one size by name, such as the sums of parts of a frame: a layer's channels are NAME.R, NAME.G, NAME.B and
+// NAME.A in one EXR file, 32-bit float, ZIP, lossless. Names hold no dot at their end; reading keeps the names' order
+// in the alphabet. Throw Error as readImage and writeImage do, and for a file without such layers.
+struct ImageLayer {
+    std::string name;
+    Image image;  // 3 or 4 channels
+};
+void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata);
+std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata = nullptr);
 
 // Throws Error unless `path` has an extension that writeImage knows.
 void checkImageExtension(const std::filesystem::path& path);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -191,6 +192,37 @@ Image readImage(const std::filesystem::path& path, Metadata* metadata) {
     linearise(image, isEncoded(file.spec), file.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0);
     if (metadata != nullptr) *metadata = metadataOf(file.spec);
     return image;
+}
+
+std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata) {
+    const std::string name = path.string();
+    const std::vector<std::byte> encoded = readFile(path);
+    if (formatOf(encoded) != "openexr") fail("{}: not an EXR file with layers", name);
+    OpenImage file = openImage(encoded, "openexr", name);
+
+    // Which channels are whose.
+    std::map<std::string, std::vector<int>> channels;  // R, G, B, A of each layer
+    const std::vector<std::string>& names = file.spec.channelnames;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::size_t dot = names[i].rfind('.');
+        const std::size_t place =
+            dot == std::string::npos ? dot : std::string_view("RGBA").find(names[i].substr(dot + 1));
+        if (place == std::string::npos) fail("{}: not an EXR file with layers: it has a channel '{}'", name, names[i]);
+        std::vector<int>& layer = channels.try_emplace(names[i].substr(0, dot), 4, -1).first->second;
+        layer[place] = static_cast<int>(i);
+    }
+
+    std::vector<ImageLayer> layers;
+    for (auto& [layerName, places] : channels) {
+        if (places[3] < 0) places.pop_back();
+        if (std::ranges::find(places, -1) != places.end())
+            fail("{}: the layer '{}' lacks one of the channels R, G and B", name, layerName);
+        Image image(file.spec.width, file.spec.height, static_cast<int>(places.size()));
+        image.pixels = readChannels<float>(file, places, name);
+        layers.push_back({layerName, std::move(image)});
+    }
+    if (metadata != nullptr) *metadata = metadataOf(file.spec);
+    return layers;
 }
 
 TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name) {

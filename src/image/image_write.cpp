@@ -120,12 +120,15 @@ std::vector<unsigned char> encodePng(const std::string& name, const Image& image
     return encode(name, "png", spec, quantised(display).data());
 }
 
-std::vector<unsigned char> encodeJpeg(const std::string& name, const Image& image, const WriteOptions& options) {
+std::vector<unsigned char> encodeJpeg(const std::string& name, const Image& image, const Metadata& metadata,
+                                      const WriteOptions& options) {
     const Image display =
         displayEncoded(image.channels == 4 ? withoutAlpha(image) : image, options.toneMap, options.exposure);
     OIIO::ImageSpec spec(display.width, display.height, display.channels, OIIO::TypeUInt8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("Compression", "jpeg:95");
+    if (const auto comments = metadata.find("comments"); comments != metadata.end())
+        std::visit(MetadataWriter{spec, FileKind::jpeg, comments->first}, comments->second);
     return encode(name, "jpeg", spec, quantised(display).data());
 }
 
@@ -142,7 +145,39 @@ void writeImage(const std::filesystem::path& path, const Image& image, const Met
     checkImage(image, name);
     const std::vector<unsigned char> bytes = kind == FileKind::exr   ? encodeExr(name, image, metadata)
                                              : kind == FileKind::png ? encodePng(name, image, metadata, options)
-                                                                     : encodeJpeg(name, image, options);
+                                                                     : encodeJpeg(name, image, metadata, options);
+    writeFile(path, std::as_bytes(std::span(bytes)));
+}
+
+void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata) {
+    const std::string name = path.string();
+    if (layers.empty() || fileKind(path) != FileKind::exr) fail("{}: layers are written to .exr files", name);
+    const int width = layers.front().image.width;
+    const int height = layers.front().image.height;
+    std::vector<std::string> channels;
+    for (const ImageLayer& layer : layers) {
+        checkImage(layer.image, name);
+        if (layer.image.width != width || layer.image.height != height)
+            fail("{}: cannot be written: its layers differ in size", name);
+        for (int c = 0; c < layer.image.channels; ++c) channels.push_back(layer.name + '.' + "RGBA"[c]);
+    }
+
+    // Pixel by pixel, the channels of all layers.
+    const std::size_t stride = channels.size();
+    std::vector<float> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * stride);
+    std::size_t first = 0;
+    for (const ImageLayer& layer : layers) {
+        const auto count = static_cast<std::size_t>(layer.image.channels);
+        for (std::size_t i = 0; i < layer.image.pixels.size(); ++i)
+            pixels[i / count * stride + first + i % count] = layer.image.pixels[i];
+        first += count;
+    }
+    OIIO::ImageSpec spec(width, height, static_cast<int>(stride), OIIO::TypeFloat);
+    spec.channelnames = channels;
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    for (const auto& [attribute, value] : metadata) std::visit(MetadataWriter{spec, FileKind::exr, attribute}, value);
+    const std::vector<unsigned char> bytes = encode(name, "openexr", spec, pixels.data());
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 

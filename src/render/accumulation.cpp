@@ -59,6 +59,8 @@ public:
     }
     [[nodiscard]] Image image() override { return sum_->mean(); }
 
+    [[nodiscard]] std::optional<BlockSum> blockSum() override { return sum_->block(); }
+
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = stats_;
         stats.samples = samples();

@@ -2,6 +2,8 @@
 
 #include "render/layer_sum.h"
 
+#include <cassert>
+
 #include "core/error.h"
 #include "gl/read_back.h"
 
@@ -87,6 +89,23 @@ void LayerSum::addBlockTo(Sum& frame, bool startsFrame) {
     frame.compensation[frame.current].attach(3);
     glProgramUniform1i(addBlock_.name(), 0, startsFrame ? 1 : 0);
     fullscreen_.draw(addBlock_);
+}
+
+BlockSum LayerSum::block() const {
+    if (samples_ == 0) fail("the accumulation holds no sample yet");
+    return {(samples_ - 1) % blockSamples + 1, readBack(block_.sum[block_.current], 4),
+            readBack(block_.compensation[block_.current], 4)};
+}
+
+void LayerSum::addBlock(const BlockSum& block) {
+    assert(samples_ % blockSamples == 0 && block.samples >= 1 && block.samples <= blockSamples);
+    upload(block_.sum[block_.current], block.sum);
+    upload(block_.compensation[block_.current], block.compensation);
+    samples_ += block.samples;
+    if (samples_ % blockSamples == 0) {
+        addBlockTo(frame_, samples_ == blockSamples);
+        frame_.flip();
+    }
 }
 
 Image LayerSum::mean() {

@@ -12,6 +12,7 @@
 #include "image/image.h"
 #include "render/frame_uniforms.h"
 #include "render/layer_format.h"
+#include "render/renderer.h"
 
 namespace defocus {
 
@@ -37,6 +38,12 @@ public:
     // end.
     void endWave(const FrameUniforms& frame, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
+    // The block that the last wave belongs to, as far as it is summed. At least one sample.
+    [[nodiscard]] BlockSum block() const;
+    // Goes on with a block that was summed elsewhere, as if its waves had been drawn here: the same bits. The samples
+    // so far must be whole blocks; `block` holds RGBA of this size and 1 … 64 samples. Only the frame's last block may
+    // have less than 64.
+    void addBlock(const BlockSum& block);
     // The mean of the samples so far, RGBA. At least one.
     [[nodiscard]] Image mean();
     [[nodiscard]] std::size_t bytes() const;

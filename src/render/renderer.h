@@ -3,6 +3,7 @@
 //   renderer.start(plan); while (renderer.advance()) {} Image image = renderer.image();
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "image/image.h"
@@ -23,6 +24,14 @@ struct RenderStats {
     std::string driver;
 };
 
+// The sum of the samples of one block (64, the frame's last one fewer), RGBA: the value and what its additions lost,
+// which together are the sum. For frames that several machines share.
+struct BlockSum {
+    std::uint32_t samples = 0;
+    Image sum;
+    Image compensation;
+};
+
 class Renderer {
 public:
     virtual ~Renderer() = default;
@@ -37,6 +46,8 @@ public:
     [[nodiscard]] virtual std::uint32_t sampleTotal() const = 0;
     // The sum divided by samples(): linear, RGBA premultiplied, row 0 at the top. At least one sample must be in.
     [[nodiscard]] virtual Image image() = 0;
+    // The block that the last wave belongs to, as far as it is summed; nothing for methods that sum no lens samples.
+    [[nodiscard]] virtual std::optional<BlockSum> blockSum() { return {}; }
     [[nodiscard]] virtual RenderStats stats() const = 0;
 };
 

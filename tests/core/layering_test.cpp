@@ -53,7 +53,7 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
         {"gl", {"core", "image"}},
         {"render", {"core", "image", "scene", "lens", "lod", "plan", "gl"}},
         {"eval", {"core", "image", "scene", "lens", "lod", "plan", "gl", "render"}},
-        {"capture", {"core", "image", "scene", "lens", "lod", "plan", "gl", "render"}},
+        {"capture", {"core", "image", "scene", "lens", "lod", "plan", "gl", "render", "eval"}},
         {"app", {"core", "image", "scene", "lens", "lod", "plan", "gl", "render", "eval", "capture"}},
     };
     return table;

@@ -1,6 +1,6 @@
 // F. J. Damerau, "A technique for computer detection and correction of spelling errors", 1964.
 
-#include "app/suggestion.h"
+#include "core/suggestion.h"
 
 #include <algorithm>
 

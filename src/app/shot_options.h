@@ -1,0 +1,24 @@
+#pragma once
+// A shot together with the command line: what an option says wins over what the shot says.
+
+#include <string>
+#include <vector>
+
+#include "app/prepared_frame.h"
+#include "app/scene_options.h"
+#include "capture/frame_sequence.h"
+#include "capture/shot.h"
+
+namespace defocus {
+
+// The shot's fixed values as if they had been given as options, except its lens, whose fields may have keys.
+void applyShot(const Shot& shot, SceneOptions& options);
+
+// After the command line has been read. Takes from the shot what `options` replaces: lens fields and focus that have a
+// value, and with `cameraGiven` the camera's movement. Puts the first values of the shot's lens into `options`, so that
+// the scene can be placed.
+void settleShot(Shot& shot, SceneOptions& options, bool cameraGiven);
+
+SequenceBase sequenceBase(const PreparedFrame& frame, const SceneOptions& options);
+
+}  // namespace defocus

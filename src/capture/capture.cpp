@@ -1,0 +1,241 @@
+#include "capture/capture.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "capture/frame_files.h"
+#include "capture/frame_writer.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/parallel.h"
+#include "plan/frame_plan.h"
+#include "render/frame_uniforms.h"
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t framesWaiting = 2;  // for the writer; more would only take memory
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// frames/0012.exr → frames/0012.part00064-00128.exr
+fs::path partPath(const fs::path& frame, const SampleRange& range) {
+    fs::path path = frame;
+    path.replace_extension(fmt::format("part{:05}-{:05}.exr", range.first, range.end));
+    return path;
+}
+
+std::string encodingOf(const std::string& pattern, const FilmOptions& options) {
+    const std::string ending = fs::path(pattern).extension().string();
+    if (ending == ".exr" || ending == ".EXR") return "";
+    return fmt::format("{} {} {}", ending, static_cast<int>(options.write.toneMap), options.write.exposure);
+}
+
+bool isFinishedPart(const fs::path& path, const std::string& settings) {
+    try {
+        return readPart(path).settings == settings;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+// ---- sidecar
+// ---------------------------------------------------------------------------------------------------------
+
+struct FrameTimes {
+    double planMilliseconds = 0;
+    double renderMilliseconds = 0;
+    double writeMilliseconds = 0;  // encoding included
+};
+
+void appendTimes(const FilmOptions& options, const FilmFrame& film, const SequenceFrame& frame,
+                 const RenderStats& stats, const FrameTimes& times) {
+    const nlohmann::ordered_json line = {{"frame", film.frame},
+                                         {"file", film.files.front().string()},
+                                         {"time", frame.time},
+                                         {"planMilliseconds", times.planMilliseconds},
+                                         {"renderMilliseconds", times.renderMilliseconds},
+                                         {"writeMilliseconds", times.writeMilliseconds},
+                                         {"trianglesDrawn", stats.trianglesDrawn},
+                                         {"samples", stats.samples},
+                                         {"device", stats.device}};
+    const std::string text = line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(options.timings.c_str(), "ab"), &std::fclose);
+    if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0)
+        fail("{}: cannot be written", options.timings.string());
+}
+
+// ---- one frame
+// -------------------------------------------------------------------------------------------------------
+
+// What the writer needs of a frame; the renderer goes on meanwhile.
+struct DrawnFrame {
+    SequenceFrame frame;
+    Image image;
+    FramePart part;
+    Metadata metadata;
+    RenderStats stats;
+    FrameTimes times;
+};
+
+DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, const FilmOptions& options,
+                     const FilmMetadata& metadata, const std::function<void(double)>& step) {
+    const Clock::time_point start = Clock::now();
+    world.pose = frame.pose;
+    world.lights = frame.lights;
+    const FramePlan plan = planFrame(world, frame.view, frame.settings);
+    DrawnFrame drawn;
+    drawn.frame = std::move(frame);
+    drawn.times.planMilliseconds = millisecondsSince(start);
+
+    // The whole frame, or some of its samples.
+    if (options.samples) {
+        drawn.part = renderPart(renderer, plan, *options.samples, [&] { step(0.5); });
+        drawn.stats = renderer.stats();
+        drawn.stats.samples = drawn.part.frameSamples;
+    } else {
+        renderer.start(plan);
+        do {
+            step(static_cast<double>(renderer.samples()) / renderer.sampleTotal());
+        } while (renderer.advance());
+        drawn.image = renderer.image();
+        drawn.stats = renderer.stats();
+    }
+    drawn.times.renderMilliseconds = millisecondsSince(start);
+    drawn.metadata = metadata(drawn.frame, plan, drawn.stats);
+    drawn.part.metadata = drawn.metadata;
+    return drawn;
+}
+
+void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& options) {
+    const Clock::time_point start = Clock::now();
+    for (std::size_t i = 0; i < film.files.size(); ++i) {
+        const fs::path& path = film.files[i];
+        if (options.samples) {
+            drawn.part.settings = film.settings[i];
+            writePart(path, drawn.part);
+            continue;
+        }
+        Metadata metadata = drawn.metadata;
+        metadata[settingsAttribute] = film.settings[i];
+        const std::string ending = path.extension().string();
+        if (ending != ".exr" && ending != ".png") metadata["comments"] = film.settings[i];  // all that a JPEG holds
+        writeImage(path, drawn.image, metadata, options.write);
+    }
+    drawn.times.writeMilliseconds = millisecondsSince(start);
+    appendTimes(options, film, drawn.frame, drawn.stats, drawn.times);
+}
+
+// ---- progress
+// --------------------------------------------------------------------------------------------------------
+
+std::string duration(double seconds) {
+    const auto whole = static_cast<long long>(seconds + 0.5);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+    return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
+}
+
+// "frame 12, 3400 ms and 18.2 M triangles each, 12:30 min left"
+std::string stageText(int frame, const FilmFigures& figures, double milliseconds, int left) {
+    if (figures.rendered == 0) return fmt::format("frame {}", frame);
+    const double each = milliseconds / figures.rendered;
+    return fmt::format("frame {}, {:.0f} ms and {:.2f} M triangles each, {} left", frame, each,
+                       static_cast<double>(figures.triangles) * 1e-6 / figures.rendered, duration(each * left / 1000));
+}
+
+}  // namespace
+
+fs::path timingsPath(const std::string& pattern, int shard, int shards) {
+    const fs::path path(pattern);
+    std::string stem = path.stem().string();
+    std::erase(stem, '#');
+    const std::string part = shards > 1 ? fmt::format(".{}-of-{}", shard, shards) : "";
+    return path.parent_path() / (stem + "timings" + part + ".jsonl");
+}
+
+std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, const std::vector<int>& frames,
+                                  const FilmOptions& options, const Progress& progress) {
+    std::vector<FilmFrame> film(frames.size());
+    std::mutex reporting;
+    std::uint64_t done = 0;
+    parallelFor(frames.size(), [&](std::size_t i) {
+        const SequenceFrame frame = frameAt(shot, base, frames[i]);
+        film[i].frame = frames[i];
+        film[i].finished = options.resume;
+        for (const std::string& pattern : options.outputs) {
+            FilmSettings settings = options.settings;
+            settings.encoding = encodingOf(pattern, options);
+            film[i].settings.push_back(frameSettings(settings, frame));
+            fs::path path = framePath(pattern, frames[i]);
+            if (options.samples) path = partPath(path, *options.samples);
+            film[i].finished =
+                film[i].finished &&
+                (options.samples ? isFinishedPart(path, film[i].settings.back())
+                                 : isFinishedFrame(path, frame.view.width, frame.view.height, film[i].settings.back()));
+            film[i].files.push_back(std::move(path));
+        }
+        const std::lock_guard lock(reporting);
+        report(progress, "frames checked", ++done, frames.size());
+    });
+    return film;
+}
+
+FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, Renderer& renderer,
+                       const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
+                       const std::function<bool()>& stop, const Progress& progress) {
+    // What an earlier run left; its times are kept only where its frames are.
+    std::vector<fs::path> files;
+    int left = 0;
+    for (const FilmFrame& film : frames) {
+        files.insert(files.end(), film.files.begin(), film.files.end());
+        left += film.finished ? 0 : 1;
+    }
+    removeUnfinished(files);
+    std::error_code ignored;
+    if (!options.resume) fs::remove(options.timings, ignored);
+
+    // Frame after frame; the writer works on those before.
+    const Clock::time_point start = Clock::now();
+    FilmFigures figures;
+    FrameWriter writer(framesWaiting);
+    const auto total = static_cast<double>(std::max(left, 1));
+    for (const FilmFrame& film : frames) {
+        if (film.finished) {
+            ++figures.finishedBefore;
+            continue;
+        }
+        if (stop()) {
+            figures.stoppedBefore = film.frame;
+            break;
+        }
+        const std::string stage = stageText(film.frame, figures, millisecondsSince(start), left);
+        const auto step = [&](double share) {
+            report(progress, stage, static_cast<std::uint64_t>(1000 * (figures.rendered + share)),
+                   static_cast<std::uint64_t>(1000 * total));
+        };
+        auto drawn = std::make_shared<DrawnFrame>(
+            drawFrame(frameAt(shot, base, film.frame), world, renderer, options, metadata, step));
+        ++figures.rendered;
+        --left;
+        figures.renderMilliseconds += drawn->times.renderMilliseconds;
+        figures.triangles += drawn->stats.trianglesDrawn;
+        writer.add([drawn, &film, &options] { writeFrame(film, *drawn, options); });
+    }
+    writer.finish();
+    figures.totalMilliseconds = millisecondsSince(start);
+    return figures;
+}
+
+}  // namespace defocus

@@ -1,0 +1,71 @@
+#include "capture/frame_files.h"
+
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "core/error.h"
+#include "image/image_io.h"
+
+namespace defocus {
+
+namespace fs = std::filesystem;
+
+void checkFramePattern(const std::string& pattern) {
+    const std::string name = fs::path(pattern).filename().string();
+    const std::size_t first = name.find('#');
+    if (first == std::string::npos)
+        fail("{}: the name has no place for the frame's number; write #### for it, as in frames/####.exr", pattern);
+    const std::size_t end = std::min(name.find_first_not_of('#', first), name.size());
+    if (name.find('#', end) != std::string::npos ||
+        fs::path(pattern).parent_path().string().find('#') != std::string::npos)
+        fail("{}: the frame's number can stand in one place only, in the file's name", pattern);
+    checkImageExtension(pattern);
+}
+
+fs::path framePath(const std::string& pattern, int frame) {
+    const fs::path path(pattern);
+    std::string name = path.filename().string();
+    const std::size_t first = name.find('#');
+    const std::size_t end = std::min(name.find_first_not_of('#', first), name.size());
+    name.replace(first, end - first, fmt::format("{:0{}}", frame, end - first));
+    return path.parent_path() / name;
+}
+
+bool isFinishedFrame(const fs::path& path, int width, int height, const std::string& settings) {
+    std::error_code fault;
+    if (!fs::is_regular_file(path, fault)) return false;
+    try {
+        Metadata metadata;
+        const Image image = readImage(path, &metadata);
+        if (image.width != width || image.height != height) return false;
+        // A JPEG holds one comment and nothing else.
+        for (const char* name : {settingsAttribute, "comments"}) {
+            const auto found = metadata.find(name);
+            const auto* text = found == metadata.end() ? nullptr : std::get_if<std::string>(&found->second);
+            if (text != nullptr && *text == settings) return true;
+        }
+    } catch (const Error&) {  // damaged: to be done again
+    }
+    return false;
+}
+
+void removeUnfinished(const std::vector<fs::path>& paths) {
+    // Temporary names are ".STEM.PROCESS-COUNT.EXTENSION" (core/file.h).
+    std::map<fs::path, std::set<std::string>> stems;
+    for (const fs::path& path : paths) stems[path.parent_path()].insert(path.stem().string());
+    for (const auto& [folder, names] : stems) {
+        std::error_code fault;
+        for (auto entry = fs::directory_iterator(folder.empty() ? "." : folder, fault);
+             !fault && entry != fs::directory_iterator(); entry.increment(fault)) {
+            const std::string name = entry->path().stem().string();
+            const std::size_t dot = name.rfind('.');
+            if (name.front() != '.' || dot == 0 || dot == std::string::npos) continue;
+            const bool numbered = name.find_first_not_of("0123456789-", dot + 1) == std::string::npos;
+            std::error_code ignored;
+            if (numbered && names.contains(name.substr(1, dot - 1))) fs::remove(entry->path(), ignored);
+        }
+    }
+}
+
+}  // namespace defocus

@@ -1,0 +1,24 @@
+#pragma once
+// The files of a shot's frames: their names, and whether one that is there is the frame that is wanted.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace defocus {
+
+// "frames/####.exr": the frame's number, with zeros in front, stands for the #. Throws Error for a pattern without #,
+// with # in two places or in its folder, and for an ending that writeImage doesn't know.
+void checkFramePattern(const std::string& pattern);
+std::filesystem::path framePath(const std::string& pattern, int frame);
+
+// The metadata that says of what a frame was made; equal for equal frames.
+inline constexpr const char* settingsAttribute = "defocus:settings";
+
+// Is `path` a whole image of this size whose metadata carries these settings? A missing, damaged or foreign file isn't.
+bool isFinishedFrame(const std::filesystem::path& path, int width, int height, const std::string& settings);
+
+// Removes what a process that was killed left beside the frame: files with temporary names of `path`.
+void removeUnfinished(const std::vector<std::filesystem::path>& paths);
+
+}  // namespace defocus

@@ -1,0 +1,204 @@
+#include "capture/frame_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "core/error.h"
+#include "lens/lens_fields.h"
+#include "plan/camera_path.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr const char* framingCamera = "auto";
+
+// ---- camera
+// ----------------------------------------------------------------------------------------------------------
+
+glm::dvec3 pointOf(const Place& place, const Scene& scene, const Pose& pose) {
+    if (const auto* point = std::get_if<glm::dvec3>(&place)) return *point;
+    return nodeCentre(scene, pose, nodeNamed(scene, std::get<std::string>(place)));
+}
+
+std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const Scene& scene, const Pose& pose) {
+    std::vector<Key<glm::dvec3>> points;
+    for (const Key<Place>& key : keys) points.push_back({key.frame, pointOf(key.value, scene, pose)});
+    return points;
+}
+
+// Looks from `position` to `target`, upright; straight up or down, the image's top lies at −z.
+glm::dmat4 lookingAt(const glm::dvec3& position, const glm::dvec3& target) {
+    const glm::dvec3 backward = position - target;
+    const double distance = glm::length(backward);
+    if (!(distance > 0) || !std::isfinite(distance)) fail("the camera's position and target are the same point");
+    const glm::dvec3 z = backward / distance;
+    glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), z);
+    if (glm::length(x) < 1e-9) x = glm::cross(glm::dvec3(0, 0, z.y > 0 ? -1 : 1), z);
+    x = glm::normalize(x);
+    const glm::dvec3 y = glm::cross(z, x);
+    return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
+}
+
+// How much of a movement is done at `frame`, 0 at its first and 1 at its last.
+double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, double frame) {
+    const FrameRange range = own.value_or(shot);
+    const double length = std::max(1, range.last - range.first);
+    return std::clamp((frame - range.first) / length, 0.0, 1.0);
+}
+
+View movedView(const Shot& shot, const SequenceBase& base, const SequenceFrame& frame) {
+    View view = base.view;
+    // A camera of the file goes where its node's animation takes it; one that frames the scene stays.
+    const Scene& scene = *base.scene;
+    if (!scene.cameras.empty() && base.camera != framingCamera) {
+        const double aspect = static_cast<double>(view.width) / view.height;
+        view.worldFromCamera = chooseCamera(scene, frame.pose, base.camera, aspect).worldFromCamera;
+    }
+    if (const auto* keys = std::get_if<CameraKeys>(&shot.camera.movement))
+        view.worldFromCamera =
+            lookingAt(valueAt(pointsOf(keys->positions, scene, frame.pose), keys->easing, frame.frame),
+                      valueAt(pointsOf(keys->targets, scene, frame.pose), keys->easing, frame.frame));
+    if (const auto* turntable = std::get_if<Turntable>(&shot.camera.movement)) {
+        const glm::dvec3 centre =
+            turntable->centre ? pointOf(*turntable->centre, scene, frame.pose) : frame.pose.bounds.centre();
+        const double turns = turntable->turns * placeIn(turntable->frames, shot.range, frame.frame);
+        view = carriedAround(view, centre, 2 * std::numbers::pi * turns);
+    }
+    if (const auto* dolly = std::get_if<Dolly>(&shot.camera.movement)) {
+        const std::vector<Key<double>> ends = {{0, 0}, {1, dolly->distance}};
+        view = dollied(view, valueAt(ends, dolly->easing, placeIn(dolly->frames, shot.range, frame.frame)));
+    }
+    return view;
+}
+
+// ---- lens
+// ------------------------------------------------------------------------------------------------------------
+
+double focusDistanceOf(const FocusTarget& target, const SequenceBase& base, const SequenceFrame& frame) {
+    if (const auto* distance = std::get_if<double>(&target)) return *distance;
+    const std::string& name = std::get<std::string>(target);
+    const glm::dvec3 centre = nodeCentre(*base.scene, frame.pose, nodeNamed(*base.scene, name));
+    const double depth = -(glm::inverse(frame.view.worldFromCamera) * glm::dvec4(centre, 1)).z;
+    if (!(depth > 0)) fail("the focus follows '{}', whose centre lies behind the camera", name);
+    return depth;
+}
+
+double focusAt(const FocusTrack& focus, const SequenceBase& base, const SequenceFrame& frame) {
+    // Only the keys that have a say at this frame: a node far from its turn may be anywhere.
+    std::vector<Key<double>> dioptres;
+    for (std::size_t i = 0; i < focus.keys.size(); ++i) {
+        const bool early = i + 2 < focus.keys.size() && focus.keys[i + 2].frame <= frame.frame;
+        const bool late = i >= 2 && focus.keys[i - 2].frame > frame.frame;
+        if (!early && !late)
+            dioptres.push_back({focus.keys[i].frame, 1 / focusDistanceOf(focus.keys[i].value, base, frame)});
+    }
+    return 1 / valueAt(dioptres, focus.easing, frame.frame);
+}
+
+enum class Scale { plain, logarithmic, reciprocal, stepped };
+
+// In which measure equal steps are equal to a photographer: f-stops and zoom go by ratios, the focus by dioptres.
+Scale scaleOf(const LensField& field) {
+    if (!std::holds_alternative<double Lens::*>(field.member)) return Scale::stepped;
+    const std::string_view name = field.name;
+    if (name == "fStop" || name == "focalLength") return Scale::logarithmic;
+    return name == "focusDistance" ? Scale::reciprocal : Scale::plain;
+}
+
+double lensValueAt(const LensTrack& track, const LensField& field, double frame) {
+    if (track.keys.size() == 1) return track.keys.front().value;
+    std::vector<Key<double>> keys = track.keys;
+    switch (scaleOf(field)) {
+        case Scale::plain:
+            return valueAt(keys, track.easing, frame);
+        case Scale::logarithmic:
+            for (Key<double>& key : keys) key.value = std::log(key.value);
+            return std::exp(valueAt(keys, track.easing, frame));
+        case Scale::reciprocal:
+            for (Key<double>& key : keys) key.value = 1 / key.value;
+            return 1 / valueAt(keys, track.easing, frame);
+        case Scale::stepped:
+            break;
+    }
+    const auto next = std::ranges::upper_bound(keys, frame, {}, [](const Key<double>& key) { return key.frame; });
+    return next == keys.begin() ? next->value : std::prev(next)->value;
+}
+
+Lens lensAt(const Shot& shot, const SequenceBase& base, const SequenceFrame& frame) {
+    Lens lens = frame.view.lens;
+    for (const auto& [name, track] : shot.lens) {
+        const LensField& field = *lensFieldNamed(name);
+        const double value = lensValueAt(track, field, frame.frame);
+        setLensField(lens, field, std::clamp(value, field.least, field.most));  // rounding beyond an end
+    }
+    if (shot.focus) lens.focusDistance = focusAt(*shot.focus, base, frame);
+    checkLens(lens);
+    return lens;
+}
+
+// ---- time and noise
+// --------------------------------------------------------------------------------------------------
+
+// −1 where the scene has none.
+int clipOf(const Shot& shot, const Scene& scene) {
+    if (scene.clips.empty()) return -1;
+    const auto count = scene.clips.size();
+    if (const int* number = std::get_if<int>(&shot.animation.clip)) {
+        if (static_cast<std::size_t>(*number) >= count)
+            fail("there is no clip {}; the scene has {} (0 to {})", *number, count, count - 1);
+        return *number;
+    }
+    const std::string& name = std::get<std::string>(shot.animation.clip);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (scene.clips[i].name == name) return static_cast<int>(i);
+        names.push_back(scene.clips[i].name);
+    }
+    fail("there is no clip '{}'; the scene has: {}", name, fmt::join(names, ", "));
+}
+
+double timeAt(const ShotAnimation& animation, const Scene& scene, int clip, double seconds) {
+    const double time = animation.start + animation.speed * seconds;
+    const double duration = clip < 0 ? 0 : static_cast<double>(scene.clips[static_cast<std::size_t>(clip)].duration);
+    if (!animation.loop || !(duration > 0)) return time;
+    return time - duration * std::floor(time / duration);
+}
+
+// Another well mixed seed for each frame (finaliser of MurmurHash3, Appleby).
+std::uint32_t frameSeed(std::uint32_t seed, int frame) {
+    std::uint32_t hash = seed + 0x9e3779b9u * (static_cast<std::uint32_t>(frame) + 1);
+    hash = (hash ^ (hash >> 16)) * 0x85ebca6bu;
+    hash = (hash ^ (hash >> 13)) * 0xc2b2ae35u;
+    return hash ^ (hash >> 16);
+}
+
+}  // namespace
+
+SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try {
+    const int clip = clipOf(shot, *base.scene);
+    SequenceFrame result;
+    result.frame = frame;
+    result.time = timeAt(shot.animation, *base.scene, clip, frame / shot.frameRate);
+    result.pose = poseAt(*base.scene, result.time, clip);
+    result.lights = result.pose.lights.empty() ? base.lights : result.pose.lights;
+    result.view = movedView(shot, base, result);
+    result.view.lens = lensAt(shot, base, result);
+    result.settings = base.settings;
+    if (shot.animateSeed) result.settings.seed = frameSeed(base.settings.seed, frame);
+    return result;
+} catch (const Error& error) {
+    fail("{}: frame {}: {}", shot.file.string(), frame, error.what());
+}
+
+std::vector<int> shardFrames(const FrameRange& range, int shard, int shards) {
+    std::vector<int> frames;
+    for (int frame = range.first; frame <= range.last; ++frame)
+        if (frame % shards == shard) frames.push_back(frame);
+    return frames;
+}
+
+}  // namespace defocus

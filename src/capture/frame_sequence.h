@@ -1,0 +1,39 @@
+#pragma once
+// What to render for each frame of a shot. A pure function of the shot and the frame's number: nothing is carried over
+// from frame to frame, so that frames can be rendered in any order and on any machine.
+
+#include <string>
+#include <vector>
+
+#include "capture/shot.h"
+#include "plan/view.h"
+
+namespace defocus {
+
+// What a shot starts from: the scene with the camera and the settings that the shot's fixed values give.
+struct SequenceBase {
+    const Scene* scene = nullptr;
+    View view;
+    RenderSettings settings;
+    std::vector<PlacedLight> lights;  // where the scene has none of its own
+    std::string camera;               // as chooseCamera takes it
+};
+
+struct SequenceFrame {
+    int frame = 0;
+    double time = 0;  // s into the animation clip
+    Pose pose;
+    std::vector<PlacedLight> lights;
+    View view;
+    RenderSettings settings;
+};
+
+// Throws Error naming the shot's file and the frame for what can't be filmed: nodes and clips that don't exist, a focus
+// behind the camera, an impossible lens.
+SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame);
+
+// Frames of `range` that shard `shard` of `shards` renders: every shards-th, so that each has its part of whatever
+// takes long.
+std::vector<int> shardFrames(const FrameRange& range, int shard, int shards);
+
+}  // namespace defocus

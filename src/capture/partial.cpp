@@ -1,0 +1,230 @@
+#include "capture/partial.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "capture/frame_files.h"
+#include "core/error.h"
+#include "plan/sample_range.h"
+#include "render/block_merge.h"
+#include "render/frame_uniforms.h"
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* firstAttribute = "defocus:firstSample";
+constexpr const char* endAttribute = "defocus:endSample";
+constexpr const char* frameSamplesAttribute = "defocus:frameSamples";
+constexpr const char* secondsAttribute = "defocus:seconds";
+constexpr const char* noBlocks = "none";  // EXR has no file without channels
+
+std::string layerName(std::uint32_t firstSample, const char* what) {
+    return fmt::format("samples{:05}.{}", firstSample, what);
+}
+
+// ---- alpha
+// -----------------------------------------------------------------------------------------------------------
+
+bool alphaIs(const Image& image, float value) {
+    for (std::size_t i = 3; i < image.pixels.size(); i += 4)
+        if (image.pixels[i] != value) return false;
+    return true;
+}
+
+Image withoutAlpha(const Image& image) {
+    Image result(image.width, image.height, 3);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i) result.pixels[i] = image.pixels[i / 3 * 4 + i % 3];
+    return result;
+}
+
+Image withAlpha(const Image& image, float alpha) {
+    if (image.channels == 4) return image;
+    Image result(image.width, image.height, 4);
+    for (std::size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] = i % 4 == 3 ? alpha : image.pixels[i / 4 * 3 + i % 4];
+    return result;
+}
+
+// ---- reading
+// ---------------------------------------------------------------------------------------------------------
+
+template <typename Value>
+Value attribute(const Metadata& metadata, const char* name, const std::string& file) {
+    const auto found = metadata.find(name);
+    const Value* value = found == metadata.end() ? nullptr : std::get_if<Value>(&found->second);
+    if (value == nullptr) fail("{}: not a part of a frame: it doesn't say '{}'", file, name);
+    return *value;
+}
+
+std::uint32_t sampleAttribute(const Metadata& metadata, const char* name, const std::string& file) {
+    const int value = attribute<int>(metadata, name, file);
+    if (value < 0 || value > 65'536) fail("{}: '{}' is {}", file, name, value);
+    return static_cast<std::uint32_t>(value);
+}
+
+// What the file format says of itself isn't the frame's.
+void dropFileAttributes(Metadata& metadata) {
+    std::erase_if(metadata, [](const auto& entry) {
+        static constexpr std::string_view ofFile[] = {
+            "compression", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
+            "name",        "chunkCount",       "PixelAspectRatio",   "version"};
+        return entry.first.starts_with("openexr:") || entry.first.starts_with("oiio:") ||
+               std::ranges::find(ofFile, entry.first) != std::end(ofFile);
+    });
+}
+
+std::string rangeText(const SampleRange& range) {
+    return fmt::format("{}:{}", range.first, range.end);
+}
+
+struct NamedPart {
+    fs::path path;
+    FramePart part;
+};
+
+// One frame's parts in order: no gap, no overlap, nothing foreign.
+void checkComplete(const std::vector<NamedPart>& parts) {
+    const FramePart& first = parts.front().part;
+    std::uint32_t next = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const auto& [path, part] = parts[i];
+        if (part.settings != first.settings || part.width != first.width || part.height != first.height ||
+            part.frameSamples != first.frameSamples)
+            fail("{} and {} don't belong together: they were rendered with other settings", parts.front().path.string(),
+                 path.string());
+        if (part.range.first < next)
+            fail("{} and {} overlap: both hold sample {}", parts[i - 1].path.string(), path.string(), part.range.first);
+        if (part.range.first > next)
+            fail("samples {}:{} of the frame's {} are missing before {}", next, part.range.first, part.frameSamples,
+                 path.string());
+        next = part.range.end;
+    }
+    if (next < first.frameSamples)
+        fail("samples {}:{} are missing: the frame has {}", next, first.frameSamples, first.frameSamples);
+}
+
+}  // namespace
+
+SampleRange parseSampleRange(std::string_view text) {
+    const auto number = [&](std::string_view part) {
+        std::uint32_t value = 0;
+        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (fault != std::errc() || end != part.data() + part.size() || value > 65'536)
+            fail("'{}' is not FIRST:END, samples from 0 to 65536, such as 64:128", text);
+        return value;
+    };
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const SampleRange range{number(text.substr(0, colon)), number(text.substr(std::min(colon + 1, text.size())))};
+    if (range.first >= range.end) fail("'{}': the range holds no sample", text);
+    if (range.first % blockSamples != 0)
+        fail("'{}' cuts a block of {} samples: begin at a multiple of {}", text, blockSamples, blockSamples);
+    return range;
+}
+
+void checkSampleRange(const SampleRange& range, std::uint32_t samples) {
+    if (range.end > samples) fail("samples {}: the frame has {} (--samples)", rangeText(range), samples);
+    if (range.end % blockSamples != 0 && range.end != samples)
+        fail("samples {} cut a block of {}: end at a multiple of {} or with the last sample, {}", rangeText(range),
+             blockSamples, blockSamples, samples);
+}
+
+FramePart renderPart(Renderer& renderer, const FramePlan& plan, const SampleRange& range,
+                     const std::function<void()>& step) {
+    FramePart part;
+    part.frameSamples = static_cast<std::uint32_t>(plan.samples.size());
+    part.range = {std::min(range.first, part.frameSamples), std::min(range.end, part.frameSamples)};
+    part.width = plan.view.width;
+    part.height = plan.view.height;
+    if (part.range.first == part.range.end) return part;  // a frame that needs fewer samples than were asked for
+    renderer.start(samplesOf(plan, part.range.first, part.range.end - part.range.first));
+    for (bool more = true; more;) {
+        more = renderer.advance();
+        if (more && renderer.samples() % blockSamples != 0) continue;
+        std::optional<BlockSum> block = renderer.blockSum();
+        if (!block) fail("only the method 'accumulation' can render a part of a frame's samples");
+        part.blocks.push_back(std::move(*block));
+        if (step) step();
+    }
+    return part;
+}
+
+void writePart(const fs::path& path, const FramePart& part) {
+    std::vector<ImageLayer> layers;
+    std::uint32_t first = part.range.first;
+    for (const BlockSum& block : part.blocks) {
+        const bool opaque = alphaIs(block.sum, static_cast<float>(block.samples)) && alphaIs(block.compensation, 0);
+        layers.push_back({layerName(first, "sum"), opaque ? withoutAlpha(block.sum) : block.sum});
+        layers.push_back({layerName(first, "lost"), opaque ? withoutAlpha(block.compensation) : block.compensation});
+        first += block.samples;
+    }
+    if (layers.empty()) layers.push_back({noBlocks, Image(part.width, part.height, 3)});
+    Metadata metadata = part.metadata;
+    metadata[settingsAttribute] = part.settings;
+    metadata[firstAttribute] = static_cast<int>(part.range.first);
+    metadata[endAttribute] = static_cast<int>(part.range.end);
+    metadata[frameSamplesAttribute] = static_cast<int>(part.frameSamples);
+    writeLayers(path, layers, metadata);
+}
+
+FramePart readPart(const fs::path& path) {
+    const std::string file = path.string();
+    FramePart part;
+    std::vector<ImageLayer> layers = readLayers(path, &part.metadata);
+    part.settings = attribute<std::string>(part.metadata, settingsAttribute, file);
+    part.range = {sampleAttribute(part.metadata, firstAttribute, file),
+                  sampleAttribute(part.metadata, endAttribute, file)};
+    part.frameSamples = sampleAttribute(part.metadata, frameSamplesAttribute, file);
+    part.width = layers.front().image.width;
+    part.height = layers.front().image.height;
+    if (part.range.first > part.range.end || part.range.end > part.frameSamples)
+        fail("{}: samples {} of {} are no part of a frame", file, rangeText(part.range), part.frameSamples);
+    const bool wholeEnd = part.range.end % blockSamples == 0 || part.range.end == part.frameSamples;
+    const bool wholeFirst = part.range.first % blockSamples == 0 || part.range.first == part.frameSamples;
+    if (!wholeFirst || !wholeEnd) fail("{}: samples {} cut a block of {}", file, rangeText(part.range), blockSamples);
+    for (std::uint32_t first = part.range.first; first < part.range.end; first += blockSamples) {
+        const std::uint32_t samples = std::min(blockSamples, part.range.end - first);
+        const auto layer = [&](const char* what, float alpha) {
+            const auto found = std::ranges::find(layers, layerName(first, what), &ImageLayer::name);
+            if (found == layers.end()) fail("{}: the sums of the samples from {} on are missing", file, first);
+            return withAlpha(found->image, alpha);
+        };
+        part.blocks.push_back({samples, layer("sum", static_cast<float>(samples)), layer("lost", 0)});
+    }
+    for (const char* own : {firstAttribute, endAttribute, frameSamplesAttribute}) part.metadata.erase(own);
+    dropFileAttributes(part.metadata);
+    return part;
+}
+
+MergedFrame mergeParts(const std::vector<fs::path>& paths) {
+    // What the parts are, in the order of their samples; their sums are read when it is their turn.
+    std::vector<NamedPart> parts;
+    for (const fs::path& path : paths) {
+        parts.push_back({path, readPart(path)});
+        parts.back().part.blocks.clear();
+    }
+    if (parts.empty()) fail("there are no parts to merge");
+    std::ranges::stable_sort(
+        parts, {}, [](const NamedPart& named) { return std::pair(named.part.range.first, named.part.range.end); });
+    checkComplete(parts);
+
+    // Block after block.
+    MergedFrame merged;
+    merged.metadata = parts.front().part.metadata;
+    BlockMerge merge;
+    double seconds = 0;
+    for (const NamedPart& named : parts) {
+        const auto own = named.part.metadata.find(secondsAttribute);
+        if (own != named.part.metadata.end() && std::holds_alternative<double>(own->second))
+            seconds += std::get<double>(own->second);
+        for (const BlockSum& block : readPart(named.path).blocks) merge.add(block);
+    }
+    if (merged.metadata.contains(secondsAttribute)) merged.metadata[secondsAttribute] = seconds;
+    merged.image = merge.image();
+    return merged;
+}
+
+}  // namespace defocus

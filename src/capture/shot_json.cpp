@@ -1,0 +1,363 @@
+#include "capture/shot_json.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "capture/json_reader.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "lens/lens_fields.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double farthest = 1e12;  // m
+constexpr int mostPixels = 16'384;
+constexpr std::uint32_t mostSamples = 65'536;
+
+const std::vector<std::string> easings = {"linear", "smooth"};
+
+// ---- pieces
+// ----------------------------------------------------------------------------------------------------------
+
+Easing easingOf(const JsonReader& reader) {
+    const auto given = reader.find("interpolation");
+    if (!given) return Easing::smooth;
+    return given->choice(easings) == 0 ? Easing::linear : Easing::smooth;
+}
+
+Place placeOf(const JsonReader& reader) {
+    if (const auto numbers = reader.threeNumbers()) {
+        const glm::dvec3 point((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::abs(point[axis]) > farthest) reader.failExpecting("numbers from -1e12 to 1e12");
+        return point;
+    }
+    if (!reader.value().is_string()) reader.failExpecting("three numbers or the name of a node");
+    return reader.text();
+}
+
+FrameRange rangeOf(const JsonReader& reader) {
+    const char* what = "two frames, the first and the last";
+    const std::vector<JsonReader> ends = reader.elements(2, what);
+    if (ends.size() != 2) reader.failExpecting(what);
+    const FrameRange range{static_cast<int>(ends[0].whole(0, mostFrame)),
+                           static_cast<int>(ends[1].whole(0, mostFrame))};
+    if (range.last < range.first) reader.failExpecting("a last frame that isn't before the first");
+    return range;
+}
+
+// A movement's own range takes time: two frames or more.
+std::optional<FrameRange> movementFrames(const JsonReader& reader) {
+    const auto given = reader.find("frames");
+    if (!given) return {};
+    const FrameRange range = rangeOf(*given);
+    if (range.first == range.last) given->failExpecting("a last frame after the first");
+    return range;
+}
+
+// The keys of a track with their frames, in order.
+std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, const std::vector<std::string>& known) {
+    std::vector<std::pair<double, JsonReader>> keys;
+    for (const JsonReader& key : reader.elements(1, "one key or more, each with a frame")) {
+        key.requireObject(known);
+        const double frame = key.at("frame").number(0, mostFrame);
+        if (!keys.empty() && !(frame > keys.back().first))
+            key.at("frame").failExpecting(fmt::format("a frame after the key before it, {}", keys.back().first));
+        keys.emplace_back(frame, key);
+    }
+    return keys;
+}
+
+// ---- camera, focus, lens
+// ---------------------------------------------------------------------------------------------
+
+CameraKeys cameraKeysOf(const JsonReader& camera) {
+    CameraKeys result;
+    for (const auto& [frame, key] : keysOf(camera.at("keys"), {"frame", "position", "target"})) {
+        result.positions.push_back({frame, placeOf(key.at("position"))});
+        result.targets.push_back({frame, placeOf(key.at("target"))});
+    }
+    result.easing = easingOf(camera);
+    return result;
+}
+
+Turntable turntableOf(const JsonReader& reader) {
+    reader.requireObject({"turns", "centre", "frames"});
+    Turntable turntable;
+    if (const auto turns = reader.find("turns")) turntable.turns = turns->number(-1000, 1000);
+    if (const auto centre = reader.find("centre")) turntable.centre = placeOf(*centre);
+    turntable.frames = movementFrames(reader);
+    return turntable;
+}
+
+Dolly dollyOf(const JsonReader& reader) {
+    reader.requireObject({"distance", "interpolation", "frames"});
+    Dolly dolly;
+    dolly.distance = reader.at("distance").number(-1e9, 1e9);
+    dolly.easing = easingOf(reader);
+    dolly.frames = movementFrames(reader);
+    return dolly;
+}
+
+ShotCamera cameraOf(const JsonReader& reader) {
+    reader.requireObject({"name", "keys", "interpolation", "turntable", "dolly"});
+    ShotCamera camera;
+    if (const auto name = reader.find("name")) camera.name = name->text();
+    const int movements = int{reader.has("keys")} + int{reader.has("turntable")} + int{reader.has("dolly")};
+    if (movements > 1) reader.failWith("give one of keys, turntable and dolly");
+    if (reader.has("interpolation") && !reader.has("keys"))
+        reader.at("interpolation").failWith("only keys are interpolated; a dolly has its own 'interpolation'");
+    if (reader.has("keys")) camera.movement = cameraKeysOf(reader);
+    if (reader.has("turntable")) camera.movement = turntableOf(reader.at("turntable"));
+    if (reader.has("dolly")) camera.movement = dollyOf(reader.at("dolly"));
+    return camera;
+}
+
+FocusTarget focusTargetOf(const JsonReader& reader) {
+    if (reader.has("node") == reader.has("distance")) reader.failWith("give either 'node' or 'distance'");
+    if (const auto node = reader.find("node")) return node->text();
+    const LensField& field = *lensFieldNamed("focusDistance");
+    return reader.at("distance").number(field.least, field.most);
+}
+
+FocusTrack focusOf(const JsonReader& reader) {
+    reader.requireObject({"node", "distance", "keys", "interpolation"});
+    FocusTrack focus;
+    if (!reader.has("keys")) {
+        focus.keys = {{0, focusTargetOf(reader)}};
+        if (const auto easing = reader.find("interpolation")) easing->failWith("only keys are interpolated");
+        return focus;
+    }
+    if (reader.has("node") || reader.has("distance")) reader.failWith("give either 'keys', 'node' or 'distance'");
+    for (const auto& [frame, key] : keysOf(reader.at("keys"), {"frame", "node", "distance"}))
+        focus.keys.push_back({frame, focusTargetOf(key)});
+    focus.easing = easingOf(reader);
+    return focus;
+}
+
+double lensNumberOf(const JsonReader& reader, const LensField& field) {
+    if (std::holds_alternative<bool Lens::*>(field.member)) return reader.truth() ? 1 : 0;
+    const bool whole = std::holds_alternative<int Lens::*>(field.member);
+    const double value = whole ? static_cast<double>(reader.whole(static_cast<std::int64_t>(field.least),
+                                                                  static_cast<std::int64_t>(field.most)))
+                               : reader.number(field.least, field.most);
+    try {
+        Lens scratch;
+        setLensField(scratch, field, value);
+    } catch (const Error& error) {
+        reader.failWith(error.what());
+    }
+    return value;
+}
+
+LensTrack lensTrackOf(const JsonReader& reader, const LensField& field) {
+    LensTrack track;
+    if (!reader.value().is_object()) {
+        track.keys = {{0, lensNumberOf(reader, field)}};
+        return track;
+    }
+    reader.requireObject({"keys", "interpolation"});
+    for (const auto& [frame, key] : keysOf(reader.at("keys"), {"frame", "value"}))
+        track.keys.push_back({frame, lensNumberOf(key.at("value"), field)});
+    track.easing = easingOf(reader);
+    return track;
+}
+
+std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
+    std::vector<std::string> names;
+    for (const LensField& field : lensFields()) names.emplace_back(field.name);
+    reader.requireObject(names);
+    std::map<std::string, LensTrack, std::less<>> lens;
+    for (const auto& [name, member] : reader.members()) lens[name] = lensTrackOf(member, *lensFieldNamed(name));
+    return lens;
+}
+
+// ---- the rest
+// --------------------------------------------------------------------------------------------------------
+
+ShotAnimation animationOf(const JsonReader& reader) {
+    reader.requireObject({"clip", "start", "speed", "loop"});
+    ShotAnimation animation;
+    if (const auto clip = reader.find("clip")) {
+        if (clip->value().is_string())
+            animation.clip = clip->text();
+        else if (clip->value().is_number())
+            animation.clip = static_cast<int>(clip->whole(0, 1'000'000));
+        else
+            clip->failExpecting("the number or the name of a clip");
+    }
+    if (const auto start = reader.find("start")) animation.start = start->number(-1e9, 1e9);
+    if (const auto speed = reader.find("speed")) animation.speed = speed->number(-1e3, 1e3);
+    if (const auto loop = reader.find("loop")) animation.loop = loop->truth();
+    return animation;
+}
+
+void readScene(const JsonReader& reader, Shot& shot) {
+    const auto path = [&](const JsonReader& value) { return shot.file.parent_path() / value.text(); };
+    if (const auto scene = reader.find("scene")) shot.scene = path(*scene);
+    if (const auto fish = reader.find("fish")) {
+        if (!shot.scene.empty()) fish->failWith("is for the built-in school of fish; this shot names a scene");
+        fish->requireObject({"count", "triangles"});
+        if (const auto count = fish->find("count")) shot.fishCount = static_cast<int>(count->whole(1, 10'000));
+        if (const auto triangles = fish->find("triangles"))
+            shot.trianglesPerFish = static_cast<int>(triangles->whole(200, 10'000'000));
+    }
+    if (const auto environment = reader.find("environment")) shot.environment = path(*environment);
+    if (const auto background = reader.find("background")) {
+        const auto colour = background->threeNumbers();
+        if (colour && std::ranges::all_of(*colour, [](double c) { return c >= 0 && c <= 1e9; }))
+            shot.background = glm::dvec3((*colour)[0], (*colour)[1], (*colour)[2]);
+        else if (background->value() == "environment" || background->value() == "none")
+            shot.background = background->text();
+        else
+            background->failExpecting(
+                "\"environment\", \"none\" or three numbers of 0 or more (linear red, green, blue)");
+    }
+}
+
+void readQuality(const JsonReader& reader, Shot& shot) {
+    if (const auto size = reader.find("size")) {
+        const char* what = "the width and the height in pixels";
+        const std::vector<JsonReader> sides = size->elements(2, what);
+        if (sides.size() != 2) size->failExpecting(what);
+        shot.width = static_cast<int>(sides[0].whole(1, mostPixels));
+        shot.height = static_cast<int>(sides[1].whole(1, mostPixels));
+    }
+    if (const auto samples = reader.find("samples"))
+        shot.samples = static_cast<std::uint32_t>(samples->whole(1, mostSamples));
+    if (const auto seed = reader.find("seed"))
+        shot.seed = static_cast<std::uint32_t>(seed->whole(0, std::numeric_limits<std::uint32_t>::max()));
+    if (const auto animate = reader.find("animateSeed")) shot.animateSeed = animate->truth();
+    if (const auto lod = reader.find("lod")) {
+        const std::vector<LodMode> modes = {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off};
+        std::vector<std::string> names;
+        for (const LodMode mode : modes) names.emplace_back(lodModeName(mode));
+        shot.lod = modes[lod->choice(names)];
+    }
+    if (const auto metric = reader.find("lodMetric"))
+        shot.lodMetric = metric->choice({"size", "error"}) == 0 ? LodMetric::size : LodMetric::error;
+    if (const auto blur = reader.find("blurThreshold")) shot.blurThreshold = blur->number(0, 1e3);
+    if (const auto size = reader.find("sizeThreshold")) shot.sizeThreshold = size->number(0, 1e6);
+    if (const auto method = reader.find("method")) {
+        try {
+            shot.method = parseMethodUse(method->text()).text();
+        } catch (const Error& error) {
+            method->failWith(error.what());
+        }
+    }
+    if (const auto format = reader.find("layerFormat")) {
+        const std::vector<LayerFormat> formats = {LayerFormat::automatic, LayerFormat::rgb9e5, LayerFormat::rgba16f,
+                                                  LayerFormat::rgba32f, LayerFormat::rgba8};
+        shot.layerFormat = formats[format->choice({"automatic", "rgb9e5", "rgba16f", "rgba32f", "rgba8"})];
+    }
+}
+
+void readOutput(const JsonReader& reader, Shot& shot) {
+    if (const auto output = reader.find("output")) {
+        shot.outputs.clear();
+        if (!output->value().is_array()) shot.outputs.push_back(output->text());
+        if (output->value().is_array())
+            for (const JsonReader& each : output->elements(1, "one pattern or more"))
+                shot.outputs.push_back(each.text());
+    }
+    if (const auto exposure = reader.find("exposure")) shot.exposure = exposure->number(-60, 60);
+    if (const auto toneMap = reader.find("toneMap")) {
+        const ToneMap maps[] = {ToneMap::none, ToneMap::aces, ToneMap::agx};
+        shot.toneMap = maps[toneMap->choice({"none", "aces", "agx"})];
+    }
+    if (const auto video = reader.find("video")) shot.video = video->text();
+}
+
+Shot shotOf(const json& document, const fs::path& file) {
+    const JsonReader reader(document, file.string());
+    reader.requireObject({"$schema",     "scene",     "fish",          "environment",   "background",
+                          "frameRate",   "range",     "animation",     "camera",        "focus",
+                          "lens",        "size",      "samples",       "seed",          "animateSeed",
+                          "lod",         "lodMetric", "blurThreshold", "sizeThreshold", "method",
+                          "layerFormat", "output",    "exposure",      "toneMap",       "video"});
+    Shot shot;
+    shot.file = file;
+    if (const auto schema = reader.find("$schema")) static_cast<void>(schema->text());
+    readScene(reader, shot);
+    if (const auto rate = reader.find("frameRate")) shot.frameRate = rate->number(1e-3, 1e6);
+    if (const auto range = reader.find("range")) shot.range = rangeOf(*range);
+    if (const auto animation = reader.find("animation")) shot.animation = animationOf(*animation);
+    if (const auto camera = reader.find("camera")) shot.camera = cameraOf(*camera);
+    if (const auto focus = reader.find("focus")) shot.focus = focusOf(*focus);
+    if (const auto lens = reader.find("lens")) shot.lens = lensOf(*lens);
+    if (shot.focus && shot.lens.contains("focusDistance"))
+        reader.at("lens").at("focusDistance").failWith("the shot has a 'focus' too; give one of them");
+    readQuality(reader, shot);
+    readOutput(reader, shot);
+    return shot;
+}
+
+json parsed(std::string_view text, const fs::path& file) {
+    try {
+        return json::parse(text);
+    } catch (const json::parse_error& error) {
+        const std::size_t end = std::min(error.byte, text.size());
+        const std::string_view before = text.substr(0, end > 0 ? end - 1 : 0);
+        const auto line = 1 + std::ranges::count(before, '\n');
+        const std::size_t lineBreak = before.rfind('\n');
+        fail("{}: line {}, column {}: not JSON: something is missing or too much here", file.string(), line,
+             lineBreak == std::string_view::npos ? before.size() + 1 : before.size() - lineBreak);
+    }
+}
+
+void replaceValue(json& document, const ShotOverride& given) {
+    json value = json::parse(given.value, nullptr, false);
+    if (value.is_discarded()) value = given.value;
+    try {
+        document[json::json_pointer(given.pointer)] = value;
+    } catch (const json::exception&) {
+        fail("--set {}: there is no such place in the shot; it is a JSON pointer, such as /lens/fStop=1.4",
+             given.pointer);
+    }
+}
+
+}  // namespace
+
+ShotOverride parseShotOverride(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    if (text.empty() || text.front() != '/' || equals == std::string_view::npos)
+        fail("'{}' is not /PLACE=VALUE, such as /lens/fStop=1.4", text);
+    return {std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
+}
+
+Shot parseShot(std::string_view text, const fs::path& file, const std::vector<ShotOverride>& overrides) {
+    json document = parsed(text, file);
+    for (const ShotOverride& given : overrides) replaceValue(document, given);
+    return shotOf(document, file);
+}
+
+Shot loadShot(const fs::path& path, const std::vector<ShotOverride>& overrides) {
+    const std::vector<std::byte> bytes = readFile(path);
+    return parseShot({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, overrides);
+}
+
+FrameRange parseFrameRange(std::string_view text) {
+    const auto frame = [&](std::string_view part) {
+        int value = -1;
+        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (fault != std::errc() || end != part.data() + part.size() || value < 0 || value > mostFrame)
+            fail("'{}' is not FIRST:LAST, whole frames from 0 to {}, such as 0:240", text, mostFrame);
+        return value;
+    };
+    const std::size_t colon = text.find(':');
+    const int first = frame(text.substr(0, colon));
+    const int last = colon == std::string_view::npos ? first : frame(text.substr(colon + 1));
+    if (last < first) fail("'{}': the last frame lies before the first", text);
+    return {first, last};
+}
+
+}  // namespace defocus

@@ -1,0 +1,196 @@
+#include "capture/video.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "image/tone_map.h"
+
+extern char** environ;  // NOLINT: POSIX asks for this declaration
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Encoder options by the film's ending.
+const std::vector<std::pair<std::string, std::vector<std::string>>>& encoders() {
+    // H.264 with 4:2:0 colour plays everywhere, and needs even sides; 18 is visually lossless.
+    static const std::string evenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
+    static const std::vector<std::string> h264 = {"-vf", evenSides,  "-c:v",    "libx264",   "-crf",
+                                                  "18",  "-pix_fmt", "yuv420p", "-movflags", "+faststart"};
+    static const std::vector<std::pair<std::string, std::vector<std::string>>> table = {
+        {".mp4", h264},
+        {".mov", h264},
+        {".mkv", {"-vf", evenSides, "-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p"}},
+        {".webm", {"-vf", evenSides, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-pix_fmt", "yuv420p"}},
+        // One palette for the whole film, and dithering that stands still.
+        {".gif", {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer"}},
+    };
+    return table;
+}
+
+const std::vector<std::string>& encoderOf(const fs::path& path) {
+    const std::string ending = path.extension().string();
+    std::string known;
+    for (const auto& [name, options] : encoders()) {
+        if (name == ending) return options;
+        known += (known.empty() ? "" : ", ") + name;
+    }
+    fail("{}: unknown kind of film \"{}\"; use one of {}", path.string(), ending, known);
+}
+
+bool isInstalled(const std::string& program) {
+    const char* folders = std::getenv("PATH");
+    std::string rest = folders == nullptr ? "" : folders;
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find(':'), rest.size());
+        if (::access((fs::path(rest.substr(0, end)) / program).c_str(), X_OK) == 0) return true;
+        rest.erase(0, end + 1);
+    }
+    return false;
+}
+
+// ffmpeg with a pipe to its input; what it says goes to a file.
+class Encoder {
+public:
+    Encoder(const std::vector<std::string>& arguments, const fs::path& messages) {
+        int ends[2];
+        if (::pipe2(ends, O_CLOEXEC) != 0) fail("ffmpeg cannot be started: no pipe");
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        std::vector<std::string> words = arguments;
+        std::vector<char*> pointers;
+        for (std::string& word : words) pointers.push_back(word.data());
+        pointers.push_back(nullptr);
+        const int fault = ::posix_spawnp(&process_, "ffmpeg", &actions, nullptr, pointers.data(), environ);
+        posix_spawn_file_actions_destroy(&actions);
+        ::close(ends[0]);
+        input_ = ends[1];
+        if (fault != 0) {
+            ::close(input_);
+            fail("ffmpeg cannot be started: {}", std::generic_category().message(fault));
+        }
+    }
+    ~Encoder() {
+        if (process_ <= 0) return;
+        ::kill(process_, SIGKILL);
+        close();
+    }
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
+
+    // False once ffmpeg reads no more.
+    bool write(const std::vector<std::uint8_t>& bytes) const {
+        for (std::size_t done = 0; done < bytes.size();) {
+            const ssize_t count = ::write(input_, bytes.data() + done, bytes.size() - done);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) return false;
+            done += static_cast<std::size_t>(count);
+        }
+        return true;
+    }
+
+    // Waits for its end; true if all went well.
+    bool close() {
+        ::close(input_);
+        int status = 0;
+        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        process_ = -1;
+        return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    }
+
+private:
+    pid_t process_ = -1;
+    int input_ = -1;
+};
+
+std::vector<std::uint8_t> displayBytes(const fs::path& path, const Image& first, const WriteOptions& options) {
+    Image image = readImage(path);
+    if (image.width != first.width || image.height != first.height)
+        fail("{}: is {}x{} and not {}x{} as the film's first frame", path.string(), image.width, image.height,
+             first.width, first.height);
+    // A PNG or JPEG has been through the tone map; only its encoding is undone by reading.
+    const bool linear = path.extension() == ".exr";
+    image = linear ? displayEncoded(image, options.toneMap, options.exposure) : displayEncoded(image);
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i < image.pixels.size(); i += channels)
+        for (std::size_t c = 0; c < 3; ++c)
+            bytes.push_back(
+                static_cast<std::uint8_t>(std::lround(255.0f * image.pixels[i + std::min(c, channels - 1)])));
+    return bytes;
+}
+
+std::string lastLine(const fs::path& path) {
+    const std::vector<std::byte> bytes = readFile(path);
+    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text.substr(text.find_last_of("\r\n") + 1);
+}
+
+}  // namespace
+
+void checkVideo(const fs::path& path) {
+    static_cast<void>(encoderOf(path));
+    if (!isInstalled("ffmpeg"))
+        fail(
+            "{}: films are made by the program ffmpeg, which isn't installed (Debian: apt install ffmpeg); the frames "
+            "can be rendered without --video",
+            path.string());
+    checkWritable(path);
+}
+
+void writeVideo(const fs::path& path, const std::vector<fs::path>& frames, const VideoOptions& options,
+                const Progress& progress) {
+    if (frames.empty()) fail("{}: a film needs a frame", path.string());
+    const Image first = readImage(frames.front());
+    PendingFile film(path);
+    PendingFile messages(path.string() + ".log");  // never kept
+
+    std::vector<std::string> arguments = {"ffmpeg",      "-y",
+                                          "-v",          "error",
+                                          "-f",          "rawvideo",
+                                          "-pix_fmt",    "rgb24",
+                                          "-video_size", fmt::format("{}x{}", first.width, first.height),
+                                          "-framerate",  fmt::format("{}", options.frameRate),
+                                          "-i",          "-"};
+    const std::vector<std::string>& encoder = encoderOf(path);
+    arguments.insert(arguments.end(), encoder.begin(), encoder.end());
+    arguments.push_back(film.temporaryPath().string());
+
+    // Frame by frame; when ffmpeg stops listening, its last words say why. It must not end us.
+    const auto previous = std::signal(SIGPIPE, SIG_IGN);
+    Encoder ffmpeg(arguments, messages.temporaryPath());
+    bool listening = true;
+    for (std::size_t i = 0; i < frames.size() && listening; ++i) {
+        report(progress, "film", i, frames.size());
+        listening = ffmpeg.write(displayBytes(frames[i], first, options.image));
+    }
+    const bool finished = ffmpeg.close();
+    std::signal(SIGPIPE, previous);
+    if (!finished || !listening)
+        fail("{}: cannot be written: ffmpeg says: {}", path.string(), lastLine(messages.temporaryPath()));
+    film.commit();
+}
+
+}  // namespace defocus

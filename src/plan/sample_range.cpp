@@ -1,0 +1,40 @@
+#include "plan/sample_range.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace defocus {
+
+namespace {
+
+LevelDraw within(const LevelDraw& draw, std::uint32_t first, std::uint32_t count) {
+    const std::uint32_t begin = std::max(draw.firstSample, first);
+    const std::uint32_t end = std::min(draw.firstSample + draw.sampleCount, first + count);
+    LevelDraw cut = draw;
+    cut.firstSample = begin < end ? begin - first : 0;
+    cut.sampleCount = begin < end ? end - begin : 0;
+    return cut;
+}
+
+}  // namespace
+
+FramePlan samplesOf(const FramePlan& plan, std::uint32_t first, std::uint32_t count) {
+    assert(std::size_t{first} + count <= plan.samples.size());
+    FramePlan part = plan;
+    const auto begin = plan.samples.begin() + first;
+    part.samples.assign(begin, begin + count);
+    part.settings.sampleCount = count;
+    part.settings.firstSample += first;
+    part.trianglesDrawn = 0;
+    for (ObjectPlan& object : part.objects) {
+        object.coarse = within(object.coarse, first, count);
+        object.fine = within(object.fine, first, count);
+        for (const LevelDraw& draw : {object.coarse, object.fine})
+            part.trianglesDrawn += std::uint64_t{draw.triangleCount} * draw.sampleCount;
+        // The sample that both draw may be the last of `coarse` or lie outside.
+        if (!boundarySample(object)) object.boundaryShare = 0;
+    }
+    return part;
+}
+
+}  // namespace defocus

@@ -1,0 +1,160 @@
+#include "capture/frame_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <set>
+
+#include "capture/shot_json.h"
+#include "core/error.h"
+
+namespace defocus {
+namespace {
+
+// Two nodes without meshes, "Still" at (0, 0, −4) and "Rising", which climbs 1 m a second for 2 s; a camera of its own
+// looks along −z from the origin.
+class FrameSequence : public testing::Test {
+protected:
+    FrameSequence() {
+        Node still;
+        still.name = "Still";
+        still.translation = {0, 0, -4};
+        Node rising;
+        rising.name = "Rising";
+        rising.translation = {0, 0, -2};
+        Node tripod;
+        tripod.name = "Tripod";
+        tripod.camera = 0;
+        scene_.nodes = {still, rising, tripod};
+        scene_.roots = {0, 1, 2};
+        scene_.cameras.push_back({.name = "Main"});
+        AnimationChannel climb;
+        climb.node = 1;
+        climb.times = {0, 2};
+        climb.values = {0, 0, -2, 0, 2, -2};
+        scene_.clips.push_back({"Climb", {climb}, 2});
+        base_.scene = &scene_;
+    }
+
+    [[nodiscard]] SequenceFrame frame(const char* shot, int number) const {
+        return frameAt(parseShot(shot, "x.json"), base_, number);
+    }
+    [[nodiscard]] static glm::dvec3 placeOf(const SequenceFrame& frame) { return frame.view.worldFromCamera[3]; }
+    [[nodiscard]] static glm::dvec3 forwardOf(const SequenceFrame& frame) {
+        return -glm::dvec3(frame.view.worldFromCamera[2]);
+    }
+    static void expectNear(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::length(a - b), 1e-12); }
+
+    Scene scene_;
+    SequenceBase base_;
+};
+
+TEST_F(FrameSequence, timeFollowsRateStartSpeedAndLoop) {
+    EXPECT_EQ(frame(R"({"frameRate": 10})", 5).time, 0.5);
+    EXPECT_EQ(frame(R"({"frameRate": 10, "animation": {"start": 1, "speed": 2}})", 5).time, 2);
+    EXPECT_DOUBLE_EQ(frame(R"({"frameRate": 10, "animation": {"loop": true}})", 45).time, 0.5);
+    EXPECT_DOUBLE_EQ(frame(R"({"frameRate": 10, "animation": {"loop": true, "speed": -1}})", 5).time, 1.5);
+    EXPECT_EQ(frame(R"({"frameRate": 10, "animation": {"clip": "Climb"}})", 10).pose.worldFromNode[1][3].y, 1);
+    EXPECT_THROW(frame(R"({"animation": {"clip": "Walk"}})", 0), Error);
+    EXPECT_THROW(frame(R"({"animation": {"clip": 1}})", 0), Error);
+}
+
+TEST_F(FrameSequence, cameraKeysLookFromPositionToTarget) {
+    const char* shot = R"({"frameRate": 10, "camera": {"interpolation": "linear", "keys": [
+        {"frame": 0, "position": [0, 0, 2], "target": "Rising"},
+        {"frame": 10, "position": [4, 0, -2], "target": "Rising"}]}})";
+    const SequenceFrame middle = frame(shot, 5);
+    expectNear(placeOf(middle), {2, 0, 0});
+    expectNear(forwardOf(middle), glm::normalize(glm::dvec3(0, 0.5, -2) - glm::dvec3(2, 0, 0)));
+    EXPECT_NEAR(middle.view.worldFromCamera[0].y, 0, 1e-12) << "upright";
+    const SequenceFrame down =
+        frame(R"({"camera": {"keys": [{"frame": 0, "position": [0, 3, 0], "target": [0, 0, 0]}]}})", 0);
+    expectNear(forwardOf(down), {0, -1, 0});
+    expectNear(glm::dvec3(down.view.worldFromCamera[1]), {0, 0, -1});
+    EXPECT_THROW(frame(R"({"camera": {"keys": [{"frame": 0, "position": [0, 0, 0], "target": [0, 0, 0]}]}})", 0),
+                 Error);
+}
+
+TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
+    const char* shot = R"({"range": [10, 50], "camera": {"turntable": {"centre": "Still"}}})";
+    expectNear(placeOf(frame(shot, 10)), {0, 0, 0});
+    expectNear(placeOf(frame(shot, 50)), {0, 0, 0});
+    expectNear(placeOf(frame(shot, 20)), {4, 0, -4});  // a quarter, counter-clockwise from above
+    expectNear(forwardOf(frame(shot, 20)), {-1, 0, 0});
+    expectNear(placeOf(frame(shot, 30)), {0, 0, -8});
+}
+
+TEST_F(FrameSequence, dollyGoesForwardOverItsFrames) {
+    const char* shot = R"({"range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20]}}})";
+    expectNear(placeOf(frame(shot, 5)), {0, 0, 0});
+    expectNear(placeOf(frame(shot, 15)), {0, 0, -1.5});
+    expectNear(placeOf(frame(shot, 80)), {0, 0, -3});
+}
+
+TEST_F(FrameSequence, focusFollowsNodesAndPullsInDioptres) {
+    EXPECT_NEAR(frame(R"({"focus": {"node": "Still"}})", 0).view.lens.focusDistance, 4, 1e-12);
+    EXPECT_NEAR(frame(R"({"focus": {"node": "Still"}, "range": [0, 2], "camera": {"dolly": {"distance": 1}}})", 2)
+                    .view.lens.focusDistance,
+                3, 1e-12);
+    const char* pull = R"({"focus": {"interpolation": "linear", "keys": [{"frame": 0, "node": "Rising"},
+                                                                       {"frame": 10, "node": "Still"}]}})";
+    EXPECT_NEAR(frame(pull, 5).view.lens.focusDistance, 1 / (0.5 / 2 + 0.5 / 4), 1e-12);
+    EXPECT_THROW(frame(R"({"focus": {"node": "Nobody"}})", 0), Error);
+    EXPECT_THROW(frame(R"({"focus": {"node": "Still"}, "range": [0, 2], "camera": {"dolly": {"distance": 9}}})", 2),
+                 Error);
+}
+
+// Keys that have no say at a frame may lie behind the camera.
+TEST_F(FrameSequence, focusAsksOnlyForNodesNearTheirTurn) {
+    const char* shot =
+        R"({"range": [0, 100], "camera": {"dolly": {"distance": 3, "frames": [50, 51]}}, "focus": {"keys": [
+        {"frame": 0, "node": "Rising"}, {"frame": 10, "node": "Still"}, {"frame": 20, "node": "Still"},
+        {"frame": 60, "node": "Still"}]}})";
+    EXPECT_NEAR(frame(shot, 60).view.lens.focusDistance, 1, 1e-9);
+}
+
+TEST_F(FrameSequence, lensValuesGoTheirOwnWay) {
+    const char* shot = R"({"lens": {
+        "fStop": {"keys": [{"frame": 0, "value": 1}, {"frame": 10, "value": 4}], "interpolation": "linear"},
+        "blurScale": {"keys": [{"frame": 0, "value": 1}, {"frame": 10, "value": 4}], "interpolation": "linear"},
+        "bladeCount": {"keys": [{"frame": 0, "value": 5}, {"frame": 10, "value": 9}]},
+        "bladeRotation": 90}})";
+    const Lens lens = frame(shot, 5).view.lens;
+    EXPECT_NEAR(lens.fStop, 2, 1e-12);
+    EXPECT_NEAR(lens.blurScale, 2.5, 1e-12);
+    EXPECT_EQ(lens.bladeCount, 5);
+    EXPECT_NEAR(lens.bladeRotation, std::numbers::pi / 2, 1e-12);
+    EXPECT_EQ(frame(shot, 10).view.lens.bladeCount, 9);
+    EXPECT_EQ(frame(shot, 99).view.lens.fStop, 4);
+}
+
+TEST_F(FrameSequence, faultsNameShotAndFrame) {
+    try {
+        frame(R"({"focus": {"node": "Nobody"}})", 7);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with("x.json: frame 7: there is no node 'Nobody'"))
+            << error.what();
+    }
+}
+
+TEST_F(FrameSequence, seedsDifferOnlyWhenAnimated) {
+    EXPECT_EQ(frame("{}", 3).settings.seed, frame("{}", 4).settings.seed);
+    std::set<std::uint32_t> seeds;
+    for (int i = 0; i < 100; ++i) seeds.insert(frame(R"({"animateSeed": true})", i).settings.seed);
+    EXPECT_EQ(seeds.size(), 100u);
+}
+
+TEST(ShardFrames, shareTheRangeWithoutRestAndWithoutOverlap) {
+    std::multiset<int> all;
+    for (int shard = 0; shard < 5; ++shard)
+        for (const int frame : shardFrames({7, 40}, shard, 5)) all.insert(frame);
+    ASSERT_EQ(all.size(), 34u);
+    EXPECT_EQ(*all.begin(), 7);
+    EXPECT_EQ(*all.rbegin(), 40);
+    EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 34u);
+}
+
+}  // namespace
+}  // namespace defocus

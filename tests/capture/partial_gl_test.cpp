@@ -1,0 +1,98 @@
+// Blocks of samples rendered apart and added up: the bits of a single run, whatever the levels and the split.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "capture/partial.h"
+#include "core/error.h"
+#include "gl/context.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Partial : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+
+    void SetUp() override {
+        std::string pattern = (fs::temp_directory_path() / "defocus-part-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+        folder_ = pattern;
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    static FramePlan planWith(const SmallWorld& small, LodMode mode) {
+        RenderSettings settings;
+        settings.sampleCount = 150;
+        settings.lod = mode;
+        settings.thresholds = {0.5, 2};
+        return planFrame(small.world, small.view, settings);
+    }
+
+    fs::path folder_;
+};
+std::unique_ptr<GlContext> Partial::context_;
+
+TEST_F(Partial, mergedBlocksAreTheSingleRun) {
+    const auto small = fiveSpheres();
+    for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
+        const FramePlan plan = planWith(*small, mode);
+        const auto whole = methodNamed("accumulation").make(small->world, {});
+        whole->start(plan);
+        while (whole->advance()) {
+        }
+        const Image expected = whole->image();
+
+        // Each part by a renderer of its own, with waves of its own, through a file.
+        std::vector<fs::path> paths;
+        std::uint32_t wave = 3;
+        for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {
+            RendererOptions options;
+            options.wave = wave += 4;
+            const auto renderer = methodNamed("accumulation").make(small->world, options);
+            FramePart part = renderPart(*renderer, plan, range);
+            part.settings = "same";
+            paths.push_back(folder_ / fmt::format("{}.exr", range.first));
+            writePart(paths.back(), part);
+        }
+        EXPECT_EQ(mergeParts({paths[1], paths[0]}).image.pixels, expected.pixels);
+    }
+}
+
+// Finished blocks are all that a part keeps: their number and samples, and that they are the sum.
+TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
+    const auto small = fiveSpheres();
+    const FramePlan plan = planWith(*small, LodMode::fractional);
+    const auto renderer = methodNamed("accumulation").make(small->world, {});
+    const FramePart part = renderPart(*renderer, plan, {64, 150});
+    ASSERT_EQ(part.blocks.size(), 2u);
+    EXPECT_EQ(part.blocks[0].samples, 64u);
+    EXPECT_EQ(part.blocks[1].samples, 22u);
+    EXPECT_EQ(part.frameSamples, 150u);
+    const Image mean = renderer->image();
+    for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+        double sum = 0;
+        for (const BlockSum& block : part.blocks)
+            sum += static_cast<double>(block.sum.pixels[i]) + static_cast<double>(block.compensation.pixels[i]);
+        ASSERT_NEAR(sum / 86, mean.pixels[i], 1e-6 * (1 + mean.pixels[i]));
+    }
+}
+
+TEST_F(Partial, rangesAreOfWholeBlocks) {
+    EXPECT_EQ(parseSampleRange("64:128").end, 128u);
+    for (const char* wrong : {"", ":", "0:", "64", "64:64", "128:64", "1:64", "a:b", "-64:0", "0:99999999"})
+        EXPECT_THROW(parseSampleRange(wrong), Error) << wrong;
+    EXPECT_NO_THROW(checkSampleRange({64, 150}, 150));
+    EXPECT_THROW(checkSampleRange({0, 100}, 150), Error);
+    EXPECT_THROW(checkSampleRange({0, 192}, 150), Error);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,119 @@
+#include "capture/shot_json.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace defocus {
+namespace {
+
+std::string faultOf(std::string_view text, const std::vector<ShotOverride>& overrides = {}) {
+    try {
+        parseShot(text, "shots/x.json", overrides);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(ShotJson, nothingSaidIsAShotOfOneFrame) {
+    const Shot shot = parseShot("{}", "a/x.json");
+    EXPECT_EQ(shot.range.first, 0);
+    EXPECT_EQ(shot.range.last, 0);
+    EXPECT_EQ(shot.frameRate, 24);
+    EXPECT_TRUE(shot.scene.empty());
+    EXPECT_FALSE(shot.focus);
+    EXPECT_EQ(shot.outputs, std::vector<std::string>{"frames/####.exr"});
+}
+
+TEST(ShotJson, pathsOfTheSceneAreRelativeToTheShot) {
+    const Shot shot = parseShot(R"({"scene": "fox.glb", "environment": "/skies/sky.hdr"})", "a/b/x.json");
+    EXPECT_EQ(shot.scene, "a/b/fox.glb");
+    EXPECT_EQ(shot.environment, "/skies/sky.hdr");
+}
+
+TEST(ShotJson, everyPartIsRead) {
+    const Shot shot = parseShot(R"({
+        "frameRate": 25, "range": [10, 20], "size": [320, 240], "samples": 16, "seed": 3, "animateSeed": true,
+        "animation": {"clip": "Walk", "start": 0.5, "speed": 2, "loop": true},
+        "camera": {"name": "Main", "keys": [{"frame": 1, "position": [1, 2, 3], "target": "Fox"},
+                                            {"frame": 2.5, "position": "Tree", "target": [0, 0, 0]}],
+                   "interpolation": "linear"},
+        "focus": {"keys": [{"frame": 0, "node": "Fox"}, {"frame": 9, "distance": 4}], "interpolation": "linear"},
+        "lens": {"fStop": 1.4, "dofEnabled": false, "bladeCount": 7,
+                 "blurScale": {"keys": [{"frame": 0, "value": 1}, {"frame": 5, "value": 2}]}},
+        "lod": "nearest", "method": "accumulation", "layerFormat": "rgba32f", "background": [0, 0.5, 1],
+        "output": ["a/#.exr", "b/#.png"], "exposure": -1, "toneMap": "agx", "video": "film.mp4"})",
+                                "x.json");
+    EXPECT_EQ(shot.range.last, 20);
+    EXPECT_EQ(std::get<std::string>(shot.animation.clip), "Walk");
+    EXPECT_TRUE(shot.animation.loop);
+    const auto& keys = std::get<CameraKeys>(shot.camera.movement);
+    EXPECT_EQ(keys.easing, Easing::linear);
+    EXPECT_EQ(std::get<glm::dvec3>(keys.positions[0].value), glm::dvec3(1, 2, 3));
+    EXPECT_EQ(std::get<std::string>(keys.targets[0].value), "Fox");
+    EXPECT_EQ(keys.positions[1].frame, 2.5);
+    ASSERT_TRUE(shot.focus);
+    EXPECT_EQ(std::get<double>(shot.focus->keys[1].value), 4);
+    EXPECT_EQ(shot.lens.at("dofEnabled").keys[0].value, 0);
+    EXPECT_EQ(shot.lens.at("blurScale").keys[1].value, 2);
+    EXPECT_EQ(shot.lens.at("blurScale").easing, Easing::smooth);
+    EXPECT_EQ(shot.lod, LodMode::nearest);
+    EXPECT_EQ(shot.outputs.size(), 2u);
+    EXPECT_EQ(shot.toneMap, ToneMap::agx);
+}
+
+TEST(ShotJson, faultsNameTheirPlaceAndWhatWasExpected) {
+    const std::pair<const char*, const char*> cases[] = {
+        {R"({"camera": {"keys": [{"frame": 0, "position": [0, 0, "a"], "target": [0, 0, 0]}]}})",
+         R"(shots/x.json: /camera/keys/0/position: expected three numbers or the name of a node, not [0,0,"a"])"},
+        {R"({"range": [0, -1]})", "shots/x.json: /range/1: expected a whole number from 0 to 9999999, not -1"},
+        {R"({"range": [5, 3]})", "shots/x.json: /range: expected a last frame that isn't before the first, not [5,3]"},
+        {R"({"lens": {"fStop": 0}})", "shots/x.json: /lens/fStop: expected a number from 0.001 to 1000000, not 0"},
+        {R"({"lens": {"bladeCount": 2}})",
+         "shots/x.json: /lens/bladeCount: bladeCount must be 0 (a disk) or 3 to 64, not 2"},
+        {R"({"lens": {"fstop": 2}})", "shots/x.json: /lens: there is no key 'fstop'; did you mean 'fStop'?"},
+        {R"({"sample": 2})", "shots/x.json: /: there is no key 'sample'; did you mean 'samples'?"},
+        {R"({"focus": {"keys": [{"frame": 3, "distance": 1}, {"frame": 3, "distance": 2}]}})",
+         "shots/x.json: /focus/keys/1/frame: expected a frame after the key before it, 3, not 3"},
+        {R"({"focus": {"keys": []}})",
+         "shots/x.json: /focus/keys: expected one key or more, each with a frame, not []"},
+        {R"({"focus": {"keys": [{"frame": 3}]}})", "shots/x.json: /focus/keys/0: give either 'node' or 'distance'"},
+        {R"({"lod": "best"})",
+         R"(shots/x.json: /lod: expected "fractional", "continuous", "nearest" or "off", not "best")"},
+        {R"({"focus": {"distance": 1}, "lens": {"focusDistance": 2}})",
+         "shots/x.json: /lens/focusDistance: the shot has a 'focus' too; give one of them"},
+        {R"({"camera": {"dolly": {"distance": 1}, "turntable": {}}})",
+         "shots/x.json: /camera: give one of keys, turntable and dolly"},
+        {R"([1])", "shots/x.json: /: expected an object, not [1]"},
+        {"{\"samples\": 4,\n  oops}",
+         "shots/x.json: line 2, column 3: not JSON: something is missing or too much here"},
+        {"", "shots/x.json: line 1, column 1: not JSON: something is missing or too much here"},
+    };
+    for (const auto& [text, message] : cases) EXPECT_EQ(faultOf(text), message) << text;
+}
+
+TEST(ShotJson, overridesReplaceValuesByTheirPlace) {
+    const Shot shot = parseShot(
+        R"({"samples": 4, "focus": {"node": "A"}})", "x.json",
+        {parseShotOverride("/samples=32"), parseShotOverride("/focus/node=B C"), parseShotOverride("/lens/fStop=1.4")});
+    EXPECT_EQ(shot.samples, 32u);
+    EXPECT_EQ(std::get<std::string>(shot.focus->keys[0].value), "B C");
+    EXPECT_EQ(shot.lens.at("fStop").keys[0].value, 1.4);
+    EXPECT_EQ(faultOf("{}", {parseShotOverride("/smaples=3")}),
+              "shots/x.json: /: there is no key 'smaples'; did you mean 'samples'?");
+    EXPECT_NE(faultOf(R"({"samples": 4})", {parseShotOverride("/samples/3=3")}), "");
+    EXPECT_THROW(parseShotOverride("samples=3"), Error);
+    EXPECT_THROW(parseShotOverride("/samples"), Error);
+}
+
+TEST(ShotJson, rangesOfTheCommandLine) {
+    EXPECT_EQ(parseFrameRange("0:240").last, 240);
+    EXPECT_EQ(parseFrameRange("12").first, 12);
+    EXPECT_EQ(parseFrameRange("12").last, 12);
+    for (const char* wrong : {"", ":", "1:", ":3", "5:4", "-1:3", "a:b", "1:2:3", "1.5:2", "99999999"})
+        EXPECT_THROW(parseFrameRange(wrong), Error) << wrong;
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,54 @@
+#include "plan/sample_range.h"
+
+#include <gtest/gtest.h>
+
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+// Which levels draw a sample of an object, and at which share of the pixels.
+struct Drawn {
+    std::vector<std::uint32_t> levels;
+    double share = 0;
+    bool operator==(const Drawn&) const = default;
+};
+
+Drawn drawnAt(const ObjectPlan& object, std::uint32_t sample) {
+    Drawn drawn;
+    for (const LevelDraw& draw : {object.coarse, object.fine})
+        if (sample >= draw.firstSample && sample < draw.firstSample + draw.sampleCount)
+            drawn.levels.push_back(draw.level);
+    if (boundarySample(object) == sample) drawn.share = object.boundaryShare;
+    return drawn;
+}
+
+TEST(SampleRange, eachSampleIsDrawnAsInTheWholeFrame) {
+    const auto small = fiveSpheres();
+    for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off}) {
+        RenderSettings settings;
+        settings.sampleCount = 150;
+        settings.lod = mode;
+        settings.seed = 5;
+        settings.thresholds = {0.5, 2};
+        const FramePlan whole = planFrame(small->world, small->view, settings);
+        std::uint64_t triangles = 0;
+        for (const auto& [first, count] : {std::pair(0u, 64u), std::pair(64u, 64u), std::pair(128u, 22u)}) {
+            const FramePlan part = samplesOf(whole, first, count);
+            ASSERT_EQ(part.samples.size(), count);
+            ASSERT_EQ(part.objects.size(), whole.objects.size());
+            EXPECT_EQ(part.settings.firstSample, first);
+            triangles += part.trianglesDrawn;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                EXPECT_EQ(part.samples[i].lens, whole.samples[first + i].lens);
+                for (std::size_t o = 0; o < whole.objects.size(); ++o)
+                    EXPECT_EQ(drawnAt(part.objects[o], i), drawnAt(whole.objects[o], first + i))
+                        << o << ' ' << first + i;
+            }
+        }
+        EXPECT_EQ(triangles, whole.trianglesDrawn);
+    }
+}
+
+}  // namespace
+}  // namespace defocus
