@@ -231,7 +231,11 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
         .add_option_function<std::vector<std::string>>(
             "--set",
             [&arguments](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts) arguments.overrides.push_back(parseShotOverride(text));
+                try {
+                    for (const std::string& text : texts) arguments.overrides.push_back(parseShotOverride(text));
+                } catch (const Error& error) {
+                    throw CLI::ValidationError(error.what());  // a fault of the command line
+                }
             },
             "Replaces a value of the shot, by its place: --set /lens/fStop=1.4. Can be given several times")
         ->allow_extra_args(false)

@@ -222,6 +222,7 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
             seconds += std::get<double>(own->second);
         for (const BlockSum& block : readPart(named.path).blocks) merge.add(block);
     }
+    merged.metadata.try_emplace("capDate", std::string());  // as the frames of a film: no time of writing
     if (merged.metadata.contains(secondsAttribute)) merged.metadata[secondsAttribute] = seconds;
     merged.image = merge.image();
     return merged;

@@ -30,8 +30,12 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
         // fStop: the smooth step in stops, from f/1.4 to f/2.8 a factor of two.
         const double t = frame / 7.0;
         EXPECT_NEAR(std::get<double>(metadata.at("aperture")), 1.4 * std::exp2(t * t * (3 - 2 * t)), 1e-5);
-        if (frame == 0) EXPECT_NEAR(std::get<double>(metadata.at("focus")), 2, 1e-6);
-        if (frame == 7) EXPECT_NEAR(std::get<double>(metadata.at("focus")), 8, 1e-5);
+        if (frame == 0) {
+            EXPECT_NEAR(std::get<double>(metadata.at("focus")), 2, 1e-6);
+        }
+        if (frame == 7) {
+            EXPECT_NEAR(std::get<double>(metadata.at("focus")), 8, 1e-5);
+        }
     }
     const std::string times = bytesOf("frames/timings.jsonl");
     EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), 8);
@@ -43,10 +47,11 @@ TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
     ASSERT_EQ(capture({}).exitCode, 0);
     ASSERT_EQ(capture({"--range", "5", "-o", "alone/####.exr"}).exitCode, 0);
     ASSERT_EQ(capture({"--shard", "2/3", "-o", "shard/####.exr", "-o", "shard/####.png", "--wave", "3"}).exitCode, 0);
-    for (const char* other : {"alone/0005.exr", "shard/0005.exr"}) EXPECT_EQ(bytesOf(other), bytesOf(name(5))) << other;
-    EXPECT_EQ(bytesOf("shard/0002.exr"), bytesOf(name(2)));
+    for (const char* other : {"alone/0005.exr", "shard/0005.exr"})
+        EXPECT_TRUE(bytesOf(other) == bytesOf(name(5))) << other;
+    EXPECT_TRUE(bytesOf("shard/0002.exr") == bytesOf(name(2)));
     EXPECT_FALSE(fs::exists(folder() / "shard/0003.exr"));
-    EXPECT_NE(bytesOf(name(4)), bytesOf(name(5)));
+    EXPECT_FALSE(bytesOf(name(4)) == bytesOf(name(5)));
 }
 
 TEST_F(Capture, shardsShareAllFrames) {
@@ -68,8 +73,8 @@ TEST_F(Capture, resumeKeepsFinishedFramesOnly) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("8 frames, 5 of them there before: 3 rendered"), std::string::npos) << outcome.err;
     EXPECT_EQ(fs::last_write_time(folder() / name(3)), before);
-    EXPECT_EQ(bytesOf(name(2)), second);
-    EXPECT_EQ(bytesOf(name(5)), fifth);
+    EXPECT_TRUE(bytesOf(name(2)) == second);
+    EXPECT_TRUE(bytesOf(name(5)) == fifth);
     EXPECT_FALSE(fs::exists(folder() / "frames/.0002.4711-0.exr"));
 }
 
@@ -153,14 +158,16 @@ TEST_F(Capture, fullDiskIsOneLineAndKeepsWhatIsThere) {
     expectOneLine(outcome, 1);
     EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("--resume"), std::string::npos) << outcome.err;
-    EXPECT_EQ(bytesOf(name(0)), first);
+    EXPECT_TRUE(bytesOf(name(0)) == first);
     EXPECT_FALSE(fs::exists(folder() / name(3)));
     EXPECT_EQ(fileCount(), 2u + 1 + 3 + 1) << "scene, shot, folder, frames, times";
 }
 
 TEST_F(Capture, withoutFfmpegAFilmIsRefusedBeforeTheWork) {
+    const std::string path = std::getenv("PATH");
     ::setenv("PATH", "/nowhere", 1);
     const Outcome outcome = capture({"--video", "film.mp4"});
+    ::setenv("PATH", path.c_str(), 1);
     expectOneLine(outcome, 1);
     EXPECT_NE(outcome.err.find("ffmpeg, which isn't installed"), std::string::npos) << outcome.err;
 }

@@ -54,7 +54,7 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     const std::string whole = bytesOf("f2.exr");
     ASSERT_EQ(
         run({"merge", "--quiet", "f2.part00000-00064.exr", "f2.part00064-00128.exr", "-o", "merged.exr"}).exitCode, 0);
-    EXPECT_EQ(bytesOf("merged.exr"), whole);
+    EXPECT_TRUE(bytesOf("merged.exr") == whole);
     // As a finished frame it is kept.
     fs::rename(folder() / "merged.exr", folder() / "f2.exr");
     const Outcome resumed = run({"capture", "shot.json", "--range", "2", "-o", "f#.exr", "--resume"});

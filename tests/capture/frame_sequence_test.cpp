@@ -28,7 +28,7 @@ protected:
         tripod.camera = 0;
         scene_.nodes = {still, rising, tripod};
         scene_.roots = {0, 1, 2};
-        scene_.cameras.push_back({.name = "Main"});
+        scene_.cameras.emplace_back().name = "Main";
         AnimationChannel climb;
         climb.node = 1;
         climb.times = {0, 2};
@@ -131,7 +131,7 @@ TEST_F(FrameSequence, lensValuesGoTheirOwnWay) {
 
 TEST_F(FrameSequence, faultsNameShotAndFrame) {
     try {
-        frame(R"({"focus": {"node": "Nobody"}})", 7);
+        static_cast<void>(frame(R"({"focus": {"node": "Nobody"}})", 7));
         FAIL();
     } catch (const Error& error) {
         EXPECT_TRUE(std::string(error.what()).starts_with("x.json: frame 7: there is no node 'Nobody'"))

@@ -133,7 +133,8 @@ void expectAgreement(const Schema& schema, const json& shot, const std::string& 
 
 std::vector<json::json_pointer> placesIn(const json& shot) {
     std::vector<json::json_pointer> places;
-    for (const auto& [pointer, value] : shot.flatten().items())
+    const json flat = shot.flatten();
+    for (const auto& [pointer, value] : flat.items())
         for (json::json_pointer place(pointer); !place.empty(); place = place.parent_pointer())
             if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
     return places;

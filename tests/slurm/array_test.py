@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+"""A film by a Slurm job array, on a real cluster of two nodes on the loopback interface: one task is killed half way and
+queued again; the film must be complete and the same bits as that of a single run.
+
+array_test.py PROGRAM BATCH_FILE; exit code 77: skipped, with the reason."""
+
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+FRAMES = 24
+TASKS = 4
+SKIPPED = 77
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(SKIPPED)
+
+
+def free_ports(count):
+    sockets = [socket.socket() for _ in range(count)]
+    for each in sockets:
+        each.bind(("127.0.0.1", 0))
+    ports = [each.getsockname()[1] for each in sockets]
+    for each in sockets:
+        each.close()
+    return ports
+
+
+def wait_until(what, condition, seconds=120):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return
+        time.sleep(0.2)
+    raise AssertionError(f"after {seconds} s: {what}")
+
+
+class Cluster:
+    """munged, slurmctld and two slurmd in a folder of their own."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.processes = []
+        self.environment = os.environ | {"SLURM_CONF": str(folder / "slurm.conf")}
+
+    def start(self):
+        self.start_munge()
+        controller, *nodes = free_ports(3)
+        host = socket.gethostname().split(".")[0]
+        cores = os.cpu_count() or 1
+        text = f"""ClusterName=test
+SlurmctldHost={host}(127.0.0.1)
+SlurmctldPort={controller}
+SlurmUser=root
+AuthType=auth/munge
+AuthInfo=socket={self.folder}/munge.socket,cred_expire=10
+CredType=cred/munge
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+MpiDefault=none
+ReturnToService=2
+KillWait=2
+SlurmctldPidFile={self.folder}/slurmctld.pid
+SlurmdPidFile={self.folder}/slurmd.%n.pid
+SlurmdSpoolDir={self.folder}/spool.%n
+StateSaveLocation={self.folder}/state
+SlurmctldLogFile={self.folder}/slurmctld.log
+SlurmdLogFile={self.folder}/slurmd.%n.log
+SchedulerParameters=batch_sched_delay=0,sched_interval=1
+MinJobAge=600
+"""
+        for name, port in zip(("one", "two"), nodes):
+            text += f"NodeName={name} NodeAddr=127.0.0.1 NodeHostname={host} Port={port} CPUs={cores} State=UNKNOWN\n"
+            (self.folder / f"spool.{name}").mkdir()
+        text += "PartitionName=all Nodes=one,two Default=YES MaxTime=INFINITE State=UP OverSubscribe=NO\n"
+        (self.folder / "state").mkdir()
+        (self.folder / "slurm.conf").write_text(text)
+        self.run_daemon(["slurmctld", "-D", "-i", "-f", str(self.folder / "slurm.conf")])
+        for name in ("one", "two"):
+            self.run_daemon(["slurmd", "-D", "-N", name, "-f", str(self.folder / "slurm.conf")])
+        wait_until("the nodes are not idle", lambda: self.ask("sinfo", "-h", "-o", "%T").split() == ["idle"], 60)
+
+    def start_munge(self):
+        key = self.folder / "munge.key"
+        key.write_bytes(os.urandom(1024))
+        key.chmod(0o400)
+        self.run_daemon(["munged", "--foreground", "--force", f"--key-file={key}", f"--socket={self.folder}/munge.socket",
+                         f"--pid-file={self.folder}/munge.pid", f"--log-file={self.folder}/munge.log",
+                         f"--seed-file={self.folder}/munge.seed", "--num-threads=2"])
+        wait_until("munged has no socket", (self.folder / "munge.socket").exists, 20)
+
+    def run_daemon(self, words):
+        log = open(self.folder / f"{words[0]}.out", "ab")
+        self.processes.append(subprocess.Popen(words, env=self.environment, stdout=log, stderr=log))
+
+    def ask(self, *words):
+        result = subprocess.run(words, env=self.environment, capture_output=True, text=True)
+        return result.stdout if result.returncode == 0 else ""
+
+    def stop(self):
+        for process in reversed(self.processes):
+            process.terminate()
+        for process in reversed(self.processes):
+            try:
+                process.wait(20)
+            except subprocess.TimeoutExpired:
+                process.kill()
+
+
+def frame_bytes(folder):
+    return {path.name: path.read_bytes() for path in sorted(folder.glob("*.exr"))}
+
+
+def task_process(cluster, job, task):
+    """The id of the program's process of an array task: the leaf of its batch step."""
+    for status in Path("/proc").glob("[0-9]*/environ"):
+        try:
+            words = status.read_bytes().split(b"\0")
+            name = (status.parent / "comm").read_text().strip()
+        except OSError:
+            continue
+        wanted = {f"SLURM_ARRAY_JOB_ID={job}".encode(), f"SLURM_ARRAY_TASK_ID={task}".encode(),
+                  f"SLURM_CONF={cluster.folder}/slurm.conf".encode()}
+        if name == "defocus" and wanted <= set(words):
+            return int(status.parent.name)
+    return None
+
+
+def main():
+    program, batch = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    for needed in ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "sinfo", "squeue"):
+        if shutil.which(needed) is None:
+            skip(f"{needed} is not installed (Debian: slurm-wlm, munge)")
+    if os.geteuid() != 0:
+        skip("the daemons of a cluster are started by root only")
+
+    folder = Path(tempfile.mkdtemp(prefix="defocus-slurm-", dir="/tmp"))
+    cluster = Cluster(folder)
+    try:
+        os.environ["XDG_CACHE_HOME"] = str(folder / "cache")
+        cluster.environment["XDG_CACHE_HOME"] = str(folder / "cache")
+        cluster.environment["DEFOCUS"] = str(program)
+        shot = {"fish": {"count": 4, "triangles": 4000}, "range": [0, FRAMES - 1], "size": [256, 192], "samples": 64,
+                "focus": {"keys": [{"frame": 0, "distance": 1}, {"frame": FRAMES - 1, "distance": 4}]}}
+        (folder / "shot.json").write_text(json.dumps(shot))
+        subprocess.run([program, "capture", "shot.json", "--quiet", "-o", "single/####.exr"], cwd=folder, check=True)
+
+        # The array; one of its tasks dies with a frame done, and is queued again.
+        cluster.start()
+        frames = folder / "frames"
+        job = cluster.ask("sbatch", "--parsable", f"--array=0-{TASKS - 1}", f"--chdir={folder}", str(batch), "shot.json",
+                          "--quiet", "-o", f"{frames}/####.exr").strip()
+        assert job, "the job array was refused"
+        wait_until("task 1 has no frame", lambda: (frames / "0001.exr").exists())
+        victim = task_process(cluster, job, 1)
+        assert victim, "the process of task 1 was not found, or had ended"
+        os.kill(victim, signal.SIGKILL)
+        done = len(frame_bytes(frames))
+        facts = lambda: cluster.ask("scontrol", "show", "job", f"{job}_1")
+        wait_until("task 1 didn't end", lambda: "JobState=FAILED" in facts())
+        print(f"task 1 killed with {done} of {FRAMES} frames done")
+        assert not set(range(1, FRAMES, TASKS)) <= {int(name[:4]) for name in frame_bytes(frames)}, "it was done already"
+        subprocess.run(["scontrol", "requeue", f"{job}_1"], env=cluster.environment, check=True)
+        cluster.ask("scontrol", "update", f"JobId={job}_1", "StartTime=now")  # else it waits for its credential to expire
+        wait_until("task 1 didn't run again", lambda: "Restarts=1" in facts() and "JobState=COMPLETED" in facts())
+        wait_until("the job didn't end", lambda: cluster.ask("squeue", "-h", "-o", "%i").strip() == "")
+
+        # The film of the single run, and nothing else.
+        single, array = frame_bytes(folder / "single"), frame_bytes(frames)
+        assert len(single) == FRAMES
+        assert array.keys() == single.keys(), f"missing: {sorted(single.keys() - array.keys())}"
+        assert array == single, "frames differ from those of a single run"
+        left = [path.name for path in frames.iterdir() if path.name.startswith(".")]
+        assert not left, f"left behind: {left}"
+        print(f"{FRAMES} frames of {TASKS} tasks are those of a single run")
+    except BaseException:
+        for log in sorted(folder.glob("*.log")) + sorted(folder.glob("*.out")):
+            print(f"--- {log.name}\n{log.read_text(errors='replace')[-2000:]}")
+        raise
+    finally:
+        cluster.stop()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main()
