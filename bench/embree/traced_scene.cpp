@@ -3,6 +3,8 @@
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "core/error.h"
+#include "plan/object_pose.h"
+#include "scene/posed_mesh.h"
 
 namespace defocus {
 
@@ -21,12 +23,11 @@ void cullBackFaces(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
-std::vector<glm::vec4> transformedPositions(const Mesh& mesh, const glm::dmat4& cameraFromObject) {
+std::vector<glm::vec4> cameraPositions(const Mesh& mesh, const Object& object, const glm::dmat4& cameraFromWorld) {
     std::vector<glm::vec4> positions;
     positions.reserve(mesh.vertices.count());
-    for (const glm::vec3& position : mesh.vertices.positions) {
-        positions.emplace_back(cameraFromObject * glm::dvec4(position, 1.0));
-    }
+    for (const glm::dvec3& position : posedPositions(mesh, object))
+        positions.emplace_back(cameraFromWorld * glm::dvec4(position, 1.0));
     return positions;
 }
 
@@ -66,15 +67,18 @@ void TracedScene::addPrimitive(const TracedGeometry& geometry, const std::vector
 void TracedScene::addObject(const World& world, const Object& object, const glm::dmat4& cameraFromWorld) {
     if (object.mesh < 0) return;
     const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
-    positions_.push_back(transformedPositions(mesh, cameraFromWorld * object.worldFromObject));
+    positions_.push_back(cameraPositions(mesh, object, cameraFromWorld));
     bytes_ += static_cast<std::int64_t>(positions_.back().size() * sizeof(glm::vec4));
 
     TracedGeometry geometry;
     geometry.mesh = &mesh;
-    const glm::dmat3 linear(object.worldFromObject);
-    geometry.worldNormalFromObject = glm::mat3(glm::inverseTranspose(linear));
+    geometry.normals = &mesh.vertices.normals;
+    if (deformed(object))
+        geometry.normals = &normals_.emplace_back(posedNormals(mesh, object));
+    else
+        geometry.worldNormalFromObject = glm::mat3(glm::inverseTranspose(glm::dmat3(object.worldFromObject)));
     geometry.worldFromCamera = glm::mat3(glm::inverse(cameraFromWorld));
-    geometry.facing = glm::determinant(linear) < 0 ? -1.0f : 1.0f;
+    geometry.facing = mirrors(objectPose(object, glm::dmat4(1))) ? -1.0f : 1.0f;
     for (const Primitive& primitive : mesh.primitives) {
         if (primitive.indices.empty()) continue;
         geometry.primitive = &primitive;

@@ -22,6 +22,7 @@ namespace defocus {
 // A primitive of an object.
 struct TracedGeometry {
     const Mesh* mesh = nullptr;
+    const std::vector<glm::vec3>* normals = nullptr;  // the mesh's, or as posed
     const Primitive* primitive = nullptr;
     const Material* material = nullptr;
     glm::mat3 worldNormalFromObject{1.0f};  // not normalised
@@ -53,6 +54,7 @@ private:
     Material defaultMaterial_;
     std::deque<TracedGeometry> geometries_;         // by Embree geometry id; addresses stay put for the filter
     std::deque<std::vector<glm::vec4>> positions_;  // camera space, one array an object; Embree reads them in place
+    std::deque<std::vector<glm::vec3>> normals_;    // world space, one array a deformed object
     std::uint64_t triangleCount_ = 0;
     std::atomic<std::int64_t> bytes_ = 0;
     std::atomic<std::int64_t> peakBytes_ = 0;

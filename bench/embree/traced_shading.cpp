@@ -99,9 +99,8 @@ glm::vec3 baseColor(const Scene& scene, const TracedGeometry& geometry, const Co
 glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, const RTCRayHit& ray) {
     const glm::vec3 facet(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
     const float behind = glm::dot(facet, glm::vec3(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z)) * geometry.facing;
-    const glm::vec3 front = geometry.mesh->vertices.normals.empty()
-                                ? geometry.facing * (geometry.worldFromCamera * facet)
-                                : geometry.worldNormalFromObject * corners.mix(geometry.mesh->vertices.normals);
+    const glm::vec3 front = geometry.normals->empty() ? geometry.facing * (geometry.worldFromCamera * facet)
+                                                      : geometry.worldNormalFromObject * corners.mix(*geometry.normals);
     const float length = glm::length(front);
     return length > 0 ? front * ((behind > 0 ? -1.0f : 1.0f) / length) : glm::vec3(0);
 }

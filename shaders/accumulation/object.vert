@@ -17,6 +17,20 @@ layout(location = 5) in vec4 tangentIn;
 layout(location = 6) in vec4 lensAndJitterIn;   // an instance
 layout(location = 7) in vec4 eyeAndDitherIn;    // an instance: lens point (m), dither offset, layer
 layout(location = 8) in float cocScaleIn;
+#ifdef SKIN_INFLUENCES
+layout(location = 9) in vec4 jointsIn;
+layout(location = 10) in vec4 weightsIn;
+#if SKIN_INFLUENCES == 8
+layout(location = 11) in vec4 joints1In;
+layout(location = 12) in vec4 weights1In;
+#endif
+#endif
+#ifdef MOVING
+layout(location = 13) in vec2 momentIn;         // an instance: a moment of the shutter, how far it is to the next
+#endif
+#ifdef POSED
+#include "include/posing.glsl"
+#endif
 
 #ifdef VERTEX_LAYER
 #define STAGE_OUT surface
@@ -37,7 +51,28 @@ flat out vec2 ditherAndLayer;
 #endif
 
 void main() {
+    vec3 eye = vec3(eyeAndDitherIn.xy, 0.0);
+#ifdef POSED
+    Posed rest = Posed(positionIn, normalIn, tangentIn.xyz);
+#ifdef MOVING
+    Posed vertex = posedVertex(int(momentIn.x), rest);
+    if (momentIn.y > 0.0) vertex = between(vertex, posedVertex(int(momentIn.x) + 1, rest), momentIn.y);
+#else
+    Posed vertex = posedVertex(0, rest);
+#endif
+    vec3 pinhole = pinholePosition(vertex.position);
+#ifdef CAMERA_MOVES
+    toMiddle(momentIn, vertex, eye);
+#endif
+    vec3 viewPosition = vertex.position;
+    vec3 viewNormal = vertex.normal;
+    vec3 viewTangent = vertex.tangent;
+#else
     vec3 viewPosition = (object.viewFromObject * vec4(positionIn, 1.0)).xyz;
+    vec3 viewNormal = mat3(object.normalMatrix) * normalIn;
+    vec3 viewTangent = mat3(object.viewFromObject) * tangentIn.xyz;
+    vec3 pinhole = pinholePosition(viewPosition);
+#endif
     float cocScale = object.values.w;
 #ifdef VERTEX_COC_SCALES
     cocScale *= cocScaleIn;
@@ -52,8 +87,8 @@ void main() {
 #ifdef COARSE_LEVEL
     STAGE_OUT.agreement = length(normalIn);
 #endif
-    STAGE_OUT.normal = mat3(object.normalMatrix) * normalIn;
-    STAGE_OUT.toEye = vec3(eyeAndDitherIn.xy, 0.0) - viewPosition;
+    STAGE_OUT.normal = viewNormal;
+    STAGE_OUT.toEye = eye - viewPosition;
 #endif
 #if defined(LOCAL_LIGHTS)
     STAGE_OUT.position = viewPosition;
@@ -62,13 +97,12 @@ void main() {
     STAGE_OUT.uv = vec4(uv0In, uv1In);
 #endif
 #ifdef NORMAL_TEXTURE
-    STAGE_OUT.tangent = vec4(mat3(object.viewFromObject) * tangentIn.xyz, tangentIn.w);
+    STAGE_OUT.tangent = vec4(viewTangent, tangentIn.w);
 #endif
 #if defined(COC_SCALES) && defined(READS_COC_SCALE)
     STAGE_OUT.cocScale = cocScale;
 #endif
 
-    vec3 pinhole = pinholePosition(viewPosition);
 #ifdef REFINED
     gl_Position = vec4(pinhole, 1.0);
     unsheared.pinhole = pinhole;

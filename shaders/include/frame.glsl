@@ -23,6 +23,7 @@ layout(std140, binding = 1) uniform ObjectBlock {
     mat4 normalMatrix;    // inverse transpose, of the upper 3×3
     vec4 values;          // fractional level λ, share of its boundary sample that draws the coarser level, its number,
                           // scale of its blur
+    ivec4 posing;         // texels a pose, joints, morph targets that count, texels an attribute of a morph target
 } object;
 
 layout(std140, binding = 2) uniform MaterialBlock {

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <mutex>
 
+#include "app/exposure.h"
 #include "app/focus.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -146,7 +147,7 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     for (const auto& [name, scale] : options.nodeBlur)
         frame.scene->nodes[static_cast<std::size_t>(nodeNamed(*frame.scene, name))].cocScale = scale;
     frame.world.scene = frame.scene.get();
-    frame.world.pose = poseAt(*frame.scene, options.time);
+    frame.world.pose = exposedPose(options, *frame.scene);
 
     // The camera and its lens; the focus last, as it may depend on all else.
     const double aspect = static_cast<double>(options.width) / options.height;
@@ -164,6 +165,7 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
     frame.world.environment = chosenEnvironment(options, *frame.scene);
     frame.settings = chosenSettings(options);
+    openShutter(options, placed, frame.settings, frame.world, frame.view);
     frame.cacheFolder = chosenCacheFolder(options);
     frame.loadMilliseconds = loading.milliseconds();
     return frame;

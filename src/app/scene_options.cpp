@@ -61,6 +61,40 @@ void parseBackground(const std::string& text, SceneOptions& options) {
     options.background = choice == 0 ? Background::environment : Background::none;
 }
 
+// A number, or two with a slash as photographers have it: 1/48.
+double parseSeconds(const std::string& text) {
+    constexpr double longest = 1e6;
+    const std::size_t slash = text.find('/');
+    if (slash == std::string::npos) return parseNumber(text, {0, longest});
+    return parseNumber(text.substr(0, slash), {0, longest}) / parseNumber(text.substr(slash + 1), {1e-6, longest});
+}
+
+void parseSegments(const std::string& text, SceneOptions& options) {
+    constexpr std::uint64_t mostSegments = 64;
+    options.exactMotion = text == "exact";
+    if (!options.exactMotion) options.motionSegments = static_cast<std::uint32_t>(parseWhole(text, 1, mostSegments));
+}
+
+void addShutter(CLI::App& command, SceneOptions& options) {
+    const char* group = "Scene";
+    addParsed(command, "--shutter", "S",
+              "Seconds that the shutter stays open, as 0.02 or 1/48 (half of a frame of 24 a second): what the "
+              "animation moves meanwhile is blurred; without it, one moment",
+              [&options](const std::string& text) { options.shutter = parseSeconds(text); })
+        ->group(group);
+    addChoice<ShutterPosition>(
+        command, "--shutter-position", options.shutterPosition,
+        {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
+        "Where --time lies in the exposure")
+        ->group(group);
+    addParsed(command, "--motion-segments", "N|exact",
+              "Straight lines that a vertex's way is cut into while the shutter is open (1 to 64), or 'exact' for a "
+              "pose of its own for each sample",
+              [&options](const std::string& text) { parseSegments(text, options); })
+        ->default_str("1")
+        ->group(group);
+}
+
 void addScene(CLI::App& command, SceneOptions& options) {
     const char* group = "Scene";
     CLI::Option* scene =
@@ -73,8 +107,16 @@ void addScene(CLI::App& command, SceneOptions& options) {
         ->excludes(scene)
         ->group(group);
     addNumber(command, "--time", options.time, {-1e9, 1e9}, "S",
-              "Seconds into the first animation; before and after it, its ends")
+              "Seconds into the animation; before and after it, its ends")
         ->group(group);
+    command
+        .add_option("--clip", options.clip,
+                    "Which of the file's animations plays: its name or number (see 'defocus info'); without it, the "
+                    "first")
+        ->type_name("NAME|N")
+        ->group(group);
+    command.add_flag("--loop", options.loop, "Repeat the animation instead of holding its ends")->group(group);
+    addShutter(command, options);
     command
         .add_option("--environment", options.environment,
                     "Equirectangular image that lies behind the scene and lights it (.hdr or .exr)")

@@ -16,6 +16,9 @@
 
 namespace defocus {
 
+// Where `time` lies in the exposure.
+enum class ShutterPosition { start, centre, end };
+
 enum class Background { environment, none, uniform };
 
 // As the command line gives it. Each number was checked by itself; what depends on the scene is checked by placeFrame.
@@ -25,7 +28,13 @@ struct SceneOptions {
     std::filesystem::path path;
     int fishCount = 20;
     int trianglesPerFish = 90'000;
-    double time = 0;  // s into the scene's first animation
+    double time = 0;     // s into the animation
+    std::string clip;    // the animation's name or number; empty: the first
+    bool loop = false;   // the animation repeats
+    double shutter = 0;  // s that it stays open; 0: everything stands still
+    ShutterPosition shutterPosition = ShutterPosition::centre;
+    std::uint32_t motionSegments = 1;  // 1 … 64
+    bool exactMotion = false;          // a pose of its own for each sample instead
     std::filesystem::path environment;
     Background background = Background::environment;
     glm::vec3 backgroundColor{0.0f};  // Background::uniform

@@ -78,7 +78,11 @@ void addMeshes(Hasher& hasher, const World& world) {
         hasher.add(pyramidKey(mesh, {}).mesh);
         for (const Primitive& primitive : mesh.primitives) hasher.add(primitive.material);
     }
-    for (const Object& object : world.pose.objects) hasher.add(object.mesh, object.worldFromObject);
+    for (const Object& object : world.pose.objects) {
+        hasher.add(object.mesh, object.worldFromObject);
+        for (const glm::dmat4& matrix : object.worldFromJoint) hasher.add(matrix);
+        hasher.addAll(object.morphWeights);
+    }
 }
 
 void addLight(Hasher& hasher, const World& world) {

@@ -29,6 +29,8 @@ inline Vertices gathered(const Vertices& vertices, const std::vector<std::uint32
     result.joints = gathered(vertices.joints, order);
     result.weights = gathered(vertices.weights, order);
     result.cocScales = gathered(vertices.cocScales, order);
+    result.joints1 = gathered(vertices.joints1, order);
+    result.weights1 = gathered(vertices.weights1, order);
     return result;
 }
 

@@ -159,10 +159,33 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
         pyramid.levels.push_back(std::move(level));
     }
     separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));
+    measureDeformations(pyramid, mesh);
     return pyramid;
 }
 
 }  // namespace
+
+void measureDeformations(Pyramid& pyramid, const Mesh& mesh) {
+    const Vertices& vertices = pyramid.vertices;
+    const auto extend = [&](const glm::vec3& position, const glm::u16vec4& joints, const glm::vec4& weights) {
+        for (int i = 0; i < 4; ++i) {
+            if (!(weights[i] > 0)) continue;
+            if (pyramid.jointBounds.size() <= joints[i]) pyramid.jointBounds.resize(std::size_t{joints[i]} + 1);
+            pyramid.jointBounds[joints[i]].extend(glm::dvec3(position));
+        }
+    };
+    pyramid.jointBounds.clear();
+    for (const PyramidLevel& level : pyramid.levels)
+        for (std::size_t v = 0; v < level.positions.size(); ++v) {
+            if (!vertices.joints.empty()) extend(level.positions[v], vertices.joints[v], vertices.weights[v]);
+            if (!vertices.joints1.empty()) extend(level.positions[v], vertices.joints1[v], vertices.weights1[v]);
+        }
+    pyramid.morphBounds.clear();
+    for (const MorphTarget& target : mesh.morphTargets) {
+        Bounds& bounds = pyramid.morphBounds.emplace_back(boundsOf(target.positions));
+        bounds.extend(glm::dvec3(0));
+    }
+}
 
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options) {
     return build(mesh, options);

@@ -50,6 +50,8 @@ struct Pyramid {
     std::vector<std::uint32_t> indices;  // of all levels
     std::vector<PyramidLevel> levels;    // at least one; an empty mesh has one empty level
     Bounds bounds;                       // object units; of level 0's triangles
+    std::vector<Bounds> jointBounds;     // object units; of what each joint moves, at any level; empty without joints
+    std::vector<Bounds> morphBounds;     // object units; of each morph target's displacements and 0
     std::uint32_t repairedFaces = 0;     // faces that half-edges can't hold as they are; see manifold.h
 };
 
@@ -65,6 +67,9 @@ Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {});
 // One pyramid a mesh, built on all cores.
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},
                                    const Progress& progress = {});
+
+// Fills jointBounds and morphBounds from the rest of the pyramid and the mesh that it was made from.
+void measureDeformations(Pyramid& pyramid, const Mesh& mesh);
 
 // Only level 0, for renders that use no other; vertex and index order are optimised all the same.
 Pyramid fullDetail(const Mesh& mesh);

@@ -27,7 +27,8 @@ void hashStream(std::uint64_t& hash, const std::vector<T>& stream) {
 }
 
 void hashVertices(std::uint64_t& hash, const Vertices& vertices) {
-    const auto& [positions, normals, tangents, uv0, uv1, colors, joints, weights, cocScales] = vertices;
+    const auto& [positions, normals, tangents, uv0, uv1, colors, joints, weights, cocScales, joints1, weights1] =
+        vertices;
     hashStream(hash, positions);
     hashStream(hash, normals);
     hashStream(hash, tangents);
@@ -37,6 +38,8 @@ void hashVertices(std::uint64_t& hash, const Vertices& vertices) {
     hashStream(hash, joints);
     hashStream(hash, weights);
     hashStream(hash, cocScales);
+    hashStream(hash, joints1);
+    hashStream(hash, weights1);
 }
 
 void hashMorphTarget(std::uint64_t& hash, const MorphTarget& target) {
@@ -55,7 +58,7 @@ void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
 }
 
 PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
-    const auto& [vertices, source, indices, levels, bounds, repairedFaces] = pyramid;
+    const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, repairedFaces] = pyramid;
     const auto& [leastTriangles, mostLevels] = key.options;
     PyramidFileHeader header;
     header.mesh = key.mesh;
@@ -268,6 +271,7 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
         pyramid.bounds.maximum[axis] = header->maximum[axis];
     }
     pyramid.repairedFaces = header->repairedFaces;
+    measureDeformations(pyramid, mesh);
     return pyramid;
 }
 

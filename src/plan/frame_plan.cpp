@@ -9,6 +9,9 @@
 #include <limits>
 
 #include "core/error.h"
+#include "plan/motion.h"
+#include "plan/object_pose.h"
+#include "scene/posed_mesh.h"
 
 namespace defocus {
 
@@ -27,11 +30,6 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     if (!(settings.cocTolerance > 0)) fail("CoC tolerance {} px: must be above 0", settings.cocTolerance);
     if (!(settings.thresholds.blur >= 0) || !(settings.thresholds.size >= 0))
         fail("level-of-detail thresholds must be 0 or more");
-}
-
-double largestScale(const glm::dmat4& matrix) {
-    return std::max(
-        {glm::length(glm::dvec3(matrix[0])), glm::length(glm::dvec3(matrix[1])), glm::length(glm::dvec3(matrix[2]))});
 }
 
 // No lens sample sees any of the box: all corners lie outside one plane of the frustum widened by the lens. For the
@@ -76,14 +74,14 @@ bool hasTextures(const Scene& scene, const Mesh& mesh) {
 }
 
 // The box of an object in front of the near plane, as the lens sees it.
-CocBox cocBoxOf(const Bounds& viewBox, const ObjectPlan& object, const Mesh& mesh, const FramePlan& plan) {
+CocBox cocBoxOf(const ObjectPlan& object, const Mesh& mesh, const FramePlan& plan) {
     CocBox box{.zNear = object.nearestDepth, .zFar = object.farthestDepth};
     box.scaleLeast = object.cocScale * mesh.cocScaleLeast;
     box.scaleMost = object.cocScale * mesh.cocScaleMost;
     const glm::dvec2 perTangent(1 / plan.tanHalfHorizontal, plan.coc.aspect / plan.tanHalfHorizontal);
     box.ndcLeast = glm::dvec2(std::numeric_limits<double>::infinity());
     box.ndcMost = -box.ndcLeast;
-    for (const glm::dvec3& corner : viewBox.corners()) {
+    for (const glm::dvec3& corner : object.viewBox.corners()) {
         const glm::dvec2 ndc = glm::dvec2(corner) * perTangent / -corner.z;
         box.ndcLeast = glm::min(box.ndcLeast, ndc);
         box.ndcMost = glm::max(box.ndcMost, ndc);
@@ -99,15 +97,22 @@ ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t i
     result.mesh = object.mesh;
     result.name = object.name;
     result.viewFromObject = viewFromWorld * object.worldFromObject;
-    result.mirrored = glm::determinant(glm::dmat3(result.viewFromObject)) < 0;
-    const Bounds box = transformed(world.pyramids[static_cast<std::size_t>(object.mesh)].bounds, result.viewFromObject);
+    result.pose = objectPose(object, viewFromWorld);
+    result.skinned = object.skinned();
+    result.motion = objectMotion(world, plan.view, index, result.pose);
+    result.deformed = deformed(object) || std::any_of(result.motion.begin(), result.motion.end(), morphs);
+    result.mirrored = mirrors(result.pose);
+    const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
+    Bounds& box = result.viewBox;
+    if (result.motion.empty()) box = posedBox(pyramid, result.pose, result.skinned);
+    for (const ObjectPose& pose : result.motion) box.extend(posedBox(pyramid, pose, result.skinned));
     if (box.empty()) return result;
     result.nearestDepth = -box.maximum.z;
     result.farthestDepth = -box.minimum.z;
     result.cocScale = object.cocScale;
     if (result.nearestDepth > plan.view.nearPlane)
         result.coc = circleOfConfusionRange(
-            plan.coc, cocBoxOf(box, result, world.scene->meshes[static_cast<std::size_t>(object.mesh)], plan),
+            plan.coc, cocBoxOf(result, world.scene->meshes[static_cast<std::size_t>(object.mesh)], plan),
             plan.view.width);
     else
         result.coc = {std::numeric_limits<double>::infinity(), 0, 0, std::numeric_limits<double>::infinity()};
@@ -115,8 +120,8 @@ ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t i
 }
 
 // At the centre of the object's box in view space.
-double cocAtCentre(const Pyramid& pyramid, const ObjectPlan& object, const FramePlan& plan) {
-    const glm::dvec3 centre = transformed(pyramid.bounds, object.viewFromObject).centre();
+double cocAtCentre(const ObjectPlan& object, const FramePlan& plan) {
+    const glm::dvec3 centre = object.viewBox.centre();
     const glm::dvec2 ndc = glm::dvec2(centre) * glm::dvec2(1, plan.coc.aspect) / (-centre.z * plan.tanHalfHorizontal);
     return std::abs(circleOfConfusion(plan.coc, -centre.z, plan.view.width, ndc, object.cocScale));
 }
@@ -125,8 +130,8 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     if (plan.settings.lod == LodMode::off || object.nearestDepth <= plan.view.nearPlane) return 0;
     LevelQuery query;
     query.pixelsPerUnit =
-        largestScale(object.viewFromObject) * plan.view.width / (2 * plan.tanHalfHorizontal * object.nearestDepth);
-    query.coc = plan.settings.lodCocAtCentre ? cocAtCentre(pyramid, object, plan) : object.coc.smallest;
+        largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * object.nearestDepth);
+    query.coc = plan.settings.lodCocAtCentre ? cocAtCentre(object, plan) : object.coc.smallest;
     return levelOfDetail(pyramid, query, plan.settings.metric, plan.settings.thresholds);
 }
 
@@ -134,7 +139,7 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
 void chooseLevels(ObjectPlan& object, const Pyramid& pyramid, const FramePlan& plan) {
     const auto sampleCount = static_cast<std::uint32_t>(plan.samples.size());
     if (object.nearestDepth > 0)
-        object.projectedEdge = pyramid.levels.front().meanEdge * largestScale(object.viewFromObject) * plan.view.width /
+        object.projectedEdge = pyramid.levels.front().meanEdge * largestScale(object.pose) * plan.view.width /
                                (2 * plan.tanHalfHorizontal * object.nearestDepth);
     object.lambda = selectedLevel(pyramid, object, plan);
     const SampleSplit split = splitSamples(object.lambda, sampleCount, plan.settings.lod);
@@ -160,10 +165,9 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
         double longest = 0;
         for (const LevelDraw& draw : {object.coarse, object.fine})
             if (draw.sampleCount > 0) longest = std::max(longest, pyramid.levels[draw.level].longestEdge);
-        const CocBox box =
-            cocBoxOf(transformed(pyramid.bounds, object.viewFromObject), object, world.scene->meshes[mesh], plan);
+        const CocBox box = cocBoxOf(object, world.scene->meshes[mesh], plan);
         object.cocDeviation =
-            cocDeviation(plan.coc, box, longest * largestScale(object.viewFromObject),
+            cocDeviation(plan.coc, box, longest * largestScale(object.pose),
                          plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect), plan.view.width);
     }
     if (object.cocDeviation.kinks > plan.settings.cocTolerance) object.refinement = Refinement::split;
@@ -175,8 +179,7 @@ std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const Ob
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
     if (plan.settings.keepAll) return "";
-    const Bounds box = transformed(pyramid.bounds, object.viewFromObject);
-    if (outsideWidenedFrustum(box, plan.view, plan.tanHalfHorizontal, tanY, plan.coc, object.coc.largest))
+    if (outsideWidenedFrustum(object.viewBox, plan.view, plan.tanHalfHorizontal, tanY, plan.coc, object.coc.largest))
         return "no lens sample can see it";
     return "";
 }
@@ -194,14 +197,16 @@ double largestBlur(const FramePlan& plan, const World& world) {
 void leaveOutLens(FramePlan& plan, const World& world) {
     const double blur = largestBlur(plan, world);
     if (plan.settings.keepAll || blur >= leastBlur) return;
-    plan.leftOut.push_back(
-        {"lens samples", fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} antialiasing "
-                                     "samples remain",
-                                     blur, std::min(plan.settings.sampleCount, antialiasingSamples))});
+    const bool still = plan.moments.empty();
+    const std::uint32_t kept =
+        still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
+    plan.leftOut.push_back({"lens samples", fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} {} "
+                                                        "samples remain",
+                                                        blur, kept, still ? "antialiasing" : "motion")});
     plan.usesLens = false;
     plan.coc = {};
     plan.apertureDiameter = 0;
-    plan.samples.resize(std::min(plan.settings.sampleCount, antialiasingSamples));
+    plan.samples.resize(kept);
     for (LensSample& sample : plan.samples) sample.lens = glm::vec2(0);
     for (ObjectPlan& object : plan.objects) object.coc = {};
 }
@@ -225,7 +230,7 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
     if (!plan.usesCocControls)
         plan.leftOut.push_back({"controls of the blur", "the lens and the objects have none: C(w) = a + b·w"});
-    plan.leftOut.push_back({"motion path", "the scene stands still within a frame"});
+    if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});
 }
 
 void noteLevels(FramePlan& plan, const World& world) {
@@ -269,6 +274,7 @@ std::optional<std::uint32_t> boundarySample(const ObjectPlan& object) {
 
 FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings) {
     checkRequest(view, settings);
+    checkShutter(world, view, settings);
     FramePlan plan;
     plan.view = view;
     plan.settings = settings;
@@ -289,6 +295,8 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
         else
             plan.leftOut.push_back({"object " + object.name, std::move(reason)});
     }
+
+    planMoments(plan, world);
 
     // Decide on the lens first: levels depend on the blur that remains.
     leaveOutLens(plan, world);

@@ -14,6 +14,12 @@
 
 namespace defocus {
 
+// When a sample is taken: at `fraction` of the way from a moment of the shutter to the next.
+struct SampleMoment {
+    std::uint32_t moment = 0;
+    float fraction = 0;  // [0, 1); 0 at the last moment
+};
+
 // A level of an object and the lens samples that draw it.
 struct LevelDraw {
     std::uint32_t level = 0;
@@ -29,19 +35,31 @@ enum class Refinement {
     subdivide,  // into small ones (C is curved), and split
 };
 
+// Where the vertices of an object are at one moment.
+struct ObjectPose {
+    std::vector<glm::dmat4> viewFromJoint;  // camera-relative, composed in double; one, for the object, without a skin
+    std::vector<double> morphWeights;       // one a morph target of the mesh
+    bool operator==(const ObjectPose&) const = default;
+};
+
 struct ObjectPlan {
     int object = -1;  // into World::pose.objects
     int mesh = -1;
     std::string name;
     glm::dmat4 viewFromObject{1.0};  // camera-relative, composed in double
-    double nearestDepth = 0;         // m, of the bounding box; ≤ near plane when the box reaches it
-    double farthestDepth = 0;        // m
-    CocRange coc;                    // px, over the box
-    CocDeviation cocDeviation;       // px, of the drawn levels
-    double projectedEdge = 0;        // mean edge of level 0 in px at the nearest depth
-    double lambda = 0;               // fractional level
-    LevelDraw coarse;                // samples [0, n) at level ⌊λ⌋ + 1; none when λ is whole
-    LevelDraw fine;                  // samples [n, N) at level ⌊λ⌋
+    ObjectPose pose;                 // in the middle of the exposure
+    std::vector<ObjectPose> motion;  // at the moments of the shutter; empty: it stands still before the camera
+    bool skinned = false;
+    bool deformed = false;      // by its skin or by morph targets
+    Bounds viewBox;             // around all that the frame shows of it, in view space
+    double nearestDepth = 0;    // m, of the bounding box; ≤ near plane when the box reaches it
+    double farthestDepth = 0;   // m
+    CocRange coc;               // px, over the box
+    CocDeviation cocDeviation;  // px, of the drawn levels
+    double projectedEdge = 0;   // mean edge of level 0 in px at the nearest depth
+    double lambda = 0;          // fractional level
+    LevelDraw coarse;           // samples [0, n) at level ⌊λ⌋ + 1; none when λ is whole
+    LevelDraw fine;             // samples [n, N) at level ⌊λ⌋
     // LodMode::continuous: where the two overlap by a sample (`coarse` then ends with sample n), the share of that
     // sample's pixels that draw `coarse`; the others draw `fine`.
     double boundaryShare = 0;
@@ -62,8 +80,10 @@ struct FramePlan {
     double tanHalfHorizontal = 0;
     double apertureDiameter = 0;  // m; 0 when the lens is left out
     ClipCircleOfConfusion coc;
-    std::vector<LensSample> samples;  // those that are drawn, in order
-    std::vector<ObjectPlan> objects;  // those that are drawn, front to back
+    std::vector<LensSample> samples;         // those that are drawn, in order
+    std::vector<SampleMoment> moments;       // one a sample; empty: nothing moves during the exposure
+    std::vector<glm::dmat4> middleFromView;  // of cameras at the moments of the shutter; empty: the camera stands still
+    std::vector<ObjectPlan> objects;         // those that are drawn, front to back
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // per mesh and level: does any object draw it
     bool usesLens = true;                       // false: nothing is blurred by half a pixel, only antialiasing samples
@@ -84,7 +104,7 @@ inline constexpr double leastBlur = 0.5;  // px
 // The sample that an object draws at both levels, each at its own pixels; none in most modes.
 std::optional<std::uint32_t> boundarySample(const ObjectPlan& object);
 
-// Throws Error for an impossible lens, size or sample count.
+// Throws Error for an impossible lens, size or sample count, and for a shutter whose moments don't fit together.
 FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings);
 
 }  // namespace defocus

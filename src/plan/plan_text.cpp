@@ -37,6 +37,7 @@ json objectJson(const ObjectPlan& object) {
                    {"projectedEdge", number(object.projectedEdge)},
                    {"lambda", object.lambda},
                    {"blended", object.blended},
+                   {"moves", !object.motion.empty()},
                    {"draws", std::move(draws)}};
     if (boundarySample(object)) result["boundaryShare"] = object.boundaryShare;
     return result;
@@ -50,8 +51,9 @@ std::string drawText(const LevelDraw& draw, double shared) {
 
 std::string drawsText(const ObjectPlan& object) {
     const bool shares = boundarySample(object).has_value();
-    return fmt::format("{:<24}  {}", drawText(object.coarse, shares ? 1 - object.boundaryShare : 0),
-                       drawText(object.fine, shares ? object.boundaryShare : 0));
+    return fmt::format("{:<24}  {}{}", drawText(object.coarse, shares ? 1 - object.boundaryShare : 0),
+                       drawText(object.fine, shares ? object.boundaryShare : 0),
+                       object.motion.empty() ? "" : "  moves");
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 namespace defocus {
 
 std::string planTable(const FramePlan& plan);
-// Keys: image, lens, samples, objects[] (name, depth, coc, projectedEdge, lambda, draws[], and boundaryShare where the
-// first of the draws shares its last sample with the second), leftOut[], triangles.
+// Keys: image, lens, samples, objects[] (name, depth, coc, projectedEdge, lambda, blended, moves, draws[], and
+// boundaryShare where the first of the draws shares its last sample with the second), leftOut[], triangles.
 std::string planJson(const FramePlan& plan);
 
 }  // namespace defocus

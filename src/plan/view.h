@@ -21,6 +21,8 @@ struct View {
     double nearPlane = 0.01;  // m, > 0
     int width = 1024;         // px
     int height = 768;         // px
+    // worldFromCamera at the moments of World::shutter, as many as it has poses; empty: the camera stands still.
+    std::vector<glm::dmat4> shutterCameras;
 };
 
 struct RenderSettings {
@@ -36,10 +38,20 @@ struct RenderSettings {
     bool keepAll = false;         // leave nothing out: the image must be the same
 };
 
+// What the scene does while the shutter is open.
+struct Shutter {
+    std::vector<Pose> poses;  // the same objects as World::pose; empty: the scene stands still
+    // false: the moments are evenly spaced, opening and closing included, and vertices move in straight lines from one
+    // to the next (Munkberg, Toth and Akenine-Möller 2012, with one such step); true: one moment a lens sample, at its
+    // LensSample::time.
+    bool perSample = false;
+};
+
 // A scene ready to be planned: posed, lit, with one pyramid a mesh.
 struct World {
     const Scene* scene = nullptr;
-    Pose pose;
+    Pose pose;        // in the middle of the exposure
+    Shutter shutter;  // lights and sky stay as they are in its middle
     std::vector<PlacedLight> lights;
     Environment environment;
     std::vector<Pyramid> pyramids;  // one a mesh of the scene

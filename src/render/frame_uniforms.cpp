@@ -115,6 +115,9 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
             {radius * sample.lens.x, radius * sample.lens.y, static_cast<float>(dither - std::floor(dither)), layer}};
     }
     samples_ = Buffer::of(std::span<const GpuSample>(samples));
+    std::vector<glm::vec2> moments;
+    for (const SampleMoment& moment : plan.moments) moments.emplace_back(moment.moment, moment.fraction);
+    moments_ = moments.empty() ? Buffer() : Buffer::of(std::span<const glm::vec2>(moments));
 
     // At infinity C/w = b: the sky seen through a pixel lies where the lens and the jitter moved it from, in units of
     // the image plane at distance 1. With controls, C/w depends on the pixel, which multiplies what the lens adds.
@@ -140,7 +143,7 @@ void FrameUniforms::bind(std::uint32_t firstSample) const {
 }
 
 std::size_t FrameUniforms::bytes() const {
-    return frameBlock_.bytes() + samples_.bytes() + sampleShifts_.bytes() + environmentMap_.bytes();
+    return frameBlock_.bytes() + samples_.bytes() + moments_.bytes() + sampleShifts_.bytes() + environmentMap_.bytes();
 }
 
 }  // namespace defocus

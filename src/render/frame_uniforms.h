@@ -21,6 +21,8 @@ public:
     // Binds the uniform blocks (and the environment's map) for samples [firstSample, …) of one block of the sum.
     void bind(std::uint32_t firstSample) const;
     [[nodiscard]] const Buffer& samples() const { return samples_; }
+    // vec2, one a lens sample: its SampleMoment. Empty where nothing moves.
+    [[nodiscard]] const Buffer& moments() const { return moments_; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -28,7 +30,8 @@ private:
 
     ShaderDefines defines_;
     Buffer frameBlock_;
-    Buffer samples_;       // GpuSample, one a lens sample
+    Buffer samples_;  // GpuSample, one a lens sample
+    Buffer moments_;
     Buffer sampleShifts_;  // vec4, one a lens sample: where the sky lies for it
     GlTexture environmentMap_;
 };

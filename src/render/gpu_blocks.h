@@ -31,6 +31,7 @@ struct GpuObject {
     glm::mat4 viewFromObject;
     glm::mat4 normalMatrix;
     glm::vec4 values;
+    glm::ivec4 posing;
 };
 
 struct GpuMaterial {
@@ -57,6 +58,11 @@ enum AttributeLocation : unsigned {
     lensLocation,
     eyeLocation,
     cocScaleLocation,
+    jointsLocation,
+    weightsLocation,
+    joints1Location,
+    weights1Location,
+    momentLocation,
 };
 
 }  // namespace defocus

@@ -113,7 +113,48 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     array.attribute(lensLocation, 4, GL_FLOAT, false, true);
     array.attribute(eyeLocation, 4, GL_FLOAT, false, true);
     if (result.indices) array.indices(result.indices);
+    uploadDeformation(mesh, vertexCount, result);
     meshes_.insert_or_assign(mesh, std::move(result));
+}
+
+void GpuScene::uploadDeformation(int mesh, std::size_t vertexCount, GpuMesh& target) {
+    const Pyramid& pyramid = world_->pyramids[static_cast<std::size_t>(mesh)];
+    GpuDeformation& deformation = target.deformation;
+    deformation.joints = prefixBuffer(pyramid.vertices.joints, vertexCount);
+    deformation.weights = prefixBuffer(pyramid.vertices.weights, vertexCount);
+    deformation.joints1 = prefixBuffer(pyramid.vertices.joints1, vertexCount);
+    deformation.weights1 = prefixBuffer(pyramid.vertices.weights1, vertexCount);
+    const auto attach = [&](unsigned location, const Buffer& buffer, GLenum type, std::size_t stride) {
+        if (!buffer) return;
+        target.vertexArray.attribute(location, 4, type, false);
+        target.vertexArray.bind(location, buffer, 0, stride);
+    };
+    attach(jointsLocation, deformation.joints, GL_UNSIGNED_SHORT, sizeof(glm::u16vec4));
+    attach(weightsLocation, deformation.weights, GL_FLOAT, sizeof(glm::vec4));
+    attach(joints1Location, deformation.joints1, GL_UNSIGNED_SHORT, sizeof(glm::u16vec4));
+    attach(weights1Location, deformation.weights1, GL_FLOAT, sizeof(glm::vec4));
+
+    const Mesh& source = world_->scene->meshes[static_cast<std::size_t>(mesh)];
+    if (source.morphTargets.empty()) return;
+    deformation.vertexCount = vertexCount;
+    for (const MorphTarget& morph : source.morphTargets) {
+        deformation.morphNormals |= !morph.normals.empty();
+        deformation.morphTangents |= !morph.tangents.empty() && !source.vertices.tangents.empty();
+    }
+    std::vector<glm::vec3> texels;
+    texels.reserve(static_cast<std::size_t>(deformation.attributesPerTarget()) * vertexCount *
+                   source.morphTargets.size());
+    const auto add = [&](const std::vector<glm::vec3>& displacements) {
+        for (std::size_t v = 0; v < vertexCount; ++v)
+            texels.push_back(displacements.empty() ? glm::vec3(0) : displacements[pyramid.source[v]]);
+    };
+    for (const MorphTarget& morph : source.morphTargets) {
+        add(morph.positions);
+        if (deformation.morphNormals) add(morph.normals);
+        if (deformation.morphTangents) add(morph.tangents);
+    }
+    deformation.morphs =
+        TexelBuffer({texels.empty() ? nullptr : &texels.front().x, texels.size() * 3}, GL_RGB32F, 3, "morph targets");
 }
 
 const GlTexture* GpuScene::texture(const TextureUse& use, bool srgb) {
@@ -168,6 +209,11 @@ std::size_t GpuScene::bytes() const {
         for (const Buffer* buffer : {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.uv0, &mesh.uv1, &mesh.tangents,
                                      &mesh.cocScales, &mesh.indices})
             total += buffer->bytes();
+    for (const auto& [index, mesh] : meshes_)
+        for (const Buffer* buffer : {&mesh.deformation.joints, &mesh.deformation.weights, &mesh.deformation.joints1,
+                                     &mesh.deformation.weights1})
+            total += buffer->bytes();
+    for (const auto& [index, mesh] : meshes_) total += mesh.deformation.morphs.bytes();
     for (const auto& [key, texture] : textures_) total += texture.bytes();
     return total;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gl/buffer.h"
+#include "gl/texel_buffer.h"
 #include "gl/texture.h"
 #include "plan/frame_plan.h"
 #include "render/gpu_blocks.h"
@@ -21,9 +22,20 @@ struct GpuLevel {
     std::vector<std::size_t> indexOffsets;  // bytes into the index buffer, one a primitive
 };
 
+// What moves a mesh's vertices against each other; empty where the mesh doesn't have it.
+struct GpuDeformation {
+    Buffer joints, weights, joints1, weights1;
+    TexelBuffer morphs;  // RGB32F; target after target: positions, then normals, then tangents
+    bool morphNormals = false;
+    bool morphTangents = false;
+    std::size_t vertexCount = 0;  // texels an attribute of a target
+    [[nodiscard]] int attributesPerTarget() const { return 1 + (morphNormals ? 1 : 0) + (morphTangents ? 1 : 0); }
+};
+
 struct GpuMesh {
     VertexArray vertexArray;
     Buffer positions, normals, colors, uv0, uv1, tangents, cocScales, indices;
+    GpuDeformation deformation;
     std::vector<GpuLevel> levels;
 };
 
@@ -48,6 +60,7 @@ public:
     [[nodiscard]] static GpuMaterial materialBlock(const Material& material);
 
 private:
+    void uploadDeformation(int mesh, std::size_t vertexCount, GpuMesh& target);
     void uploadMesh(int mesh, const std::vector<bool>& levels);
     const GlTexture* texture(const TextureUse& use, bool srgb);
     void prepareMaterial(int material);

@@ -33,7 +33,9 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
     for (std::uint32_t i = 0; i < count && count > 1; ++i)
         pinholes.samples[i].pixel = glm::vec2((i + 0.5) / count - 0.5, radicalInverse(2, i) + 0.5 / count - 0.5);
     pinholes.trianglesDrawn = 0;
+    pinholes.moments.clear();
     for (ObjectPlan& object : pinholes.objects) {
+        object.motion.clear();
         const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
         const auto last = static_cast<double>(pyramid.levels.size() - 1);
         const auto level = static_cast<std::uint32_t>(std::min(std::round(object.lambda), last));

@@ -12,6 +12,7 @@ namespace defocus {
 
 // The objects of `plan`, each at the whole level nearest to its λ, for `count` samples in the middle of the lens. They
 // are spread over the pixel by Hammersley's points; one alone lies in its middle. The plan's lens (its CoC) is kept.
+// What moves is drawn as it is in the middle of the exposure.
 FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count);
 
 class PinholePass {

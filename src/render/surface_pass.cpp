@@ -49,10 +49,15 @@ void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame) {
 void SurfacePass::uploadObjects(const FramePlan& plan) {
     std::vector<GpuObject> blocks;
     blocks.reserve(plan.objects.size());
-    for (const ObjectPlan& object : plan.objects)
+    poses_.clear();
+    for (const ObjectPlan& object : plan.objects) {
+        GpuPoses poses = gpuPoses(plan, object, scene_->mesh(object.mesh).deformation);
         blocks.push_back({glm::mat4(object.viewFromObject),
                           glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
-                          glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale)});
+                          glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale),
+                          poses.layout});
+        poses_.push_back(std::move(poses));
+    }
     objectStride_ = aligned(sizeof(GpuObject));
     objectBlocks_ = stridedBuffer(blocks, objectStride_);
 }
@@ -75,6 +80,10 @@ void SurfacePass::addDraws(const FramePlan& plan) {
         GpuMesh& gpuMesh = scene_->mesh(object.mesh);
         gpuMesh.vertexArray.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
         gpuMesh.vertexArray.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
+        if (frame_->moments()) {
+            gpuMesh.vertexArray.attribute(momentLocation, 2, GL_FLOAT, false, true);
+            gpuMesh.vertexArray.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec2));
+        }
         for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
             Draw draw;
             draw.mesh = object.mesh;
@@ -156,6 +165,7 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(material.doubleSided, "DOUBLE_SIDED");
     set(masked, "ALPHA_MASK");
     set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
+    poseDefines(defines, poses_[draw.object], mesh);
     if (draw.screenDoor != ScreenDoor::open)
         defines.emplace_back("SCREEN_DOOR", draw.screenDoor == ScreenDoor::coarseShare ? "true" : "false");
     const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));
@@ -188,6 +198,8 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
                       sizeof(GpuObject));
     glBindBufferRange(GL_UNIFORM_BUFFER, 2, materialBlocks_.name(),
                       static_cast<GLintptr>(materialSlots_.at(item.material) * materialStride_), sizeof(GpuMaterial));
+    if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
+    if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
     const GpuMaterialTextures& textures = scene_->textures(item.material);
     for (GLuint i = 0; i < 5; ++i)
         if (textures.slots[i] != nullptr) textures.slots[i]->attach(i);
@@ -277,7 +289,9 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
 }
 
 std::size_t SurfacePass::bytes() const {
-    return objectBlocks_.bytes() + materialBlocks_.bytes();
+    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes();
+    for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
+    return total;
 }
 
 }  // namespace defocus

@@ -9,6 +9,7 @@
 #include "gl/pacer.h"
 #include "gl/program.h"
 #include "render/frame_uniforms.h"
+#include "render/gpu_poses.h"
 #include "render/gpu_scene.h"
 
 namespace defocus {
@@ -83,6 +84,7 @@ private:
     Buffer objectBlocks_, materialBlocks_;
     std::size_t objectStride_ = 0;
     std::size_t materialStride_ = 0;
+    std::vector<GpuPoses> poses_;  // as many as objects
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
     std::vector<Draw> blended_;

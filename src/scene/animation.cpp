@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
+#include <cmath>
+
+#include "core/error.h"
 
 namespace defocus {
 
@@ -65,6 +69,27 @@ std::vector<double> sampleValues(const AnimationChannel& channel, std::size_t co
         }
     }
     return result;
+}
+
+int clipNamed(const Scene& scene, std::string_view nameOrNumber) {
+    for (std::size_t i = 0; i < scene.clips.size(); ++i)
+        if (!nameOrNumber.empty() && scene.clips[i].name == nameOrNumber) return static_cast<int>(i);
+    std::size_t number = 0;
+    const char* end = nameOrNumber.data() + nameOrNumber.size();
+    const auto [stop, fault] = std::from_chars(nameOrNumber.data(), end, number);
+    if (fault == std::errc() && stop == end && number < scene.clips.size()) return static_cast<int>(number);
+
+    if (scene.clips.empty()) fail("there is no animation '{}': the scene has none", nameOrNumber);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < scene.clips.size(); ++i) names.push_back(fmt::format("{} {}", i, scene.clips[i].name));
+    fail("there is no animation '{}'; the scene has: {}", nameOrNumber, fmt::join(names, ", "));
+}
+
+double loopedTime(const AnimationClip& clip, double time) {
+    const auto duration = static_cast<double>(clip.duration);
+    if (!(duration > 0) || !std::isfinite(time)) return 0;
+    const double looped = time - duration * std::floor(time / duration);
+    return looped < duration && looped >= 0 ? looped : 0;
 }
 
 glm::dquat sampleRotation(const AnimationChannel& channel, double time) {

@@ -30,11 +30,11 @@ struct CameraNode {
 };
 
 // The nodes with a camera that belong to the scene, in the order of the file.
-std::vector<CameraNode> cameraNodes(const Scene& scene) {
+std::vector<CameraNode> cameraNodes(const Scene& scene, const std::vector<Camera>& cameras) {
     std::vector<CameraNode> result;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].camera >= 0)
-            result.push_back({&scene.nodes[i], &scene.cameras[static_cast<std::size_t>(scene.nodes[i].camera)], i});
+            result.push_back({&scene.nodes[i], &cameras[static_cast<std::size_t>(scene.nodes[i].camera)], i});
     return result;
 }
 
@@ -143,7 +143,8 @@ PlacedLight studioLight(const PlacedCamera& camera, const char* name, double azi
 }  // namespace
 
 PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::string& name, double aspect) {
-    const std::vector<CameraNode> places = cameraNodes(scene);
+    const bool posed = pose.cameras.size() == scene.cameras.size();
+    const std::vector<CameraNode> places = cameraNodes(scene, posed ? pose.cameras : scene.cameras);
 
     // By name; without one, the first that can be used.
     const CameraNode* chosen = nullptr;
@@ -157,11 +158,16 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::strin
         if (chosen->camera->orthographic)
             fail("camera '{}' cannot be used: {}; name another, or '{}' for one that frames the scene",
                  labelOf(*chosen), *chosen->camera->orthographic, framingName);
-        return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index])};
+        return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index]), static_cast<int>(chosen->index)};
     }
 
     if (!name.empty() && name != framingName) failForCamera(places, name);
     return framingCamera(pose.bounds, aspect);
+}
+
+glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose) {
+    return camera.node < 0 ? camera.worldFromCamera
+                           : withoutScale(pose.worldFromNode[static_cast<std::size_t>(camera.node)]);
 }
 
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera) {

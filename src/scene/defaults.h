@@ -10,6 +10,7 @@ namespace defocus {
 struct PlacedCamera {
     Camera camera;
     glm::dmat4 worldFromCamera{1.0};  // no scale
+    int node = -1;                    // that carries it; −1: it frames the scene
 };
 
 // The camera called `name` (camera's or its node's name; empty: the file's first that can be used). Without cameras, or
@@ -17,6 +18,9 @@ struct PlacedCamera {
 // height), with focusDistance and znear to suit. Throws Error for an unknown name (listing those that exist) and for
 // orthographic cameras.
 PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::string& name, double aspect);
+
+// Where the camera is in another pose of its scene; one that frames the scene stays where it is.
+glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose);
 
 // The scene's own lights. Without any: directional key, fill and rim lights as seen from the camera, unless all that is
 // drawn is unlit or glows evenly. And its environment, or a soft sky; the two together show a grey card of 18 % at 18 %

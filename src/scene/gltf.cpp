@@ -17,7 +17,7 @@ namespace {
 
 // Numbers that are fine one by one can still multiply to infinity.
 void checkPlacement(const gltf::Source& source, const Scene& scene) {
-    const Pose pose = poseAt(scene, 0, -1);
+    const Pose pose = unmeasuredPoseAt(scene, 0, -1);
     const auto finite = [](const glm::dmat4& matrix) {
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
@@ -28,20 +28,9 @@ void checkPlacement(const gltf::Source& source, const Scene& scene) {
         if (!finite(pose.worldFromNode[i]))
             gltf::fault(source.document, "node '{}' is placed at infinity", scene.nodes[i].name);
     for (const Object& object : pose.objects)
-        if (!finite(object.worldFromObject))
+        if (!finite(object.worldFromObject) ||
+            !std::all_of(object.worldFromJoint.begin(), object.worldFromJoint.end(), finite))
             gltf::fault(source.document, "object '{}' is placed at infinity", object.name);
-}
-
-// Data that is kept but not drawn.
-void noteUndrawn(gltf::Source& source, const Scene& scene) {
-    const auto skinned =
-        std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.skin >= 0; });
-    if (skinned > 0)
-        gltf::ignore(source, "skin", "skinning is not applied; drawn in its bind pose",
-                     static_cast<std::uint64_t>(skinned));
-    for (const Mesh& mesh : scene.meshes)
-        if (!mesh.morphTargets.empty())
-            gltf::ignore(source, "morph targets", "not applied; drawn in its basic shape", mesh.morphTargets.size());
 }
 
 std::vector<std::string> extensionsOf(const gltf::Source& source) {
@@ -76,7 +65,6 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
 
     // 4. What the file holds besides.
     checkPlacement(source, scene);
-    noteUndrawn(source, scene);
     scene.extensions = extensionsOf(source);
     scene.ignored = std::move(source.ignored);
     return scene;

@@ -5,8 +5,7 @@
 //
 // What a file leaves out is filled in as the standard says: a primitive without normals is shaded flat on vertices of
 // its own, one whose normal map lacks tangents gets them. Vertices that no triangle uses are dropped, so a mesh may
-// have fewer than its accessors. The nodes are those of the file's default scene (else of its first, else all). Skins
-// and morph targets are kept but not applied: poseAt places a skinned mesh by its first joint, in the bind pose.
+// have fewer than its accessors. The nodes are those of the file's default scene (else of its first, else all).
 
 #include <filesystem>
 

@@ -100,12 +100,13 @@ std::vector<glm::u8vec4> readColors(const AttributeReader& reader) {
     return result;
 }
 
-std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& reader, const std::string& what) {
+std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& reader, const char* name,
+                                     const std::string& what) {
     std::vector<glm::u16vec4> result;
-    for (const glm::vec4& joints : reader.read<glm::vec4>("JOINTS_0")) {
+    for (const glm::vec4& joints : reader.read<glm::vec4>(name)) {
         for (int i = 0; i < 4; ++i)
             if (!(joints[i] >= 0 && joints[i] <= 65535))
-                fault(source.document, "{}: JOINTS_0 holds no joint indices", what);
+                fault(source.document, "{}: {} holds no joint indices", what, name);
         result.emplace_back(joints);
     }
     return result;
@@ -164,13 +165,34 @@ void repairTangents(VertexBlock& block) {
     }
 }
 
-void repairWeights(VertexBlock& block) {
-    for (glm::vec4& weight : block.vertices.weights) {
-        for (int i = 0; i < 4; ++i)
-            if (!(weight[i] > 0) || !std::isfinite(weight[i])) weight[i] = 0;
-        const float sum = weight.x + weight.y + weight.z + weight.w;
-        weight = sum > 0 && std::isfinite(sum) ? weight / sum : glm::vec4(1, 0, 0, 0);
+// What is no weight becomes 0; the sum that remains.
+double usableSum(glm::vec4& weight) {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i) {
+        if (!(weight[i] > 0) || !std::isfinite(weight[i])) weight[i] = 0;
+        sum += static_cast<double>(weight[i]);
     }
+    return sum;
+}
+
+// Weights of all influences sum to 1; a vertex without any follows its first joint.
+void repairWeights(VertexBlock& block) {
+    Vertices& vertices = block.vertices;
+    bool furtherCount = false;
+    for (std::size_t i = 0; i < vertices.weights.size(); ++i) {
+        glm::vec4 none(0);
+        glm::vec4& first = vertices.weights[i];
+        glm::vec4& further = vertices.weights1.empty() ? none : vertices.weights1[i];
+        const double firstSum = usableSum(first);
+        const double furtherSum = usableSum(further);
+        const double sum = firstSum + furtherSum;
+        first = sum > 0 ? glm::vec4(glm::dvec4(first) / sum) : glm::vec4(1, 0, 0, 0);
+        if (sum > 0) further = glm::vec4(glm::dvec4(further) / sum);
+        furtherCount |= furtherSum > 0;
+    }
+    if (furtherCount) return;
+    vertices.joints1.clear();
+    vertices.weights1.clear();
 }
 
 }  // namespace
@@ -187,10 +209,15 @@ VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive,
     block.vertices.uv1 = readTextureCoordinates(reader, "TEXCOORD_1");
     block.vertices.colors = readColors(reader);
     if (reader.has("WEIGHTS_0")) {
-        block.vertices.joints = readJoints(source, reader, what);
+        block.vertices.joints = readJoints(source, reader, "JOINTS_0", what);
         block.vertices.weights = reader.read<glm::vec4>("WEIGHTS_0");
     }
     if (block.vertices.joints.empty()) block.vertices.weights.clear();
+    if (!block.vertices.joints.empty() && reader.has("WEIGHTS_1")) {
+        block.vertices.joints1 = readJoints(source, reader, "JOINTS_1", what);
+        block.vertices.weights1 = reader.read<glm::vec4>("WEIGHTS_1");
+    }
+    if (block.vertices.joints1.empty()) block.vertices.weights1.clear();
     block.vertices.cocScales = readCocScales(source, reader, what);
     block.morphTargets = reader.readTargets();
     return block;

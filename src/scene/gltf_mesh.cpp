@@ -77,7 +77,7 @@ bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::s
         ignore(source, primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines", "only triangles are drawn");
         return false;
     }
-    for (const char* name : {"TEXCOORD_2", "COLOR_1", "JOINTS_1"})
+    for (const char* name : {"TEXCOORD_2", "COLOR_1", "JOINTS_2"})
         if (primitive.attributes.contains(name)) ignore(source, name, "a further attribute set is not used");
     return true;
 }

@@ -185,7 +185,10 @@ constexpr Property lightsProperties[] = {required(objects("lights", lightPropert
 
 // ---- animation ----------------------------------------------------------------------------------
 
-constexpr Property animationTargetProperties[] = {{"node", Kind::index, "nodes"}, required({"path", Kind::string})};
+constexpr Property animationPointerProperties[] = {required({"pointer", Kind::string})};
+constexpr Property animationTargetExtensions[] = {object("KHR_animation_pointer", animationPointerProperties)};
+constexpr Property animationTargetProperties[] = {
+    {"node", Kind::index, "nodes"}, required({"path", Kind::string}), object("extensions", animationTargetExtensions)};
 constexpr Property animationChannelProperties[] = {required({"sampler", Kind::size}),
                                                    required(object("target", animationTargetProperties))};
 constexpr Property animationSamplerProperties[] = {required({"input", Kind::index, "accessors"}),

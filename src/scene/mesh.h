@@ -20,10 +20,12 @@ struct Vertices {
     std::vector<glm::vec4> tangents;   // xyz unit length, w = ±1 handedness (glTF)
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
-    std::vector<glm::u8vec4> colors;   // linear, straight alpha, 255 is 1
-    std::vector<glm::u16vec4> joints;  // indices into the skin's joints (first four influences)
-    std::vector<glm::vec4> weights;    // sum to 1
-    std::vector<float> cocScales;      // factor on the blur (attribute _COC_SCALE), ≥ 0
+    std::vector<glm::u8vec4> colors;    // linear, straight alpha, 255 is 1
+    std::vector<glm::u16vec4> joints;   // indices into the skin's joints, influences one to four
+    std::vector<glm::vec4> weights;     // of all influences; they sum to 1
+    std::vector<float> cocScales;       // factor on the blur (attribute _COC_SCALE), ≥ 0
+    std::vector<glm::u16vec4> joints1;  // influences five to eight; empty where four are enough
+    std::vector<glm::vec4> weights1;
 
     [[nodiscard]] std::size_t count() const { return positions.size(); }
 };

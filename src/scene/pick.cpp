@@ -8,6 +8,8 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "scene/posed_mesh.h"
+
 namespace defocus {
 
 namespace {
@@ -51,12 +53,12 @@ double crossing(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const 
     return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 ? t : miss;
 }
 
-// The nearest crossing of the mesh's triangles, their positions mapped by `place`, that is nearer than `nearest`.
+// The nearest crossing of the mesh's triangles, their vertices placed by `place`, that is nearer than `nearest`.
 template <typename Place>
 double nearestCrossing(const Mesh& mesh, const Ray& ray, double nearest, const Place& place) {
     for (const Primitive& primitive : mesh.primitives)
         for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-            const auto corner = [&](std::size_t k) { return place(mesh.vertices.positions[primitive.indices[i + k]]); };
+            const auto corner = [&](std::size_t k) { return place(primitive.indices[i + k]); };
             nearest = std::min(nearest, crossing(ray, corner(0), corner(1), corner(2)));
         }
     return nearest;
@@ -72,12 +74,18 @@ double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4&
                             std::isfinite(glm::dot(ray.direction, ray.direction)) &&
                             glm::dot(ray.direction, ray.direction) > 0;
     if (!invertible) {
-        return nearestCrossing(mesh, world, nearest, [&](const glm::vec3& position) {
-            return glm::dvec3(worldFromObject * glm::dvec4(position, 1));
+        return nearestCrossing(mesh, world, nearest, [&](std::uint32_t vertex) {
+            return glm::dvec3(worldFromObject * glm::dvec4(mesh.vertices.positions[vertex], 1));
         });
     }
     if (!reaches(ray, bounds, nearest)) return nearest;
-    return nearestCrossing(mesh, ray, nearest, [](const glm::vec3& position) { return glm::dvec3(position); });
+    return nearestCrossing(mesh, ray, nearest,
+                           [&](std::uint32_t vertex) { return glm::dvec3(mesh.vertices.positions[vertex]); });
+}
+
+double nearestPosedCrossing(const Mesh& mesh, const Object& object, const Ray& world, double nearest) {
+    const std::vector<glm::dvec3> positions = posedPositions(mesh, object);
+    return nearestCrossing(mesh, world, nearest, [&](std::uint32_t vertex) { return positions[vertex]; });
 }
 
 }  // namespace
@@ -93,7 +101,9 @@ std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dve
         std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
         if (!bounds) bounds = mesh.bounds();
         if (bounds->empty()) continue;
-        const double distance = nearestCrossing(mesh, *bounds, object.worldFromObject, ray, nearest.distance);
+        const double distance = deformed(object)
+                                    ? nearestPosedCrossing(mesh, object, ray, nearest.distance)
+                                    : nearestCrossing(mesh, *bounds, object.worldFromObject, ray, nearest.distance);
         if (distance < nearest.distance) nearest = {distance, static_cast<int>(i)};
     }
     if (nearest.object < 0) return std::nullopt;

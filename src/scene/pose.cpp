@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 
 #include "core/error.h"
 #include "scene/animation.h"
+#include "scene/posed_mesh.h"
 
 namespace defocus {
 
@@ -13,44 +15,103 @@ namespace {
 
 constexpr std::size_t namesListed = 40;  // in an error message
 
-struct LocalTransform {
+// What animation moves of a node.
+struct NodeState {
     glm::dvec3 translation;
     glm::dquat rotation;
     glm::dvec3 scale;
+    std::vector<double> morphWeights;  // one a target of its mesh
 };
 
-glm::dmat4 matrixOf(const LocalTransform& local) {
-    return glm::scale(glm::translate(glm::dmat4(1.0), local.translation) * glm::mat4_cast(local.rotation), local.scale);
+// What animation moves of a scene.
+struct SceneState {
+    std::vector<NodeState> nodes;
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+};
+
+glm::dmat4 matrixOf(const NodeState& node) {
+    return glm::scale(glm::translate(glm::dmat4(1.0), node.translation) * glm::mat4_cast(node.rotation), node.scale);
 }
 
-void animate(const AnimationClip& clip, double time, std::vector<LocalTransform>& locals) {
+// The node's own weights where it has any, else its mesh's.
+std::vector<double> restWeights(const Scene& scene, const Node& node) {
+    if (node.mesh < 0) return {};
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+    const std::vector<float>& given = node.morphWeights.empty() ? mesh.morphWeights : node.morphWeights;
+    std::vector<double> weights(given.begin(), given.end());
+    weights.resize(mesh.morphTargets.size());
+    return weights;
+}
+
+void animateNode(const AnimationChannel& channel, double time, NodeState& node) {
+    if (channel.path == ChannelPath::rotation) {
+        node.rotation = sampleRotation(channel, time);
+    } else if (channel.path == ChannelPath::weights) {
+        node.morphWeights = sampleValues(channel, node.morphWeights.size(), time);
+    } else {
+        const std::vector<double> value = sampleValues(channel, 3, time);
+        (channel.path == ChannelPath::translation ? node.translation : node.scale) = {value[0], value[1], value[2]};
+    }
+}
+
+// A spline may overshoot: values that no camera or light can have are brought back to the nearest that they can.
+void animateCamera(const AnimationChannel& channel, double time, Camera& camera) {
+    constexpr double leastAngle = 1e-4;
+    const double value = sampleValues(channel, 1, time)[0];
+    if (channel.path == ChannelPath::cameraYfov)
+        camera.yfov = std::clamp(value, leastAngle, std::numbers::pi - leastAngle);
+    else if (channel.path == ChannelPath::cameraZnear)
+        camera.znear = std::max(value, 1e-6);
+    else
+        camera.lens[channel.lensValue] = value;
+}
+
+void animateLight(const AnimationChannel& channel, double time, Light& light) {
+    const std::vector<double> value = sampleValues(channel, channel.path == ChannelPath::lightColor ? 3 : 1, time);
+    const auto positive = [](double number) { return static_cast<float>(std::max(number, 0.0)); };
+    if (channel.path == ChannelPath::lightColor)
+        light.color = {positive(value[0]), positive(value[1]), positive(value[2])};
+    else
+        (channel.path == ChannelPath::lightIntensity ? light.intensity : light.range) = positive(value[0]);
+}
+
+void animate(const AnimationClip& clip, double time, SceneState& state) {
     for (const AnimationChannel& channel : clip.channels) {
-        LocalTransform& local = locals[static_cast<std::size_t>(channel.node)];
-        if (channel.path == ChannelPath::rotation) {
-            local.rotation = sampleRotation(channel, time);
-        } else if (channel.path != ChannelPath::weights) {
-            const std::vector<double> value = sampleValues(channel, 3, time);
-            (channel.path == ChannelPath::translation ? local.translation : local.scale) = {value[0], value[1],
-                                                                                            value[2]};
+        const auto target = static_cast<std::size_t>(channel.target);
+        switch (channel.path) {
+            case ChannelPath::translation:
+            case ChannelPath::rotation:
+            case ChannelPath::scale:
+            case ChannelPath::weights:
+                animateNode(channel, time, state.nodes[target]);
+                break;
+            case ChannelPath::cameraYfov:
+            case ChannelPath::cameraZnear:
+            case ChannelPath::cameraLens:
+                animateCamera(channel, time, state.cameras[target]);
+                break;
+            case ChannelPath::lightColor:
+            case ChannelPath::lightIntensity:
+            case ChannelPath::lightRange:
+                animateLight(channel, time, state.lights[target]);
+                break;
         }
     }
 }
 
-std::vector<glm::dmat4> localMatrices(const Scene& scene, double time, int clip) {
-    std::vector<LocalTransform> locals;
-    locals.reserve(scene.nodes.size());
-    for (const Node& node : scene.nodes) locals.push_back({node.translation, node.rotation, node.scale});
+SceneState stateAt(const Scene& scene, double time, int clip) {
+    SceneState state{{}, scene.cameras, scene.lights};
+    state.nodes.reserve(scene.nodes.size());
+    for (const Node& node : scene.nodes)
+        state.nodes.push_back({node.translation, node.rotation, node.scale, restWeights(scene, node)});
     if (clip >= 0 && !scene.clips.empty()) {
         if (static_cast<std::size_t>(clip) >= scene.clips.size())
             fail("there is no animation clip {}: the scene has {} (0 to {})", clip, scene.clips.size(),
                  scene.clips.size() - 1);
-        animate(scene.clips[static_cast<std::size_t>(clip)], time, locals);
+        animate(scene.clips[static_cast<std::size_t>(clip)], time, state);
     }
-    std::vector<glm::dmat4> matrices;
-    matrices.reserve(scene.nodes.size());
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        matrices.push_back(scene.nodes[i].matrix ? *scene.nodes[i].matrix : matrixOf(locals[i]));
-    return matrices;
+    return state;
 }
 
 // Walks down from `start` (without recursion: a hierarchy may be deeper than the stack) and calls `visit(node,
@@ -73,37 +134,51 @@ void walkDown(const Scene& scene, int start, std::vector<bool>& visited, const V
     }
 }
 
-// A skin's vertices are placed by its joints, not by the node that draws them; in the bind pose all joints agree, so
-// the first stands for all.
-glm::dmat4 worldFromSkin(const Skin& skin, const std::vector<glm::dmat4>& worldFromNode, const glm::dmat4& otherwise) {
-    if (skin.joints.empty() || skin.inverseBindMatrices.empty()) return otherwise;
-    return worldFromNode[static_cast<std::size_t>(skin.joints.front())] * glm::dmat4(skin.inverseBindMatrices.front());
+// Where a skin's joints take its vertices.
+std::vector<glm::dmat4> jointMatrices(const Skin& skin, const std::vector<glm::dmat4>& worldFromNode) {
+    std::vector<glm::dmat4> matrices;
+    matrices.reserve(skin.joints.size());
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+        matrices.push_back(worldFromNode[static_cast<std::size_t>(skin.joints[j])] *
+                           glm::dmat4(skin.inverseBindMatrices[j]));
+    return matrices;
 }
 
-void placeObjects(const Scene& scene, int nodeIndex, Pose& pose) {
+void placeObjects(const Scene& scene, const SceneState& state, int nodeIndex, Pose& pose) {
     const Node& node = scene.nodes[static_cast<std::size_t>(nodeIndex)];
     if (node.mesh < 0) return;
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
     const glm::dmat4& worldFromNode = pose.worldFromNode[static_cast<std::size_t>(nodeIndex)];
-    const std::string& name = !node.name.empty() ? node.name : scene.meshes[static_cast<std::size_t>(node.mesh)].name;
-    double cocScale = 1;  // that of the ancestors too: a group is scaled as a whole
-    for (int i = nodeIndex; i >= 0; i = scene.nodes[static_cast<std::size_t>(i)].parent)
-        cocScale *= scene.nodes[static_cast<std::size_t>(i)].cocScale;
+    Object object;
+    object.mesh = node.mesh;
+    object.node = nodeIndex;
+    object.name = !node.name.empty() ? node.name : mesh.name;
+    object.worldFromObject = worldFromNode;
+    object.morphWeights = state.nodes[static_cast<std::size_t>(nodeIndex)].morphWeights;
+    for (int i = nodeIndex; i >= 0;
+         i = scene.nodes[static_cast<std::size_t>(i)].parent)  // a group is scaled as a whole
+        object.cocScale *= scene.nodes[static_cast<std::size_t>(i)].cocScale;
     if (node.instances.empty()) {
-        const glm::dmat4 world = node.skin < 0 ? worldFromNode
-                                               : worldFromSkin(scene.skins[static_cast<std::size_t>(node.skin)],
-                                                               pose.worldFromNode, worldFromNode);
-        pose.objects.push_back({node.mesh, nodeIndex, name, world, cocScale});
+        if (node.skin >= 0 && !mesh.vertices.joints.empty()) {
+            object.worldFromJoint = jointMatrices(scene.skins[static_cast<std::size_t>(node.skin)], pose.worldFromNode);
+            if (object.skinned()) object.worldFromObject = object.worldFromJoint.front();
+        }
+        pose.objects.push_back(std::move(object));
+        return;
     }
-    for (std::size_t i = 0; i < node.instances.size(); ++i)
-        pose.objects.push_back(
-            {node.mesh, nodeIndex, fmt::format("{}#{}", name, i), worldFromNode * node.instances[i], cocScale});
+    const std::string name = object.name;
+    for (std::size_t i = 0; i < node.instances.size(); ++i) {
+        object.name = fmt::format("{}#{}", name, i);
+        object.worldFromObject = worldFromNode * node.instances[i];
+        pose.objects.push_back(object);
+    }
 }
 
-void placeLight(const Scene& scene, int nodeIndex, Pose& pose) {
+void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, Pose& pose) {
     const Node& node = scene.nodes[static_cast<std::size_t>(nodeIndex)];
     if (node.light < 0) return;
     const glm::dmat4& world = pose.worldFromNode[static_cast<std::size_t>(nodeIndex)];
-    PlacedLight placed{scene.lights[static_cast<std::size_t>(node.light)], glm::dvec3(world[3]), {0, 0, -1}};
+    PlacedLight placed{state.lights[static_cast<std::size_t>(node.light)], glm::dvec3(world[3]), {0, 0, -1}};
     const glm::dvec3 direction = -glm::dvec3(world[2]);
     const double length = glm::length(direction);
     if (length > 0) placed.direction = direction / length;
@@ -112,16 +187,16 @@ void placeLight(const Scene& scene, int nodeIndex, Pose& pose) {
 
 }  // namespace
 
-Pose poseAt(const Scene& scene, double time, int clip) {
+Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     // Local matrices of the moment, multiplied down the hierarchy: first the scene, then what only joints need.
-    const std::vector<glm::dmat4> locals = localMatrices(scene, time, clip);
+    SceneState state = stateAt(scene, time, clip);
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {
         const auto index = static_cast<std::size_t>(node);
-        pose.worldFromNode[index] =
-            parent < 0 ? locals[index] : pose.worldFromNode[static_cast<std::size_t>(parent)] * locals[index];
+        const glm::dmat4 local = scene.nodes[index].matrix ? *scene.nodes[index].matrix : matrixOf(state.nodes[index]);
+        pose.worldFromNode[index] = parent < 0 ? local : pose.worldFromNode[static_cast<std::size_t>(parent)] * local;
     };
     for (const int root : scene.roots) walkDown(scene, root, visited, place);
     const std::vector<bool> drawn = visited;
@@ -131,16 +206,22 @@ Pose poseAt(const Scene& scene, double time, int clip) {
     // Objects and lights in the order of their nodes.
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         if (!drawn[i]) continue;
-        placeObjects(scene, static_cast<int>(i), pose);
-        placeLight(scene, static_cast<int>(i), pose);
+        placeObjects(scene, state, static_cast<int>(i), pose);
+        placeLight(scene, state, static_cast<int>(i), pose);
     }
+    pose.cameras = std::move(state.cameras);
+    return pose;
+}
 
+Pose poseAt(const Scene& scene, double time, int clip) {
+    Pose pose = unmeasuredPoseAt(scene, time, clip);
     // The box around all objects; each mesh is measured once.
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
     for (const Object& object : pose.objects) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
         std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
-        if (!bounds) bounds = scene.meshes[static_cast<std::size_t>(object.mesh)].bounds();
-        pose.bounds.extend(transformed(*bounds, object.worldFromObject));
+        if (!bounds) bounds = mesh.bounds();
+        pose.bounds.extend(posedBounds(mesh, *bounds, object));
     }
     return pose;
 }
@@ -163,8 +244,7 @@ glm::dvec3 nodeCentre(const Scene& scene, const Pose& pose, int node) {
     Bounds bounds;
     for (const Object& object : pose.objects)
         if (object.node == node)
-            bounds.extend(
-                transformed(scene.meshes[static_cast<std::size_t>(object.mesh)].bounds(), object.worldFromObject));
+            bounds.extend(posedBounds(scene.meshes[static_cast<std::size_t>(object.mesh)], object));
     if (!bounds.empty()) return bounds.centre();
     return glm::dvec3(pose.worldFromNode[static_cast<std::size_t>(node)][3]);
 }

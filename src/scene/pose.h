@@ -15,8 +15,14 @@ struct Object {  // a mesh instance with all its primitives
     int mesh = -1;
     int node = -1;
     std::string name;  // the node's, else the mesh's name; instances carry "#i"
+    // Of a skinned object: where its first joint takes it, for what needs one matrix.
     glm::dmat4 worldFromObject{1.0};
     double cocScale = 1;  // factor on the blur, ≥ 0
+    // Each joint's place times its inverse bind matrix (the node's own place does not count); empty without a skin.
+    std::vector<glm::dmat4> worldFromJoint;
+    std::vector<double> morphWeights;  // one a morph target of the mesh
+
+    [[nodiscard]] bool skinned() const { return !worldFromJoint.empty(); }
 };
 
 struct PlacedLight {
@@ -29,16 +35,19 @@ struct Pose {
     std::vector<glm::dmat4> worldFromNode;  // as many as Scene::nodes
     std::vector<Object> objects;
     std::vector<PlacedLight> lights;
-    Bounds bounds;  // of all objects, world space
+    std::vector<Camera> cameras;  // as many as Scene::cameras, with their values of the moment
+    Bounds bounds;                // of all objects, world space
 };
 
 // The scene at `time` seconds into its clip `clip` (-1: no animation). Times outside the clip hold its ends.
 Pose poseAt(const Scene& scene, double time, int clip = 0);
+// The same with empty `bounds`, which take the longest.
+Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);
 
 // The node of that name; throws Error listing the names that exist.
 int nodeNamed(const Scene& scene, std::string_view name);
 
-// World position of a node: the centre of its mesh's bounds where it has one, else its origin.
+// World position of a node: the centre of its mesh's bounds, as posed, where it has one, else its origin.
 glm::dvec3 nodeCentre(const Scene& scene, const Pose& pose, int node);
 
 }  // namespace defocus

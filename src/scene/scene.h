@@ -121,14 +121,26 @@ struct Skin {
 };
 
 enum class Interpolation { step, linear, cubicSpline };
-enum class ChannelPath { translation, rotation, scale, weights };
+enum class ChannelPath {
+    translation,  // of a node, as the next three
+    rotation,
+    scale,
+    weights,
+    cameraYfov,   // radians; of a camera (KHR_animation_pointer), as the next two
+    cameraZnear,  // m
+    cameraLens,   // the value `lensValue` of Camera::lens
+    lightColor,   // of a light (KHR_animation_pointer), as the next two
+    lightIntensity,
+    lightRange,  // m
+};
 
 struct AnimationChannel {
-    int node = -1;
+    int target = -1;  // by its path: into Scene::nodes, Scene::cameras or Scene::lights
     ChannelPath path = ChannelPath::translation;
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;   // seconds, increasing
-    std::vector<float> values;  // 3, 4 or (targets) floats a key; cubicSpline: in-tangent, value, out-tangent
+    std::vector<float> values;  // 3, 4, (targets) or 1 floats a key; cubicSpline: in-tangent, value, out-tangent
+    std::string lensValue;      // ChannelPath::cameraLens
 };
 
 struct AnimationClip {

@@ -34,6 +34,19 @@ void join(std::vector<T>& values, std::size_t count, const std::vector<T>& added
         values.insert(values.end(), added.begin(), added.end());
 }
 
+// Each three positions are a triangle, whose normal its corners get; +y for one without area.
+std::vector<glm::vec3> faceNormals(const std::vector<glm::vec3>& positions) {
+    std::vector<glm::vec3> normals(positions.size());
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
+        const glm::dvec3 a = positions[i];
+        const glm::dvec3 cross = glm::cross(glm::dvec3(positions[i + 1]) - a, glm::dvec3(positions[i + 2]) - a);
+        const double length = glm::length(cross);
+        const glm::vec3 normal = length > 0 && std::isfinite(length) ? glm::vec3(cross / length) : glm::vec3(0, 1, 0);
+        for (std::size_t corner = 0; corner < 3; ++corner) normals[i + corner] = normal;
+    }
+    return normals;
+}
+
 // Tangents for vertices [first, first + count) that have none.
 void fillTangents(std::vector<glm::vec4>& tangents, const std::vector<glm::vec3>& normals, std::size_t first,
                   std::size_t count) {
@@ -48,7 +61,8 @@ VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> or
     VertexBlock result;
     result.vertices = {pick(from.positions, order), pick(from.normals, order), pick(from.tangents, order),
                        pick(from.uv0, order),       pick(from.uv1, order),     pick(from.colors, order),
-                       pick(from.joints, order),    pick(from.weights, order), pick(from.cocScales, order)};
+                       pick(from.joints, order),    pick(from.weights, order), pick(from.cocScales, order),
+                       pick(from.joints1, order),   pick(from.weights1, order)};
     for (const MorphTarget& target : block.morphTargets)
         result.morphTargets.push_back(
             {pick(target.positions, order), pick(target.normals, order), pick(target.tangents, order)});
@@ -78,13 +92,13 @@ VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint
     }
     VertexBlock result = gathered(block, order);
     const std::vector<glm::vec3>& positions = result.vertices.positions;
-    result.vertices.normals.resize(positions.size());
-    for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
-        const glm::dvec3 a = positions[i];
-        const glm::dvec3 cross = glm::cross(glm::dvec3(positions[i + 1]) - a, glm::dvec3(positions[i + 2]) - a);
-        const double length = glm::length(cross);
-        const glm::vec3 normal = length > 0 && std::isfinite(length) ? glm::vec3(cross / length) : glm::vec3(0, 1, 0);
-        for (std::size_t corner = 0; corner < 3; ++corner) result.vertices.normals[i + corner] = normal;
+    result.vertices.normals = faceNormals(positions);
+    for (MorphTarget& target : result.morphTargets) {
+        if (target.positions.empty()) continue;
+        std::vector<glm::vec3> moved(positions.size());
+        for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = positions[i] + target.positions[i];
+        target.normals = faceNormals(moved);
+        for (std::size_t i = 0; i < moved.size(); ++i) target.normals[i] -= result.vertices.normals[i];
     }
     return result;
 }
@@ -106,6 +120,8 @@ std::uint32_t append(Mesh& mesh, const VertexBlock& block) {
     join(to.joints, count, from.joints, added, glm::u16vec4(0));
     join(to.weights, count, from.weights, added, glm::vec4(1, 0, 0, 0));
     join(to.cocScales, count, from.cocScales, added, 1.0f);
+    join(to.joints1, count, from.joints1, added, glm::u16vec4(0));
+    join(to.weights1, count, from.weights1, added, glm::vec4(0));
 
     if (mesh.morphTargets.size() < block.morphTargets.size()) mesh.morphTargets.resize(block.morphTargets.size());
     for (std::size_t i = 0; i < mesh.morphTargets.size(); ++i) {

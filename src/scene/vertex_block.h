@@ -21,7 +21,7 @@ VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> or
 VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 // Flat shading as glTF asks for without normals: every triangle gets vertices of its own with its face's normal. A
-// triangle without area gets +y.
+// triangle without area gets +y. Morph targets turn the normals to those of their own faces.
 VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 // Appends `block` to the mesh's vertices and returns the index of its first. What only one side has is filled with

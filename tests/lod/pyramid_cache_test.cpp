@@ -35,7 +35,8 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
 bool sameBits(const Vertices& a, const Vertices& b) {
     return sameBits(a.positions, b.positions) && sameBits(a.normals, b.normals) && sameBits(a.tangents, b.tangents) &&
            sameBits(a.uv0, b.uv0) && sameBits(a.uv1, b.uv1) && sameBits(a.colors, b.colors) &&
-           sameBits(a.joints, b.joints) && sameBits(a.weights, b.weights);
+           sameBits(a.joints, b.joints) && sameBits(a.weights, b.weights) && sameBits(a.joints1, b.joints1) &&
+           sameBits(a.weights1, b.weights1);
 }
 
 void expectEqual(const Pyramid& a, const Pyramid& b) {
@@ -43,6 +44,8 @@ void expectEqual(const Pyramid& a, const Pyramid& b) {
     EXPECT_TRUE(sameBits(a.source, b.source));
     EXPECT_TRUE(sameBits(a.indices, b.indices));
     EXPECT_EQ(std::memcmp(&a.bounds, &b.bounds, sizeof a.bounds), 0);
+    EXPECT_TRUE(sameBits(a.jointBounds, b.jointBounds));
+    EXPECT_TRUE(sameBits(a.morphBounds, b.morphBounds));
     EXPECT_EQ(a.repairedFaces, b.repairedFaces);
     ASSERT_EQ(a.levels.size(), b.levels.size());
     for (std::size_t l = 0; l < a.levels.size(); ++l) {
@@ -71,6 +74,8 @@ Mesh decoratedTorus(std::uint32_t columns = 24, std::uint32_t rows = 16) {
         mesh.vertices.colors.push_back({byte, 128, 255, 255});
         mesh.vertices.joints.push_back({byte % 7, 0, 0, 0});
         mesh.vertices.weights.push_back({1, 0, 0, 0});
+        mesh.vertices.joints1.push_back({byte % 5, 0, 0, 0});
+        mesh.vertices.weights1.push_back({0, 0, 0, 0});
         target.positions.push_back(0.1f * mesh.vertices.positions[v]);
         target.normals.push_back({0, 0, 1});
         target.tangents.push_back({0, 1, 0});
@@ -185,6 +190,8 @@ TEST(PyramidKey, everyInputCounts) {
         [](Mesh& m) { m.vertices.colors[7].r ^= 1; },
         [](Mesh& m) { m.vertices.joints[7].w ^= 1; },
         [](Mesh& m) { m.vertices.weights[7].w += 0.1f; },
+        [](Mesh& m) { m.vertices.joints1[7].w ^= 1; },
+        [](Mesh& m) { m.vertices.weights1[7].w += 0.1f; },
         [](Mesh& m) { m.morphTargets[0].positions[7].x += 0.1f; },
         [](Mesh& m) { m.morphTargets[0].normals[7].x += 0.1f; },
         [](Mesh& m) { m.morphTargets[0].tangents[7].x += 0.1f; },

@@ -80,7 +80,12 @@ TEST(Pose, skinsArePlacedByTheirJointsNotByTheirNode) {
     scene.nodes[2].translation = {0, 0, 5};
     scene.roots = {0, 2};
     scene.skins = {{"", {2}, {glm::translate(glm::mat4(1), glm::vec3(0, 0, -2))}}};
-    expectNear(glm::dvec3(poseAt(scene, 0).objects.at(0).worldFromObject[3]), {0, 0, 3});
+    scene.meshes[0].vertices.joints.assign(4, glm::u16vec4(0));
+    scene.meshes[0].vertices.weights.assign(4, {1, 0, 0, 0});
+    const Pose pose = poseAt(scene, 0);
+    expectNear(glm::dvec3(pose.objects.at(0).worldFromObject[3]), {0, 0, 3});
+    expectNear(pose.bounds.minimum, {0, 0, 3});
+    expectNear(pose.bounds.maximum, {1, 1, 3});
 }
 
 TEST(Pose, unknownNamesListTheKnownOnes) {
@@ -98,7 +103,7 @@ TEST(Pose, unknownNamesListTheKnownOnes) {
 
 AnimationChannel channelOf(Interpolation interpolation, ChannelPath path, std::vector<float> times,
                            std::vector<float> values) {
-    return {0, path, interpolation, std::move(times), std::move(values)};
+    return {0, path, interpolation, std::move(times), std::move(values), ""};
 }
 
 double valueAt(const AnimationChannel& channel, double time) {

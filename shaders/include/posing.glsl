@@ -1,0 +1,118 @@
+// Vertices as the object's pose has them: morph targets, then the joints' matrices, as src/scene/posed_mesh.h has it on the CPU.
+// SKIN_INFLUENCES: 4 or 8, of a skin. MORPHED: morph targets move its positions; MORPH_NORMALS, MORPH_TANGENTS: these too;
+// MORPH_ATTRIBUTES: how many of the three.
+//
+// A pose in `poses`: for each joint (the object, without a skin) the three rows of its view-from-vertex matrix; then for each
+// morph target that counts (its weight, its number); then, where the camera moves (CAMERA_MOVES), the rows of the matrix from this
+// moment's view space to that of the middle of the exposure, where lights and sky are.
+
+layout(binding = 6) uniform samplerBuffer poses;
+#ifdef MORPHED
+layout(binding = 7) uniform samplerBuffer morphDisplacements;   // a target: positions, then normals, then tangents
+#endif
+
+struct Posed {        // view space
+    vec3 position;
+    vec3 normal;
+    vec3 tangent;
+};
+
+struct Rows {         // of a matrix that moves points
+    vec4 x;
+    vec4 y;
+    vec4 z;
+};
+
+Rows rowsAt(int texel) {
+    return Rows(texelFetch(poses, texel), texelFetch(poses, texel + 1), texelFetch(poses, texel + 2));
+}
+
+#ifdef SKIN_INFLUENCES
+void addJoints(inout Rows sum, inout float weightSum, int firstTexel, vec4 joints, vec4 weights) {
+    for (int i = 0; i < 4; ++i) {
+        if (!(weights[i] > 0.0)) continue;
+        int joint = joints[i] < float(object.posing.y) ? int(joints[i]) : 0;   // one that the skin lacks: its first
+        Rows rows = rowsAt(firstTexel + 3 * joint);
+        sum.x += weights[i] * rows.x;
+        sum.y += weights[i] * rows.y;
+        sum.z += weights[i] * rows.z;
+        weightSum += weights[i];
+    }
+}
+#endif
+
+Rows vertexRows(int firstTexel) {
+#ifdef SKIN_INFLUENCES
+    Rows sum = Rows(vec4(0.0), vec4(0.0), vec4(0.0));
+    float weightSum = 0.0;
+    addJoints(sum, weightSum, firstTexel, jointsIn, weightsIn);
+#if SKIN_INFLUENCES == 8
+    addJoints(sum, weightSum, firstTexel, joints1In, weights1In);
+#endif
+    if (weightSum == 0.0) return rowsAt(firstTexel);
+    return Rows(sum.x / weightSum, sum.y / weightSum, sum.z / weightSum);
+#else
+    return rowsAt(firstTexel);
+#endif
+}
+
+vec3 turned(Rows rows, vec3 direction) {
+    return vec3(dot(rows.x.xyz, direction), dot(rows.y.xyz, direction), dot(rows.z.xyz, direction));
+}
+
+// By the inverse transpose, whose rows are the cross products of the rows over the determinant; the length stays.
+vec3 turnedNormal(Rows rows, vec3 normal) {
+    vec3 x = cross(rows.y.xyz, rows.z.xyz);
+    vec3 y = cross(rows.z.xyz, rows.x.xyz);
+    vec3 z = cross(rows.x.xyz, rows.y.xyz);
+    vec3 result = vec3(dot(x, normal), dot(y, normal), dot(z, normal)) * sign(dot(rows.x.xyz, x));
+    float size = length(result);
+    return size > 0.0 ? result * (length(normal) / size) : normal;
+}
+
+// The vertex in pose number `pose`.
+Posed posedVertex(int pose, Posed vertex) {
+    int firstTexel = pose * object.posing.x;
+#ifdef MORPHED
+    int target = firstTexel + 3 * object.posing.y;
+    for (int i = 0; i < object.posing.z; ++i) {
+        vec4 morph = texelFetch(poses, target + i);
+        int texel = int(morph.y) * MORPH_ATTRIBUTES * object.posing.w + gl_VertexID;
+        vertex.position += morph.x * texelFetch(morphDisplacements, texel).xyz;
+#ifdef MORPH_NORMALS
+        texel += object.posing.w;
+        vertex.normal += morph.x * texelFetch(morphDisplacements, texel).xyz;
+#endif
+#ifdef MORPH_TANGENTS
+        texel += object.posing.w;
+        vertex.tangent += morph.x * texelFetch(morphDisplacements, texel).xyz;
+#endif
+    }
+#endif
+    Rows rows = vertexRows(firstTexel);
+    vertex.position = turned(rows, vertex.position) + vec3(rows.x.w, rows.y.w, rows.z.w);
+    vertex.normal = turnedNormal(rows, vertex.normal);
+    vertex.tangent = turned(rows, vertex.tangent);
+    return vertex;
+}
+
+#ifdef MOVING
+Posed between(Posed a, Posed b, float fraction) {
+    return Posed(mix(a.position, b.position, fraction), mix(a.normal, b.normal, fraction), mix(a.tangent, b.tangent, fraction));
+}
+#endif
+
+#ifdef CAMERA_MOVES
+// A vertex and the point on the lens, as the camera in the middle of the exposure has them.
+void toMiddle(vec2 moment, inout Posed vertex, inout vec3 eye) {
+    int texel = (int(moment.x) + 1) * object.posing.x - 3;
+    Rows rows = rowsAt(texel);
+    if (moment.y > 0.0) {
+        Rows next = rowsAt(texel + object.posing.x);
+        rows = Rows(mix(rows.x, next.x, moment.y), mix(rows.y, next.y, moment.y), mix(rows.z, next.z, moment.y));
+    }
+    vec3 middle = vec3(rows.x.w, rows.y.w, rows.z.w);
+    vertex = Posed(turned(rows, vertex.position) + middle, turned(rows, vertex.normal), turned(rows, vertex.tangent));
+    eye = turned(rows, eye) + middle;
+}
+#endif

@@ -1,0 +1,20 @@
+#include "gl/texel_buffer.h"
+
+#include "core/error.h"
+
+namespace defocus {
+
+TexelBuffer::TexelBuffer(std::span<const float> values, GLenum format, int components, const char* what) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    const std::size_t texels = values.size() / static_cast<std::size_t>(components);
+    if (texels > static_cast<std::size_t>(most))
+        fail("{}: {} texels are more than the {} that this driver reads in one buffer", what, texels, most);
+    buffer_ = Buffer::of(values);
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+    texture_ = GlHandle<destroyTexture>(name);
+    glTextureBuffer(name, format, buffer_.name());
+}
+
+}  // namespace defocus

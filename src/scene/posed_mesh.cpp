@@ -1,0 +1,88 @@
+// glTF 2.0 specification, 3.7.2.2 (morph targets) and 3.7.3 (skins).
+#include "scene/posed_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
+
+namespace defocus {
+
+namespace {
+
+void addInfluences(const Object& object, const glm::u16vec4& joints, const glm::vec4& weights, glm::dmat4& sum,
+                   double& weightSum) {
+    for (int i = 0; i < 4; ++i) {
+        if (!(weights[i] > 0) || !std::isfinite(weights[i])) continue;
+        const std::size_t joint = joints[i] < object.worldFromJoint.size() ? joints[i] : 0;
+        sum += static_cast<double>(weights[i]) * object.worldFromJoint[joint];
+        weightSum += static_cast<double>(weights[i]);
+    }
+}
+
+// Σ w_j · M_j / Σ w_j of a vertex.
+glm::dmat4 worldFromVertex(const Vertices& vertices, const Object& object, std::size_t vertex) {
+    if (!object.skinned() || vertices.joints.empty()) return object.worldFromObject;
+    glm::dmat4 sum(0.0);
+    double weightSum = 0;
+    addInfluences(object, vertices.joints[vertex], vertices.weights[vertex], sum, weightSum);
+    if (!vertices.joints1.empty())
+        addInfluences(object, vertices.joints1[vertex], vertices.weights1[vertex], sum, weightSum);
+    return weightSum > 0 ? sum / weightSum : object.worldFromJoint.front();
+}
+
+// The displacements of one kind (positions or normals), by the weights of the moment.
+std::vector<glm::dvec3> morphed(const std::vector<glm::vec3>& values, const Mesh& mesh, const Object& object,
+                                std::vector<glm::vec3> MorphTarget::*kind) {
+    std::vector<glm::dvec3> result(values.begin(), values.end());
+    const std::size_t targets = std::min(mesh.morphTargets.size(), object.morphWeights.size());
+    for (std::size_t t = 0; t < targets; ++t) {
+        const double weight = object.morphWeights[t];
+        const std::vector<glm::vec3>& displacements = mesh.morphTargets[t].*kind;
+        if (weight == 0 || !std::isfinite(weight) || displacements.empty()) continue;
+        for (std::size_t v = 0; v < result.size(); ++v) result[v] += weight * glm::dvec3(displacements[v]);
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> posedPositions(const Mesh& mesh, const Object& object) {
+    std::vector<glm::dvec3> result = morphed(mesh.vertices.positions, mesh, object, &MorphTarget::positions);
+    for (std::size_t v = 0; v < result.size(); ++v)
+        result[v] = glm::dvec3(worldFromVertex(mesh.vertices, object, v) * glm::dvec4(result[v], 1));
+    return result;
+}
+
+std::vector<glm::vec3> posedNormals(const Mesh& mesh, const Object& object) {
+    const std::vector<glm::dvec3> bound = morphed(mesh.vertices.normals, mesh, object, &MorphTarget::normals);
+    std::vector<glm::vec3> result(bound.size());
+    for (std::size_t v = 0; v < result.size(); ++v) {
+        const glm::dmat3 linear(worldFromVertex(mesh.vertices, object, v));
+        const glm::dvec3 turned = glm::inverseTranspose(linear) * bound[v];
+        const double length = glm::length(turned);
+        result[v] = length > 0 && std::isfinite(length) ? glm::vec3(turned * (glm::length(bound[v]) / length))
+                                                        : glm::vec3(bound[v]);
+    }
+    return result;
+}
+
+bool deformed(const Object& object) {
+    return object.skinned() || std::any_of(object.morphWeights.begin(), object.morphWeights.end(),
+                                           [](double weight) { return weight != 0; });
+}
+
+Bounds posedBounds(const Mesh& mesh, const Object& object) {
+    return posedBounds(mesh, deformed(object) ? Bounds{} : mesh.bounds(), object);
+}
+
+Bounds posedBounds(const Mesh& mesh, const Bounds& meshBounds, const Object& object) {
+    if (!deformed(object)) return transformed(meshBounds, object.worldFromObject);
+    const std::vector<glm::dvec3> positions = posedPositions(mesh, object);
+    Bounds bounds;
+    for (const Primitive& primitive : mesh.primitives)
+        for (const std::uint32_t index : primitive.indices) bounds.extend(positions[index]);
+    return bounds;
+}
+
+}  // namespace defocus

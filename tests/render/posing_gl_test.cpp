@@ -1,0 +1,142 @@
+// Skins and morph targets on the GPU against the same moment posed on the CPU, as meshes that stand still.
+
+#include <gtest/gtest.h>
+
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "models.h"
+#include "posed_world.h"
+#include "render/aov.h"
+#include "render/methods.h"
+
+namespace defocus {
+namespace {
+
+class Posing : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> Posing::context_;
+
+Image rendered(const SmallWorld& small, const RenderSettings& settings, const char* method = "accumulation") {
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba16f;
+    const auto renderer = methodNamed(method).make(small.world, options);
+    renderer->start(planFrame(small.world, small.view, settings));
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+RenderSettings fullDetailSettings() {
+    RenderSettings settings;
+    settings.sampleCount = 4;
+    settings.lod = LodMode::off;
+    return settings;
+}
+
+// Both are single precision by different ways: pixels may differ where an edge passes a sample by a hair.
+void expectSamePicture(const Image& posed, const Image& baked, const std::string& what) {
+    const Difference difference = compareImages(baked, posed);
+    EXPECT_EQ(difference.nonFinite, 0u) << what;
+    EXPECT_GT(difference.psnr, 55) << what;
+}
+
+TEST_F(Posing, modelsEqualTheirBakedMeshes) {
+    for (const auto& [file, clip] : posedModels) {
+        DEFOCUS_MODEL_OR_SKIP(path, file);
+        for (const double time : {0.0, 0.4, 1.1}) {
+            const auto posed = posedWorld(path, time, clip);
+            expectSamePicture(rendered(*posed, fullDetailSettings()),
+                              rendered(*bakedWorld(*posed, 0), fullDetailSettings()),
+                              std::string(file) + " at " + std::to_string(time));
+        }
+    }
+}
+
+// Not only level 0: the coarsest level of an unlit figure against that level, posed on the CPU.
+TEST_F(Posing, coarseLevelsArePosedToo) {
+    for (const char* file : {"Fox.glb", "RiggedFigure.glb"}) {
+        DEFOCUS_MODEL_OR_SKIP(path, file);
+        const auto posed = posedWorld(path, 0.4, 0);
+        for (Material& material : posed->scene.materials) material.unlit = true;
+        ASSERT_GT(posed->world.pyramids[0].levels.size(), 2u);
+        RenderSettings coarse = fullDetailSettings();
+        coarse.lod = LodMode::nearest;
+        coarse.thresholds = {0, 1e6};
+        const FramePlan plan = planFrame(posed->world, posed->view, coarse);
+        ASSERT_EQ(plan.objects.at(0).fine.level, posed->world.pyramids[0].levels.size() - 1);
+        const Image image = rendered(*posed, coarse);
+        expectSamePicture(image, rendered(*bakedWorld(*posed, 99), fullDetailSettings()), file);
+        EXPECT_LT(compareImages(rendered(*posed, fullDetailSettings()), image).psnr, 50) << file;
+    }
+}
+
+// Eight influences, one of them beyond the skin, and morph targets with normals.
+TEST_F(Posing, eightInfluencesAndMorphsTogether) {
+    SmallWorld small;
+    Material plain;
+    plain.metallicFactor = 0;
+    small.scene.materials.push_back(plain);
+    small.scene.meshes.push_back(bumpySphere(60, 40, 0));
+    Mesh& mesh = small.scene.meshes[0];
+    MorphTarget target;
+    for (const glm::vec3& p : mesh.vertices.positions) {
+        mesh.vertices.joints.push_back({0, 1, 2, 3});
+        mesh.vertices.joints1.push_back({4, 5, 60, 7});
+        const float x = 0.5f + 0.5f * p.x;
+        const float y = 0.5f + 0.5f * p.y;
+        mesh.vertices.weights.push_back(glm::vec4(x, y, 1 - x, 1 - y) / 4.0f);
+        mesh.vertices.weights1.push_back(glm::vec4(x * y, x - x * y, y - x * y, 1 - x - y + x * y) / 2.0f);
+        target.positions.push_back(0.4f * glm::vec3(p.y * p.y, 0, p.x));
+        target.normals.push_back(0.3f * glm::vec3(p.y, 0, 0));
+    }
+    mesh.morphTargets = {MorphTarget{}, target, target};
+    place(small, 0, glm::dmat4(1));
+    Object& object = small.world.pose.objects[0];
+    for (int j = 0; j < 8; ++j)
+        object.worldFromJoint.push_back(
+            glm::translate(glm::dmat4(1), glm::dvec3(0.1 * j - 0.4, 0.03 * j * j - 0.6, -4)) *
+            glm::rotate(glm::dmat4(1), 0.2 * j, glm::normalize(glm::dvec3(1, j, 2))));
+    object.worldFromObject = object.worldFromJoint.front();
+    object.morphWeights = {0.7, 0.8, -0.2};
+    PlacedLight sun;
+    sun.light.intensity = 2;
+    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
+    small.world.lights.push_back(sun);
+    small.world.environment = {EnvironmentType::uniform, {0.2f, 0.2f, 0.2f}, {}, {}, nullptr, true, 1};
+    small.view.width = 128;
+    small.view.height = 96;
+    small.view.lens.focusDistance = 4;
+    finish(small);
+    const auto baked = bakedWorld(small, 0);
+    const Image image = rendered(small, fullDetailSettings());
+    expectSamePicture(image, rendered(*baked, fullDetailSettings()), "accumulation");
+    expectSamePicture(rendered(small, fullDetailSettings(), "circular"),
+                      rendered(*baked, fullDetailSettings(), "circular"), "circular");
+    object.morphWeights = {0, 0, 0};
+    EXPECT_LT(compareImages(rendered(small, fullDetailSettings()), image).psnr, 40);
+}
+
+TEST_F(Posing, depthsAreThoseOfThePosedSurface) {
+    DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
+    const auto posed = posedWorld(path, 0.4, 1);
+    const auto baked = bakedWorld(*posed, 0);
+    const AovImages a = renderAovs(posed->world, planFrame(posed->world, posed->view, fullDetailSettings()), {});
+    const AovImages b = renderAovs(baked->world, planFrame(baked->world, baked->view, fullDetailSettings()), {});
+    int differing = 0;
+    int covered = 0;
+    for (std::size_t i = 0; i < a.depth.pixels.size(); ++i) {
+        covered += std::isfinite(a.depth.pixels[i]) ? 1 : 0;
+        const bool same = a.depth.pixels[i] == b.depth.pixels[i] ||
+                          std::abs(a.depth.pixels[i] - b.depth.pixels[i]) < 1e-4f * b.depth.pixels[i];
+        differing += same ? 0 : 1;
+    }
+    EXPECT_GT(covered, 500);
+    EXPECT_LE(differing, 5);
+}
+
+}  // namespace
+}  // namespace defocus
