@@ -1,5 +1,7 @@
 #include "app/exposure.h"
 
+#include <algorithm>
+
 #include "lens/lens_samples.h"
 #include "scene/animation.h"
 
@@ -62,6 +64,8 @@ void openShutter(const SceneOptions& options, const PlacedCamera& camera, const 
             unmeasuredPoseAt(*world.scene, animationTime(options, *world.scene, share), clip));
         view.shutterCameras.push_back(worldFromCameraIn(camera, world.shutter.poses.back()));
     }
+    const auto still = [&](const glm::dmat4& moment) { return moment == view.worldFromCamera; };
+    if (std::all_of(view.shutterCameras.begin(), view.shutterCameras.end(), still)) view.shutterCameras.clear();
 }
 
 }  // namespace defocus

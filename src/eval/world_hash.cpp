@@ -72,17 +72,23 @@ void addMaterials(Hasher& hasher, const Scene& scene) {
     }
 }
 
+void addObjects(Hasher& hasher, const Pose& pose) {
+    for (const Object& object : pose.objects) {
+        hasher.add(object.mesh, object.worldFromObject);
+        for (const glm::dmat4& matrix : object.worldFromJoint) hasher.add(matrix);
+        hasher.addAll(object.morphWeights);
+    }
+}
+
 void addMeshes(Hasher& hasher, const World& world) {
     hasher.add(world.scene->meshes.size(), world.pose.objects.size());
     for (const Mesh& mesh : world.scene->meshes) {
         hasher.add(pyramidKey(mesh, {}).mesh);
         for (const Primitive& primitive : mesh.primitives) hasher.add(primitive.material);
     }
-    for (const Object& object : world.pose.objects) {
-        hasher.add(object.mesh, object.worldFromObject);
-        for (const glm::dmat4& matrix : object.worldFromJoint) hasher.add(matrix);
-        hasher.addAll(object.morphWeights);
-    }
+    addObjects(hasher, world.pose);
+    hasher.add(world.shutter.poses.size(), world.shutter.perSample);
+    for (const Pose& pose : world.shutter.poses) addObjects(hasher, pose);
 }
 
 void addLight(Hasher& hasher, const World& world) {
@@ -102,6 +108,7 @@ void addLight(Hasher& hasher, const World& world) {
 void addView(Hasher& hasher, const View& view) {
     const Lens& l = view.lens;
     hasher.add(view.worldFromCamera, view.nearPlane, view.width, view.height);
+    for (const glm::dmat4& camera : view.shutterCameras) hasher.add(camera);
     for (const LensField& field : lensFields()) hasher.add(lensFieldValue(l, field));
     hasher.add(l.apertureImage != nullptr);
     if (l.apertureImage == nullptr) return;

@@ -56,6 +56,18 @@ std::string drawsText(const ObjectPlan& object) {
                        object.motion.empty() ? "" : "  moves");
 }
 
+std::size_t movingCount(const FramePlan& plan) {
+    return static_cast<std::size_t>(std::count_if(plan.objects.begin(), plan.objects.end(),
+                                                  [](const ObjectPlan& object) { return !object.motion.empty(); }));
+}
+
+// Of the shutter; 0 where nothing moves.
+std::size_t momentCount(const FramePlan& plan) {
+    std::size_t count = 0;
+    for (const ObjectPlan& object : plan.objects) count = std::max(count, object.motion.size());
+    return count;
+}
+
 }  // namespace
 
 std::string planTable(const FramePlan& plan) {
@@ -67,6 +79,10 @@ std::string planTable(const FramePlan& plan) {
         plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
         plan.settings.metric == LodMetric::size ? "size" : "error", plan.settings.thresholds.blur,
         plan.settings.thresholds.size);
+    if (!plan.moments.empty())
+        text.insert(text.size() - 1,
+                    fmt::format("shutter: {} moments, {} of {} objects move{}\n", momentCount(plan), movingCount(plan),
+                                plan.objects.size(), plan.middleFromView.empty() ? "" : ", and so does the camera"));
     std::size_t width = 6;
     for (const ObjectPlan& object : plan.objects) width = std::max(width, object.name.size());
     text += fmt::format("{:{}}  {:>17}  {:>17}  {:>7}  {:>6}  {:<24}  {}\n", "object", width, "depth m", "CoC px",
@@ -100,6 +116,7 @@ std::string planJson(const FramePlan& plan) {
                              {"apertureDiameter", plan.apertureDiameter},
                              {"used", plan.usesLens}}},
                            {"samples", plan.samples.size()},
+                           {"shutter", {{"moments", momentCount(plan)}, {"movingObjects", movingCount(plan)}}},
                            {"lod",
                             {{"mode", lodModeName(plan.settings.lod)},
                              {"metric", plan.settings.metric == LodMetric::size ? "size" : "error"},

@@ -8,7 +8,7 @@
 namespace defocus {
 
 std::string planTable(const FramePlan& plan);
-// Keys: image, lens, samples, objects[] (name, depth, coc, projectedEdge, lambda, blended, moves, draws[], and
+// Keys: image, lens, samples, shutter, objects[] (name, depth, coc, projectedEdge, lambda, blended, moves, draws[], and
 // boundaryShare where the first of the draws shares its last sample with the second), leftOut[], triangles.
 std::string planJson(const FramePlan& plan);
 

@@ -138,5 +138,64 @@ TEST_F(Posing, depthsAreThoseOfThePosedSurface) {
     EXPECT_LE(differing, 5);
 }
 
+// A wall with a normal map: by a joint, by a morph target or by its own place, it is the same wall.
+TEST_F(Posing, tangentsTurnToo) {
+    const auto wall = [] {
+        auto small = std::make_unique<SmallWorld>();
+        Material bumpy;
+        bumpy.metallicFactor = 0;
+        bumpy.normal.texture = 0;
+        small->scene.materials.push_back(bumpy);
+        Texture& texture = small->scene.textures.emplace_back();
+        texture.image = 0;
+        TextureImage& image = small->scene.images.emplace_back();
+        image.width = image.height = 2;
+        image.rgba = {255, 128, 128, 255, 128, 128, 255, 255, 128, 128, 255, 255, 128, 200, 200, 255};
+        small->scene.meshes.push_back(quad(0));
+        Vertices& vertices = small->scene.meshes[0].vertices;
+        vertices.uv0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        vertices.tangents.assign(4, {1, 0, 0, 1});
+        PlacedLight sun;
+        sun.direction = glm::normalize(glm::dvec3(-0.8, -0.5, -1));
+        small->world.lights.push_back(sun);
+        small->world.environment = {EnvironmentType::uniform, {0.1f, 0.1f, 0.1f}, {}, {}, nullptr, true, 1};
+        small->view.width = 96;
+        small->view.height = 64;
+        return small;
+    };
+    const glm::dmat4 inFront = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4));
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), 0.6, glm::normalize(glm::dvec3(1, 2, 0.5)));
+    auto placed = wall();
+    place(*placed, 0, inFront * turn);
+    finish(*placed);
+    const Image expected = rendered(*placed, fullDetailSettings());
+
+    auto skinned = wall();
+    skinned->scene.meshes[0].vertices.joints.assign(4, {1, 0, 0, 0});
+    skinned->scene.meshes[0].vertices.weights.assign(4, {1, 0, 0, 0});
+    place(*skinned, 0, glm::dmat4(1));
+    skinned->world.pose.objects[0].worldFromJoint = {glm::dmat4(1), inFront * turn};
+    finish(*skinned);
+    expectSamePicture(rendered(*skinned, fullDetailSettings()), expected, "skin");
+
+    auto morphed = wall();
+    Mesh& mesh = morphed->scene.meshes[0];
+    const glm::mat3 turned(turn);
+    MorphTarget target;
+    for (std::size_t v = 0; v < 4; ++v) {
+        const glm::vec3 tangent(mesh.vertices.tangents[v]);
+        target.positions.push_back(turned * mesh.vertices.positions[v] - mesh.vertices.positions[v]);
+        target.normals.push_back(turned * mesh.vertices.normals[v] - mesh.vertices.normals[v]);
+        target.tangents.push_back(turned * tangent - tangent);
+    }
+    mesh.morphTargets = {target};
+    place(*morphed, 0, inFront);
+    morphed->world.pose.objects[0].morphWeights = {1};
+    finish(*morphed);
+    expectSamePicture(rendered(*morphed, fullDetailSettings()), expected, "morph");
+    morphed->scene.meshes[0].morphTargets[0].tangents.clear();
+    EXPECT_LT(compareImages(expected, rendered(*morphed, fullDetailSettings())).psnr, 45);
+}
+
 }  // namespace
 }  // namespace defocus

@@ -1,0 +1,248 @@
+// Motion blur against closed forms and against renders of single moments.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "lens/lens_samples.h"
+#include "models.h"
+#include "posed_world.h"
+#include "render/methods.h"
+
+namespace defocus {
+namespace {
+
+class Motion : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> Motion::context_;
+
+RenderSettings settingsFor(std::uint32_t samples) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::off;
+    settings.keepAll = true;
+    return settings;
+}
+
+Image rendered(const World& world, const View& view, const RenderSettings& settings) {
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const auto renderer = methodNamed("accumulation").make(world, options);
+    renderer->start(planFrame(world, view, settings));
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+bool sameBits(const Image& a, const Image& b) {
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
+}
+
+double sumOf(const Image& image) {
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) sum += static_cast<double>(image.at(x, y)[0]);
+    return sum;
+}
+
+// A white square, 128 × 96 px, black all around; a pixel is `pixelSize` m wide at its depth of 4 m.
+struct WhiteSquare : SmallWorld {
+    static constexpr double depth = 4;
+    double pixelSize = 0;
+    explicit WhiteSquare(double halfSizePixels) {
+        scene.materials.push_back(unlitMaterial({1, 1, 1, 1}));
+        scene.meshes.push_back(quad(0));
+        world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, true, 1};
+        view.width = 128;
+        view.height = 96;
+        view.lens.dofEnabled = false;
+        pixelSize = 2 * tanHalfHorizontalFov(view.lens) * depth / view.width;
+        place(*this, 0, at({0, 0}, halfSizePixels));
+        finish(*this);
+    }
+    // Its matrix with the middle `pixels` to the right of and above the image's.
+    [[nodiscard]] glm::dmat4 at(const glm::dvec2& pixels, double halfSizePixels) const {
+        return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(pixelSize * pixels, -depth)),
+                          glm::dvec3(halfSizePixels * pixelSize));
+    }
+};
+
+// A square of width 2a that goes by D covers pixel x for the share of the exposure for which |x − D(t − 1/2)| < a: a
+// trapezoid.
+TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
+    constexpr double a = 8, way = 40;
+    WhiteSquare square(a);
+    square.world.shutter.poses.assign(2, square.world.pose);
+    square.world.shutter.poses[0].objects[0].worldFromObject = square.at({-way / 2, 0}, a);
+    square.world.shutter.poses[1].objects[0].worldFromObject = square.at({way / 2, 0}, a);
+    const Image image = rendered(square.world, square.view, settingsFor(1024));
+    for (int x = 0; x < 128; ++x) {
+        const double place = x + 0.5 - 64;
+        const double from = std::max((place - a) / way + 0.5, 0.0);
+        const double to = std::min((place + a) / way + 0.5, 1.0);
+        // Half a pixel's width and the discrepancy of the points in time.
+        ASSERT_NEAR(image.at(x, 48)[0], std::max(to - from, 0.0), 0.02) << "column " << x;
+    }
+}
+
+TEST_F(Motion, keepsTheEnergyOfWhatMoves) {
+    WhiteSquare square(6);
+    const double still = sumOf(rendered(square.world, square.view, settingsFor(64)));
+    square.world.shutter.poses.assign(2, square.world.pose);
+    square.world.shutter.poses[0].objects[0].worldFromObject = square.at({-30, -11}, 6);
+    square.world.shutter.poses[1].objects[0].worldFromObject = square.at({25, 20}, 6);
+    square.view.lens.dofEnabled = true;
+    square.view.lens.fStop = 0.8;
+    square.view.lens.focusDistance = 2;
+    EXPECT_NEAR(sumOf(rendered(square.world, square.view, settingsFor(64))), still, 0.01 * still);
+}
+
+TEST_F(Motion, anOpenShutterChangesNoBitOfAStillScene) {
+    const auto small = fiveSpheres();
+    const Image still = rendered(small->world, small->view, settingsFor(16));
+    small->world.shutter.poses.assign(5, small->world.pose);
+    small->view.shutterCameras.assign(5, small->view.worldFromCamera);
+    EXPECT_TRUE(sameBits(rendered(small->world, small->view, settingsFor(16)), still));
+}
+
+// Post-process methods draw the middle of the exposure.
+TEST_F(Motion, postProcessMethodsDrawTheMiddle) {
+    const auto small = fiveSpheres();
+    const auto circular = [&] {
+        const auto renderer = methodNamed("circular").make(small->world, {});
+        renderer->start(planFrame(small->world, small->view, settingsFor(4)));
+        while (renderer->advance()) {
+        }
+        return renderer->image();
+    };
+    const Image still = circular();
+    small->world.shutter.poses.assign(2, small->world.pose);
+    for (const double side : {-1.0, 1.0}) {
+        glm::dmat4& matrix = small->world.shutter.poses[side < 0 ? 0 : 1].objects[1].worldFromObject;
+        matrix = glm::translate(glm::dmat4(1), glm::dvec3(0.2 * side, 0, 0)) * matrix;
+    }
+    EXPECT_TRUE(sameBits(circular(), still));
+}
+
+// A quarter turn: the corners of a square go along an arc, but with one segment along its chord.
+TEST_F(Motion, segmentsFollowARotation) {
+    WhiteSquare square(16);
+    const glm::dmat4 middle = square.world.pose.objects[0].worldFromObject;
+    const auto turnedBy = [&](double share) {
+        return glm::rotate(middle, (share - 0.5) * std::numbers::pi, glm::dvec3(0, 0, 1));
+    };
+    constexpr std::uint32_t samples = 64;
+    const auto image = [&](const std::vector<double>& shares, bool perSample) {
+        square.world.shutter.poses.assign(shares.size(), square.world.pose);
+        square.world.shutter.perSample = perSample;
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            square.world.shutter.poses[i].objects[0].worldFromObject = turnedBy(shares[i]);
+        return rendered(square.world, square.view, settingsFor(samples));
+    };
+    std::vector<double> exactShares, sixteenShares;
+    for (std::uint32_t i = 0; i < samples; ++i)
+        exactShares.push_back(static_cast<double>(lensSample(square.view.lens, i, 0).time));
+    for (int i = 0; i <= 16; ++i) sixteenShares.push_back(i / 16.0);
+    const Image exact = image(exactShares, true);
+    const Image sixteen = image(sixteenShares, false);
+    const Image one = image({0, 1}, false);
+    // 16 segments of 11.25° leave the arc by 0.5 % of the radius: a tenth of a pixel.
+    EXPECT_GT(compareImages(exact, sixteen).psnr, 35);
+    EXPECT_LT(compareImages(exact, one).psnr, 20);
+    // Half a turn in straight lines shrinks the square to a point on its way: less light.
+    EXPECT_LT(sumOf(one), 0.5 * sumOf(exact));
+    EXPECT_NEAR(sumOf(exact), 32 * 32, 10);
+}
+
+// The mean of renders of one sample each, every one at that sample's moment with a scene that stands still.
+Image meanOfMoments(const World& world, const View& view, std::uint32_t samples) {
+    Image sum;
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        World still = world;
+        still.pose = world.shutter.poses[i];
+        still.shutter = {};
+        View from = view;
+        from.worldFromCamera = view.shutterCameras[i];
+        from.shutterCameras.clear();
+        RenderSettings settings = settingsFor(1);
+        settings.firstSample = i;
+        const Image one = rendered(still, from, settings);
+        if (sum.empty()) sum = Image(one.width, one.height, one.channels);
+        for (std::size_t p = 0; p < sum.pixels.size(); ++p)
+            sum.pixels[p] += one.pixels[p] / static_cast<float>(samples);
+    }
+    return sum;
+}
+
+// Skin, moving camera, defocus, and lights that must not turn with the camera, all at once.
+TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
+    DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
+    constexpr std::uint32_t samples = 16;
+    const auto small = posedWorld(path, 0.3, 2);
+    View& view = small->view;
+    view.lens.fStop = 0.02;  // the fox is a hundred metres long
+    PlacedLight lamp;
+    lamp.light.type = LightType::point;
+    lamp.light.intensity = 20'000;
+    lamp.position = glm::dvec3(view.worldFromCamera[3]);
+    small->world.lights.push_back(lamp);
+    small->world.environment = {EnvironmentType::uniform, {0.2f, 0.3f, 0.4f}, {}, {}, nullptr, true, 1};
+    small->world.shutter.perSample = true;
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const auto time = static_cast<double>(lensSample(view.lens, i, 0).time);
+        small->world.shutter.poses.push_back(unmeasuredPoseAt(small->scene, 0.3 + 0.1 * (time - 0.5), 2));
+        view.shutterCameras.push_back(glm::rotate(view.worldFromCamera, 0.1 * (time - 0.5), glm::dvec3(0, 1, 0.5)));
+    }
+    const Image blurred = rendered(small->world, view, settingsFor(samples));
+    const Image mean = meanOfMoments(small->world, view, samples);
+    EXPECT_GT(compareImages(mean, blurred).psnr, 60);
+    small->world.shutter = {};
+    view.shutterCameras.clear();
+    EXPECT_LT(compareImages(mean, rendered(small->world, view, settingsFor(samples))).psnr, 35);
+}
+
+// Translation is linear: one segment is exact, for morph targets too.
+TEST_F(Motion, oneSegmentIsExactForTranslationAndMorphs) {
+    constexpr std::uint32_t samples = 16;
+    const auto small = fiveSpheres();
+    small->world.environment = {EnvironmentType::uniform, {0.2f, 0.3f, 0.4f}, {}, {}, nullptr, true, 1};
+    small->scene.materials[0].unlit = true;
+    Mesh& mesh = small->scene.meshes[0];
+    mesh.morphTargets.resize(1);
+    for (const glm::vec3& p : mesh.vertices.positions) mesh.morphTargets[0].positions.push_back({0.3f * p.y, 0, 0});
+    for (Pyramid& pyramid : small->world.pyramids) measureDeformations(pyramid, mesh);
+    const auto poseOf = [&](double share) {
+        Pose pose = small->world.pose;
+        for (std::size_t i = 0; i < pose.objects.size(); ++i) {
+            const double side = i % 2 == 0 ? 1 : -0.5;
+            pose.objects[i].worldFromObject[3] += glm::dvec4(0.2 * side * share, 0.1 * share, 0.4 * side * share, 0);
+            pose.objects[i].morphWeights = {share * side};
+        }
+        return pose;
+    };
+    const auto cameraOf = [&](double share) {
+        return glm::translate(small->view.worldFromCamera, glm::dvec3(0.05 * share, 0, -0.1 * share));
+    };
+    small->world.shutter.poses = {poseOf(0), poseOf(1)};
+    small->view.shutterCameras = {cameraOf(0), cameraOf(1)};
+    const Image linear = rendered(small->world, small->view, settingsFor(samples));
+    small->world.shutter.poses.clear();
+    small->view.shutterCameras.clear();
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const auto time = static_cast<double>(lensSample(small->view.lens, i, 0).time);
+        small->world.shutter.poses.push_back(poseOf(time));
+        small->view.shutterCameras.push_back(cameraOf(time));
+    }
+    EXPECT_GT(compareImages(meanOfMoments(small->world, small->view, samples), linear).psnr, 55);
+}
+
+}  // namespace
+}  // namespace defocus

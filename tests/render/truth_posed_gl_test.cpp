@@ -1,0 +1,41 @@
+// Posed objects on the GPU against the ray tracer, which takes them from the CPU, at the same lens points.
+
+#include <gtest/gtest.h>
+
+#include "baked_scene.h"
+#include "embree/embree_renderer.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "models.h"
+#include "posed_world.h"
+#include "render/methods.h"
+
+namespace defocus {
+namespace {
+
+Image rendered(const SmallWorld& small, Renderer& renderer) {
+    RenderSettings settings;
+    settings.sampleCount = 32;
+    settings.lod = LodMode::off;
+    renderer.start(planFrame(small.world, small.view, settings));
+    while (renderer.advance()) {
+    }
+    return renderer.image();
+}
+
+TEST(PosedTruth, rasteriserAndRayTracerSeeTheSamePose) {
+    const auto context = createHeadlessContext();
+    for (const auto& [file, clip] : posedModels) {
+        DEFOCUS_MODEL_OR_SKIP(path, file);
+        const auto small = posedWorld(path, 0.7, clip);
+        small->scene = bakedUnlit(std::move(small->scene));
+        small->world.pyramids = buildPyramids(small->scene.meshes);
+        small->view.lens.fStop = 0.1;
+        const Image raster = rendered(*small, *methodNamed("accumulation").make(small->world, {}));
+        const Image traced = rendered(*small, *makeEmbreeRenderer(small->world, EmbreeSampling::planned));
+        EXPECT_GT(compareImages(traced, raster).psnr, 45) << file;
+    }
+}
+
+}  // namespace
+}  // namespace defocus
