@@ -7,8 +7,11 @@ namespace defocus {
 void BlockMerge::add(const BlockSum& block) {
     const Image& image = block.sum;
     if (!sum_)
-        sum_.emplace(
-            LayerSumInfo{.width = image.width, .height = image.height, .layers = 1, .format = LayerFormat::rgba16f});
+        sum_.emplace(LayerSumInfo{.width = image.width,
+                                  .height = image.height,
+                                  .layers = 1,
+                                  .format = LayerFormat::rgba16f,
+                                  .shaderFolder = {}});
     if (block.samples < 1 || block.samples > blockSamples || sum_->samples() % blockSamples != 0)
         fail("only the last block of a frame has less than {} samples, and none has more", blockSamples);
     for (const Image* each : {&block.sum, &block.compensation})
