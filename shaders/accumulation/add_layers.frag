@@ -16,6 +16,12 @@ layout(binding = 2) uniform sampler2D compensationSoFar;
 layout(std140, binding = 3) uniform ShiftBlock {
     vec4 sampleShifts[BLOCK_SAMPLES];   // of the sky on the image plane at distance 1; COC_CONTROLS: by C/w = 1, by jitter
 };
+#if defined(CHROMATIC) || defined(CAT_EYE)
+layout(std140, binding = 4) uniform SampleBlock {
+    vec4 sampleBands[BLOCK_SAMPLES];    // colour weights; what the wavelength adds to b of C(w)
+    vec4 sampleLenses[BLOCK_SAMPLES];   // xy: points on the lens, in radii
+};
+#endif
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
 
@@ -26,6 +32,9 @@ layout(location = 1) out vec4 compensationOut;
 // The sky that a sample sees through this pixel.
 vec3 behind(vec2 imagePlane, int layer) {
 #ifdef COC_CONTROLS
+#ifdef CHROMATIC
+    bandShift = sampleBands[firstInBlock + layer].w;
+#endif
     float blur = relativeCircleOfConfusion(0.0, imagePlane * frame.projection.xy, 1.0);
     vec2 p = imagePlane + blur * sampleShifts[firstInBlock + layer].xy + sampleShifts[firstInBlock + layer].zw;
 #else
@@ -44,14 +53,33 @@ void main() {
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
     vec4 compensation = startsBlock ? vec4(0.0) : texelFetch(compensationSoFar, pixel, 0);
     vec2 imagePlane = (2.0 * gl_FragCoord.xy / vec2(textureSize(layers, 0).xy) - 1.0) / frame.projection.xy;
+#ifdef CAT_EYE
+    // The rim of the barrel: a circle as large as the aperture that moves over it the farther the pixel lies from the centre, by
+    // CAT_EYE radii at the image's corners. Light from the right meets it on the right.
+    float aspect = float(textureSize(layers, 0).x) / float(textureSize(layers, 0).y);
+    vec2 rim = CAT_EYE * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));
+    float seen = 0.0;
+#else
+    float seen = float(layerCount);
+#endif
     for (int layer = 0; layer < layerCount; ++layer) {
+#ifdef CAT_EYE
+        vec2 onLens = sampleLenses[firstInBlock + layer].xy + rim;
+        if (dot(onLens, onLens) > 1.0) continue;
+        seen += 1.0;
+#endif
+#ifdef CHROMATIC
+        vec3 weight = sampleBands[firstInBlock + layer].rgb;
+#else
+        const vec3 weight = vec3(1.0);
+#endif
 #ifdef LAYER_RGB9E5
         uint bits = texelFetch(layers, ivec3(pixel, layer), 0).r;
         vec3 value = decodeLayer(bits).rgb;
 #if BACKGROUND == 1 || BACKGROUND == 2
         if (bits == 0u) value = behind(imagePlane, layer);
 #endif
-        addCompensated(sum.rgb, compensation.rgb, value);
+        addCompensated(sum.rgb, compensation.rgb, value * weight);
 #else
         vec4 value = texelFetch(layers, ivec3(pixel, layer), 0);
 #if BACKGROUND == 1 || BACKGROUND == 2
@@ -59,11 +87,11 @@ void main() {
 #elif BACKGROUND == 0
         addCompensated(sum.a, compensation.a, value.a);
 #endif
-        addCompensated(sum.rgb, compensation.rgb, value.rgb);
+        addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
 #endif
     }
 #if BACKGROUND != 0
-    sum.a += float(layerCount);   // whole numbers: exact
+    sum.a += seen;   // whole numbers: exact
 #endif
     sumOut = sum;
     compensationOut = compensation;

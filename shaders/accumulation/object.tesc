@@ -71,6 +71,7 @@ void main() {
     unshearedOut[gl_InvocationID].cocScale = unsheared[gl_InvocationID].cocScale;
     unshearedOut[gl_InvocationID].lensAndJitter = unsheared[gl_InvocationID].lensAndJitter;
     unshearedOut[gl_InvocationID].ditherAndLayer = unsheared[gl_InvocationID].ditherAndLayer;
+    unshearedOut[gl_InvocationID].bandShift = unsheared[gl_InvocationID].bandShift;
     if (gl_InvocationID == 0) {
         vec3 parts = vec3(partsOf(1, 2), partsOf(2, 0), partsOf(0, 1));
         gl_TessLevelOuter[0] = parts.x;

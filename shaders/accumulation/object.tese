@@ -29,5 +29,6 @@ void main() {
     unshearedOut.cocScale = scale;
     unshearedOut.lensAndJitter = unsheared[0].lensAndJitter;
     unshearedOut.ditherAndLayer = unsheared[0].ditherAndLayer;
+    unshearedOut.bandShift = unsheared[0].bandShift;
     gl_Position = vec4(pinhole, 1.0);
 }

@@ -28,6 +28,9 @@ layout(location = 12) in vec4 weights1In;
 #ifdef MOVING
 layout(location = 13) in vec2 momentIn;         // an instance: a moment of the shutter, how far it is to the next
 #endif
+#ifdef CHROMATIC
+layout(location = 14) in float bandShiftIn;     // an instance
+#endif
 #ifdef POSED
 #include "include/posing.glsl"
 #endif
@@ -103,12 +106,16 @@ void main() {
     STAGE_OUT.cocScale = cocScale;
 #endif
 
+#ifdef CHROMATIC
+    bandShift = bandShiftIn;
+#endif
 #ifdef REFINED
     gl_Position = vec4(pinhole, 1.0);
     unsheared.pinhole = pinhole;
     unsheared.cocScale = cocScale;
     unsheared.lensAndJitter = lensAndJitterIn;
     unsheared.ditherAndLayer = eyeAndDitherIn.zw;
+    unsheared.bandShift = bandShift;
 #else
     gl_Position = throughLens(pinhole, cocScale, lensAndJitterIn);
 #ifdef VERTEX_LAYER

@@ -1,11 +1,12 @@
-// The frame's sum over its number of samples.
+// The frame's sum over its number of samples, or over the number that the pixel has, which alpha then counts.
 layout(binding = 0) uniform sampler2D frameSum;
 layout(binding = 1) uniform sampler2D frameCompensation;
-layout(location = 0) uniform float sampleCount;
+layout(location = 0) uniform float sampleCount;   // 0: alpha's
 
 layout(location = 0) out vec4 mean;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    mean = (texelFetch(frameSum, pixel, 0) + texelFetch(frameCompensation, pixel, 0)) / sampleCount;
+    vec4 sum = texelFetch(frameSum, pixel, 0) + texelFetch(frameCompensation, pixel, 0);
+    mean = sampleCount > 0.0 ? sum / sampleCount : vec4(sum.rgb / max(sum.a, 1.0), 1.0);
 }

@@ -5,6 +5,7 @@
 
 in vec2 place;                // in normalised device coordinates
 flat in vec4 lensAndJitter;
+flat in float skyBandShift;
 flat in float ditherOffset;
 
 #ifdef LAYER_RGB9E5
@@ -15,6 +16,9 @@ layout(location = 0) out vec4 layerOut;
 
 // A pixel sees the direction that the lens moves there: a fixed point, as C at infinity may depend on the place.
 vec3 directionOfSky() {
+#ifdef CHROMATIC
+    bandShift = skyBandShift;
+#endif
     vec2 unblurred = place - lensAndJitter.zw;
     vec2 pinhole = unblurred - relativeCircleOfConfusion(0.0, unblurred, 1.0) * lensAndJitter.xy;
 #ifdef COC_CONTROLS

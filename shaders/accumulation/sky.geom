@@ -2,9 +2,11 @@ layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 
 flat in vec4 lensAndJitterToGeometry[];
+flat in float bandShiftToGeometry[];
 flat in vec2 ditherAndLayer[];
 out vec2 place;
 flat out vec4 lensAndJitter;
+flat out float skyBandShift;
 flat out float ditherOffset;
 
 void main() {
@@ -14,6 +16,7 @@ void main() {
         ditherOffset = ditherAndLayer[i].x;
         place = gl_in[i].gl_Position.xy;
         lensAndJitter = lensAndJitterToGeometry[i];
+        skyBandShift = bandShiftToGeometry[i];
         EmitVertex();
     }
     EndPrimitive();

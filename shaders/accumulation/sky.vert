@@ -8,13 +8,20 @@
 
 layout(location = 6) in vec4 lensAndJitterIn;
 layout(location = 7) in vec4 eyeAndDitherIn;
+#ifdef CHROMATIC
+layout(location = 14) in float bandShiftIn;
+#else
+const float bandShiftIn = 0.0;
+#endif
 
 #ifdef VERTEX_LAYER
 out vec2 place;                // in normalised device coordinates
 flat out vec4 lensAndJitter;
+flat out float skyBandShift;
 flat out float ditherOffset;
 #else
 flat out vec4 lensAndJitterToGeometry;
+flat out float bandShiftToGeometry;
 flat out vec2 ditherAndLayer;
 #endif
 
@@ -24,10 +31,12 @@ void main() {
 #ifdef VERTEX_LAYER
     place = corner;
     lensAndJitter = lensAndJitterIn;
+    skyBandShift = bandShiftIn;
     ditherOffset = eyeAndDitherIn.z;
     gl_Layer = int(eyeAndDitherIn.w);
 #else
     lensAndJitterToGeometry = lensAndJitterIn;
+    bandShiftToGeometry = bandShiftIn;
     ditherAndLayer = eyeAndDitherIn.zw;
 #endif
 }

@@ -88,6 +88,9 @@ void emit(Piece piece) {
 }
 
 void main() {
+#ifdef CHROMATIC
+    bandShift = unsheared[0].bandShift;
+#endif
     // The kinks' functions at the corners, linear where the pieces of C are; growing from front to back.
     vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
     for (int i = 0; i < 3; ++i) {

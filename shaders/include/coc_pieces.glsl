@@ -12,6 +12,6 @@ CocPieces cocPieces(vec3 pinhole, float scale) {
     float square = dot(q, q);
     float w = max(pinhole.z, frame.projection.z);
     float focus = pinhole.z + dot(frame.cocField.xy, pinhole.xy) + frame.cocField.z * square / w;
-    return CocPieces(scale * (1.0 + frame.cocField.w * square / (w * w)), frame.coc.x + frame.coc.y * focus,
-                     frame.coc.x + frame.coc.w * focus);
+    return CocPieces(scale * (1.0 + frame.cocField.w * square / (w * w)), frame.coc.x + (frame.coc.y + bandShift) * focus,
+                     frame.coc.x + (frame.coc.w + bandShift) * focus);
 }

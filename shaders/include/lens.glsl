@@ -2,6 +2,12 @@
 // C itself: src/lens/circle_of_confusion.h holds the mathematics. COC_CONTROLS: something changes C from a + b·w.
 // Depth is reversed with an infinite far plane: z = near, so that z/w runs from 1 at the near plane to 0.
 
+#ifdef CHROMATIC
+float bandShift = 0.0;   // what the wavelength of the lens sample at hand adds to b₁ and b₂
+#else
+const float bandShift = 0.0;
+#endif
+
 #ifdef COC_CONTROLS
 struct CocTerms {
     float factor;   // scale·(1 + g·r²)
@@ -12,8 +18,8 @@ struct CocTerms {
 CocTerms cocTerms(float inverseDepth, vec2 ndc, float scale) {
     float radius2 = ndc.x * ndc.x + ndc.y * ndc.y * frame.cocLimits.z;
     float focus = 1.0 + frame.cocField.z * radius2 + dot(frame.cocField.xy, ndc);
-    return CocTerms(scale * (1.0 + frame.cocField.w * radius2), frame.coc.x * inverseDepth + frame.coc.y * focus,
-                    frame.coc.x * inverseDepth + frame.coc.w * focus);
+    return CocTerms(scale * (1.0 + frame.cocField.w * radius2), frame.coc.x * inverseDepth + (frame.coc.y + bandShift) * focus,
+                    frame.coc.x * inverseDepth + (frame.coc.w + bandShift) * focus);
 }
 #endif
 
@@ -23,7 +29,7 @@ float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, float scale) {
     CocTerms terms = cocTerms(inverseDepth, ndc, scale);
     return clamp(terms.factor * (min(0.0, terms.front) + max(0.0, terms.behind)), -frame.cocLimits.x, frame.cocLimits.y);
 #else
-    return frame.coc.x * inverseDepth + frame.coc.y;
+    return frame.coc.x * inverseDepth + frame.coc.y + bandShift;
 #endif
 }
 
@@ -39,7 +45,7 @@ vec4 throughLens(vec3 pinhole, float scale, vec4 lensAndJitter) {
 #ifdef COC_CONTROLS
     float c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, scale);
 #else
-    float c = frame.coc.x + frame.coc.y * w;
+    float c = frame.coc.x + (frame.coc.y + bandShift) * w;
 #endif
     return vec4(pinhole.xy + c * lensAndJitter.xy + w * lensAndJitter.zw, frame.projection.z, w);
 }

@@ -5,3 +5,4 @@
     float cocScale;
     flat vec4 lensAndJitter;
     flat vec2 ditherAndLayer;
+    flat float bandShift;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lens/wavelengths.h"
+
 namespace defocus {
 
 namespace {
@@ -91,6 +93,7 @@ ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int hei
     coc.foregroundLimit = lens.foregroundLimit / width;
     coc.backgroundLimit = lens.backgroundLimit / width;
     coc.aspect = aspect;
+    coc.chromatic = std::abs(chromaticShift(coc.a, lens.axialChromaticAberration, 1));
     return coc;
 }
 

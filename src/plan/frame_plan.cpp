@@ -282,6 +282,8 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.apertureDiameter = apertureDiameter(view.lens);
     plan.coc = clipCircleOfConfusion(view.lens, view.width, view.height);
     plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
+    if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
+        fail("lens: a cat's eye needs a background: what the barrel hides of it has no coverage of its own");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);
 
     // Place every object and drop those that cannot be seen.

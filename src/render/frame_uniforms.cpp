@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "lens/wavelengths.h"
 #include "render/environment_light.h"
 
 namespace defocus {
@@ -59,6 +60,10 @@ GlTexture environmentTexture(const Image& map) {
     return texture;
 }
 
+bool barrelCuts(const FramePlan& plan) {
+    return plan.usesLens && plan.view.lens.catEye > 0;
+}
+
 }  // namespace
 
 void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint32_t layerCount) {
@@ -77,6 +82,9 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
                 {"LIGHT_COUNT", std::to_string(world.lights.size())}};
     if (type == EnvironmentType::map && !environmentMap_) environmentMap_ = environmentTexture(*world.environment.map);
     if (plan.usesCocScales) defines_.emplace_back("COC_SCALES", "1");
+    if (plan.coc.chromatic > 0) defines_.emplace_back("CHROMATIC", "1");
+    countsInAlpha_ = barrelCuts(plan);
+    if (countsInAlpha_) defines_.emplace_back("CAT_EYE", fmt::format("{:.6f}", plan.view.lens.catEye));
     if (plan.usesCocControls) defines_.emplace_back("COC_CONTROLS", "1");
     uploadSamples(plan, layerCount);
 
@@ -123,15 +131,36 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     // the image plane at distance 1. With controls, C/w depends on the pixel, which multiplies what the lens adds.
     // Padded to whole blocks, which are bound one at a time.
     const glm::vec2 imagePlane(plan.tanHalfHorizontal, plan.tanHalfHorizontal * plan.view.height / plan.view.width);
-    const auto b = static_cast<float>(plan.coc.behind);
+    const double dioptres = plan.coc.chromatic > 0 ? plan.view.lens.axialChromaticAberration : 0;
+    std::vector<float> bandShifts(samples.size());
     std::vector<glm::vec4> shifts((samples.size() + blockSamples - 1) / blockSamples * blockSamples);
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const glm::vec4& s = samples[i].lensAndJitter;
         const glm::vec2 byLens = -glm::vec2(s.x, s.y) * imagePlane;
         const glm::vec2 byJitter = -glm::vec2(s.z, s.w) * imagePlane;
+        bandShifts[i] = static_cast<float>(chromaticShift(plan.coc.a, dioptres, plan.samples[i].band));
+        const float b = static_cast<float>(plan.coc.behind) + bandShifts[i];
         shifts[i] = plan.usesCocControls ? glm::vec4(byLens, byJitter) : glm::vec4(b * byLens + byJitter, 0, 0);
     }
     sampleShifts_ = Buffer::of(std::span<const glm::vec4>(shifts));
+    uploadBands(plan, bandShifts);
+}
+
+// A block's samples: colour weights and shifts of b, then points on the lens.
+void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts) {
+    bandShifts_ = Buffer();
+    sampleBands_ = Buffer();
+    if (!(plan.coc.chromatic > 0) && !barrelCuts(plan)) return;
+    if (plan.coc.chromatic > 0) bandShifts_ = Buffer::of(std::span<const float>(bandShifts));
+    std::vector<glm::vec3> weights(bandShifts.size(), glm::vec3(1));
+    if (plan.coc.chromatic > 0) weights = bandWeights(plan.samples);
+    std::vector<glm::vec4> bands((bandShifts.size() + blockSamples - 1) / blockSamples * blockSamples * 2);
+    for (std::size_t i = 0; i < bandShifts.size(); ++i) {
+        const std::size_t at = i / blockSamples * blockSamples * 2 + i % blockSamples;
+        bands[at] = glm::vec4(weights[i], bandShifts[i]);
+        bands[at + blockSamples] = glm::vec4(plan.samples[i].lens, 0, 0);
+    }
+    sampleBands_ = Buffer::of(std::span<const glm::vec4>(bands));
 }
 
 void FrameUniforms::bind(std::uint32_t firstSample) const {
@@ -139,11 +168,15 @@ void FrameUniforms::bind(std::uint32_t firstSample) const {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.name());
     glBindBufferRange(GL_UNIFORM_BUFFER, 3, sampleShifts_.name(),
                       static_cast<GLintptr>(firstSample / blockSamples * blockBytes), blockBytes);
+    if (sampleBands_)
+        glBindBufferRange(GL_UNIFORM_BUFFER, 4, sampleBands_.name(),
+                          static_cast<GLintptr>(firstSample / blockSamples * blockBytes * 2), blockBytes * 2);
     if (environmentMap_) environmentMap_.attach(5);
 }
 
 std::size_t FrameUniforms::bytes() const {
-    return frameBlock_.bytes() + samples_.bytes() + moments_.bytes() + sampleShifts_.bytes() + environmentMap_.bytes();
+    return frameBlock_.bytes() + samples_.bytes() + moments_.bytes() + sampleShifts_.bytes() + bandShifts_.bytes() +
+           sampleBands_.bytes() + environmentMap_.bytes();
 }
 
 }  // namespace defocus

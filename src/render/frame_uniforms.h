@@ -23,16 +23,24 @@ public:
     [[nodiscard]] const Buffer& samples() const { return samples_; }
     // vec2, one a lens sample: its SampleMoment. Empty where nothing moves.
     [[nodiscard]] const Buffer& moments() const { return moments_; }
+    // float, one a lens sample: what its wavelength adds to b of C(w). Empty where wavelengths share a focus.
+    [[nodiscard]] const Buffer& bandShifts() const { return bandShifts_; }
+    // Samples weigh differently from pixel to pixel: the sum's alpha counts those that a pixel has.
+    [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     void uploadSamples(const FramePlan& plan, std::uint32_t layerCount);
+    void uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts);
 
     ShaderDefines defines_;
     Buffer frameBlock_;
     Buffer samples_;  // GpuSample, one a lens sample
     Buffer moments_;
     Buffer sampleShifts_;  // vec4, one a lens sample: where the sky lies for it
+    Buffer bandShifts_;
+    Buffer sampleBands_;  // of shaders/accumulation/add_layers.frag's SampleBlock
+    bool countsInAlpha_ = false;
     GlTexture environmentMap_;
 };
 

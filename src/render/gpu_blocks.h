@@ -63,6 +63,7 @@ enum AttributeLocation : unsigned {
     joints1Location,
     weights1Location,
     momentLocation,
+    bandShiftLocation,
 };
 
 }  // namespace defocus

@@ -74,6 +74,7 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t count) {
     glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(samples_ % blockSamples));
     fullscreen_.draw(addLayers_);
     block_.flip();
+    countsInAlpha_ = frame.countsInAlpha();
     samples_ += count;
     if (samples_ % blockSamples == 0) {
         addBlockTo(frame_, samples_ == blockSamples);
@@ -120,7 +121,7 @@ Image LayerSum::mean() {
     target.bind();
     frame_.sum[latest].attach(0);
     frame_.compensation[latest].attach(1);
-    glProgramUniform1f(resolve_.name(), 0, static_cast<float>(samples_));
+    glProgramUniform1f(resolve_.name(), 0, countsInAlpha_ ? 0.0f : static_cast<float>(samples_));
     fullscreen_.draw(resolve_);
     return readBack(result, 4);
 }

@@ -73,6 +73,7 @@ private:
     Program resolve_;
     Fullscreen fullscreen_;
     std::uint32_t samples_ = 0;
+    bool countsInAlpha_ = false;
 };
 
 }  // namespace defocus

@@ -44,6 +44,10 @@ void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     skyArray_.attribute(eyeLocation, 4, GL_FLOAT, false, true);
     skyArray_.bind(lensLocation, frame.samples(), 0, sizeof(GpuSample));
     skyArray_.bind(eyeLocation, frame.samples(), sizeof(glm::vec4), sizeof(GpuSample));
+    if (frame.bandShifts()) {
+        skyArray_.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
+        skyArray_.bind(bandShiftLocation, frame.bandShifts(), 0, sizeof(float));
+    }
 }
 
 void SurfacePass::uploadObjects(const FramePlan& plan) {
@@ -83,6 +87,10 @@ void SurfacePass::addDraws(const FramePlan& plan) {
         if (frame_->moments()) {
             gpuMesh.vertexArray.attribute(momentLocation, 2, GL_FLOAT, false, true);
             gpuMesh.vertexArray.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec2));
+        }
+        if (frame_->bandShifts()) {
+            gpuMesh.vertexArray.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
+            gpuMesh.vertexArray.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
         }
         for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
             Draw draw;
@@ -274,10 +282,11 @@ void SurfacePass::drawBlendedDepth(std::uint32_t first, std::uint32_t count) {
 }
 
 void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
-    if (!sky_) {
+    if (!sky_ || skyDefines_ != passDefines(info_.vertexShaderLayers)) {
+        skyDefines_ = passDefines(info_.vertexShaderLayers);
         std::vector<std::string> shaders = {"accumulation/sky.vert", "accumulation/sky.frag"};
         if (!info_.vertexShaderLayers) shaders.emplace_back("accumulation/sky.geom");
-        sky_ = Program({std::move(shaders), passDefines(info_.vertexShaderLayers), info_.shaderFolder});
+        sky_ = Program({std::move(shaders), skyDefines_, info_.shaderFolder});
     }
     bindFrame();
     sky_.use();

@@ -79,6 +79,7 @@ private:
     std::map<std::string, Program> programs_;
     SubmissionPacer pacer_;
     Program sky_;
+    ShaderDefines skyDefines_;  // that sky_ was built with
     VertexArray skyArray_;
     const FrameUniforms* frame_ = nullptr;
     Buffer objectBlocks_, materialBlocks_;
