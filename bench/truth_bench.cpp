@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
     defocus::Options options;
     CLI::App app("The accumulation method against an independent thin-lens ray tracer");
     app.add_option("--samples", options.samples, "samples a pixel, of both")->check(CLI::Range(1, 65536));
+    using defocus::Sequence;
     const std::map<std::string, Sequence> sequences = {{"halton", Sequence::halton},
                                                        {"scrambled-halton", Sequence::scrambledHalton},
                                                        {"sobol", Sequence::sobol},
