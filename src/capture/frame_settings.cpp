@@ -58,9 +58,9 @@ std::string frameSettings(const FilmSettings& film, const SequenceFrame& frame) 
     settings.add(frame.view.nearPlane, frame.view.width, frame.view.height);
     addLens(settings, frame.view.lens);
     const RenderSettings& render = frame.settings;
-    settings.add(render.sampleCount, render.seed, render.firstSample, lodModeName(render.lod),
-                 render.metric == LodMetric::size, render.lodCocAtCentre, render.thresholds.blur,
-                 render.thresholds.size, render.keepAll);
+    settings.add(render.sampleCount, sequenceName(render.sequence), render.seed, render.firstSample,
+                 lodModeName(render.lod), render.metric == LodMetric::size, render.lodCocAtCentre,
+                 render.thresholds.blur, render.thresholds.size, render.keepAll);
     return settings.hash();
 }
 
