@@ -87,7 +87,7 @@ inline World flatWorld(const Scene& scene, const Environment& environment) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const glm::dmat4 matrix = scene.nodes[i].matrix.value_or(glm::dmat4(1.0));
         world.pose.worldFromNode.push_back(matrix);
-        world.pose.objects.push_back({scene.nodes[i].mesh, static_cast<int>(i), "object", matrix, {}, {}});
+        world.pose.objects.push_back({scene.nodes[i].mesh, static_cast<int>(i), "object", matrix, 1, {}, {}});
         world.pose.bounds.extend(
             transformed(scene.meshes[static_cast<std::size_t>(scene.nodes[i].mesh)].bounds(), matrix));
     }

@@ -58,6 +58,8 @@ void main() {
 #ifdef POSED
     Posed rest = Posed(positionIn, normalIn, tangentIn.xyz);
 #ifdef MOVING
+    // The clip position is linear in time (Munkberg et al. 2012), and C is that of the place where it is: for a plain lens the
+    // paper's linear C(t), and with controls what a still frame of that moment has.
     Posed vertex = posedVertex(int(momentIn.x), rest);
     if (momentIn.y > 0.0) vertex = between(vertex, posedVertex(int(momentIn.x) + 1, rest), momentIn.y);
 #else

@@ -167,18 +167,23 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
 
 void measureDeformations(Pyramid& pyramid, const Mesh& mesh) {
     const Vertices& vertices = pyramid.vertices;
+    const auto extendJoint = [&](std::size_t joint, const glm::vec3& position) {
+        if (pyramid.jointBounds.size() <= joint) pyramid.jointBounds.resize(joint + 1);
+        pyramid.jointBounds[joint].extend(glm::dvec3(position));
+    };
     const auto extend = [&](const glm::vec3& position, const glm::u16vec4& joints, const glm::vec4& weights) {
-        for (int i = 0; i < 4; ++i) {
-            if (!(weights[i] > 0)) continue;
-            if (pyramid.jointBounds.size() <= joints[i]) pyramid.jointBounds.resize(std::size_t{joints[i]} + 1);
-            pyramid.jointBounds[joints[i]].extend(glm::dvec3(position));
-        }
+        for (int i = 0; i < 4; ++i)
+            if (weights[i] > 0) extendJoint(joints[i], position);
     };
     pyramid.jointBounds.clear();
     for (const PyramidLevel& level : pyramid.levels)
-        for (std::size_t v = 0; v < level.positions.size(); ++v) {
-            if (!vertices.joints.empty()) extend(level.positions[v], vertices.joints[v], vertices.weights[v]);
-            if (!vertices.joints1.empty()) extend(level.positions[v], vertices.joints1[v], vertices.weights1[v]);
+        for (std::size_t v = 0; v < level.positions.size() && !vertices.joints.empty(); ++v) {
+            const glm::vec3& position = level.positions[v];
+            extend(position, vertices.joints[v], vertices.weights[v]);
+            if (!vertices.joints1.empty()) extend(position, vertices.joints1[v], vertices.weights1[v]);
+            // A vertex that no joint moves follows the first.
+            const bool moved = glm::any(glm::greaterThan(vertices.weights[v], glm::vec4(0)));
+            if (!moved) extendJoint(0, position);
         }
     pyramid.morphBounds.clear();
     for (const MorphTarget& target : mesh.morphTargets) {

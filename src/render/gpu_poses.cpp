@@ -49,7 +49,8 @@ GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuDefo
         }
         if (result.cameraMoves) addRows(texels, plan.middleFromView[i]);
     }
-    result.texels = TexelBuffer(texels, GL_RGBA32F, 4, "the poses of an object");
+    result.texels =
+        TexelBuffer(texels, GL_RGBA32F, 4, "the poses of an object (fewer samples or motion segments need less)");
     return result;
 }
 

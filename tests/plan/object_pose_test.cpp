@@ -67,6 +67,22 @@ TEST(ObjectPose, boundsHoldForAnyMorphWeights) {
         }
 }
 
+// Vertices without weights, and joints that the skin lacks, follow the first joint.
+TEST(ObjectPose, boundsHoldForOddWeights) {
+    SmallWorld small;
+    small.scene.meshes.push_back(bumpySphere(24, 18, -1));
+    Vertices& vertices = small.scene.meshes[0].vertices;
+    for (std::size_t v = 0; v < vertices.count(); ++v) {
+        vertices.joints.push_back(v % 2 == 0 ? glm::u16vec4(1, 0, 0, 0) : glm::u16vec4(9, 0, 0, 0));
+        vertices.weights.push_back({v % 3 == 0 ? 0.0f : 0.7f, 0, 0, 0});
+    }
+    place(small, 0, glm::dmat4(1));
+    finish(small);
+    small.world.pose.objects[0].worldFromJoint = {glm::translate(glm::dmat4(1), glm::dvec3(5, 0, 0)),
+                                                  glm::translate(glm::dmat4(1), glm::dvec3(0, -7, 0))};
+    expectBoundsHold(small);
+}
+
 TEST(ObjectPose, windingFollowsTheMajorityOfJoints) {
     Object object;
     object.worldFromJoint = {glm::dmat4(1), glm::scale(glm::dmat4(1), glm::dvec3(-1, 1, 1)),

@@ -164,7 +164,7 @@ TEST_F(Posing, tangentsTurnToo) {
         return small;
     };
     const glm::dmat4 inFront = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4));
-    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), 0.6, glm::normalize(glm::dvec3(1, 2, 0.5)));
+    const glm::dmat4 turn = glm::rotate(glm::rotate(glm::dmat4(1), 0.4, glm::dvec3(0, 1, 0)), 1.3, glm::dvec3(0, 0, 1));
     auto placed = wall();
     place(*placed, 0, inFront * turn);
     finish(*placed);
