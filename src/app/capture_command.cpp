@@ -112,6 +112,7 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
     for (const FilmFrame& each : film) {
         const SequenceFrame frame = frameAt(arguments.shot, base, each.frame);
         prepared.world.pose = frame.pose;
+        prepared.world.shutter = frame.shutter;
         const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
         const Lens& lens = frame.view.lens;
         fmt::print("{:>7} {:>9.3f} {:>10.4g} {:>8.3g} {:>8.4g} {:>12}  {}{}\n", each.frame, frame.time,

@@ -165,7 +165,7 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
     frame.world.environment = chosenEnvironment(options, *frame.scene);
     frame.settings = chosenSettings(options);
-    openShutter(options, placed, frame.settings, frame.world, frame.view);
+    exposeMotion(options, placed, frame.settings, frame.world, frame.view);
     frame.cacheFolder = chosenCacheFolder(options);
     frame.loadMilliseconds = loading.milliseconds();
     return frame;

@@ -71,8 +71,9 @@ double parseSeconds(const std::string& text) {
 
 void parseSegments(const std::string& text, SceneOptions& options) {
     constexpr std::uint64_t mostSegments = 64;
-    options.exactMotion = text == "exact";
-    if (!options.exactMotion) options.motionSegments = static_cast<std::uint32_t>(parseWhole(text, 1, mostSegments));
+    options.exposure.exactMotion = text == "exact";
+    if (!options.exposure.exactMotion)
+        options.exposure.motionSegments = static_cast<std::uint32_t>(parseWhole(text, 1, mostSegments));
 }
 
 void addShutter(CLI::App& command, SceneOptions& options) {
@@ -80,10 +81,10 @@ void addShutter(CLI::App& command, SceneOptions& options) {
     addParsed(command, "--shutter", "S",
               "Seconds that the shutter stays open, as 0.02 or 1/48 (half of a frame of 24 a second): what the "
               "animation moves meanwhile is blurred; without it, one moment",
-              [&options](const std::string& text) { options.shutter = parseSeconds(text); })
+              [&options](const std::string& text) { options.exposure.seconds = parseSeconds(text); })
         ->group(group);
     addChoice<ShutterPosition>(
-        command, "--shutter-position", options.shutterPosition,
+        command, "--shutter-position", options.exposure.position,
         {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
         "Where --time lies in the exposure")
         ->group(group);

@@ -11,13 +11,11 @@
 #include <optional>
 #include <string>
 
+#include "plan/exposure.h"
 #include "plan/view.h"
 #include "render/methods.h"
 
 namespace defocus {
-
-// Where `time` lies in the exposure.
-enum class ShutterPosition { start, centre, end };
 
 enum class Background { environment, none, uniform };
 
@@ -28,13 +26,10 @@ struct SceneOptions {
     std::filesystem::path path;
     int fishCount = 20;
     int trianglesPerFish = 90'000;
-    double time = 0;     // s into the animation
-    std::string clip;    // the animation's name or number; empty: the first
-    bool loop = false;   // the animation repeats
-    double shutter = 0;  // s that it stays open; 0: everything stands still
-    ShutterPosition shutterPosition = ShutterPosition::centre;
-    std::uint32_t motionSegments = 1;  // 1 … 64
-    bool exactMotion = false;          // a pose of its own for each sample instead
+    double time = 0;    // s into the animation
+    std::string clip;   // the animation's name or number; empty: the first
+    bool loop = false;  // the animation repeats
+    Exposure exposure;
     std::filesystem::path environment;
     Background background = Background::environment;
     glm::vec3 backgroundColor{0.0f};  // Background::uniform

@@ -51,7 +51,7 @@ void settleShot(Shot& shot, SceneOptions& options, bool cameraGiven) {
 }
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const SceneOptions& options) {
-    return {frame.scene.get(), frame.view, frame.settings, frame.world.lights, options.camera};
+    return {frame.scene.get(), frame.view, frame.settings, frame.world.lights, options.camera, options.exposure};
 }
 
 }  // namespace defocus

@@ -93,6 +93,7 @@ DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, cons
                      const FilmMetadata& metadata, const std::function<void(double)>& step) {
     const Clock::time_point start = Clock::now();
     world.pose = frame.pose;
+    world.shutter = frame.shutter;
     world.lights = frame.lights;
     const FramePlan plan = planFrame(world, frame.view, frame.settings);
     DrawnFrame drawn;

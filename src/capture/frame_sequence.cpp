@@ -50,27 +50,26 @@ double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, dou
     return std::clamp((frame - range.first) / length, 0.0, 1.0);
 }
 
-View movedView(const Shot& shot, const SequenceBase& base, const SequenceFrame& frame) {
+// At frame number `frame`, whole or not.
+View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, double frame) {
     View view = base.view;
     // A camera of the file goes where its node's animation takes it; one that frames the scene stays.
     const Scene& scene = *base.scene;
     if (!scene.cameras.empty() && base.camera != framingCamera) {
         const double aspect = static_cast<double>(view.width) / view.height;
-        view.worldFromCamera = chooseCamera(scene, frame.pose, base.camera, aspect).worldFromCamera;
+        view.worldFromCamera = chooseCamera(scene, pose, base.camera, aspect).worldFromCamera;
     }
     if (const auto* keys = std::get_if<CameraKeys>(&shot.camera.movement))
-        view.worldFromCamera =
-            lookingAt(valueAt(pointsOf(keys->positions, scene, frame.pose), keys->easing, frame.frame),
-                      valueAt(pointsOf(keys->targets, scene, frame.pose), keys->easing, frame.frame));
+        view.worldFromCamera = lookingAt(valueAt(pointsOf(keys->positions, scene, pose), keys->easing, frame),
+                                         valueAt(pointsOf(keys->targets, scene, pose), keys->easing, frame));
     if (const auto* turntable = std::get_if<Turntable>(&shot.camera.movement)) {
-        const glm::dvec3 centre =
-            turntable->centre ? pointOf(*turntable->centre, scene, frame.pose) : frame.pose.bounds.centre();
-        const double turns = turntable->turns * placeIn(turntable->frames, shot.range, frame.frame);
+        const glm::dvec3 centre = turntable->centre ? pointOf(*turntable->centre, scene, pose) : pose.bounds.centre();
+        const double turns = turntable->turns * placeIn(turntable->frames, shot.range, frame);
         view = carriedAround(view, centre, 2 * std::numbers::pi * turns);
     }
     if (const auto* dolly = std::get_if<Dolly>(&shot.camera.movement)) {
         const std::vector<Key<double>> ends = {{0, 0}, {1, dolly->distance}};
-        view = dollied(view, valueAt(ends, dolly->easing, placeIn(dolly->frames, shot.range, frame.frame)));
+        view = dollied(view, valueAt(ends, dolly->easing, placeIn(dolly->frames, shot.range, frame)));
     }
     return view;
 }
@@ -183,12 +182,24 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     SequenceFrame result;
     result.frame = frame;
     result.time = timeAt(shot.animation, *base.scene, clip, frame / shot.frameRate);
-    result.pose = poseAt(*base.scene, result.time, clip);
+    const double middle = exposureMiddle(base.exposure);
+    result.pose = poseAt(*base.scene, timeAt(shot.animation, *base.scene, clip, frame / shot.frameRate + middle), clip);
     result.lights = result.pose.lights.empty() ? base.lights : result.pose.lights;
-    result.view = movedView(shot, base, result);
+    result.view = movedView(shot, base, result.pose, frame + middle * shot.frameRate);
     result.view.lens = lensAt(shot, base, result);
     result.settings = base.settings;
     if (shot.animateSeed) result.settings.seed = frameSeed(base.settings.seed, frame);
+
+    // What moves while the shutter is open; a turntable goes round the middle's centre.
+    const auto momentAt = [&](double offset) {
+        ShutterMoment moment;
+        const double seconds = frame / shot.frameRate + offset;
+        moment.pose = unmeasuredPoseAt(*base.scene, timeAt(shot.animation, *base.scene, clip, seconds), clip);
+        moment.pose.bounds = result.pose.bounds;
+        moment.worldFromCamera = movedView(shot, base, moment.pose, seconds * shot.frameRate).worldFromCamera;
+        return moment;
+    };
+    openShutter(base.exposure, result.settings, momentAt, result.shutter, result.view);
     return result;
 } catch (const Error& error) {
     fail("{}: frame {}: {}", shot.file.string(), frame, error.what());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "capture/shot.h"
-#include "plan/view.h"
+#include "plan/exposure.h"
 
 namespace defocus {
 
@@ -17,12 +17,14 @@ struct SequenceBase {
     RenderSettings settings;
     std::vector<PlacedLight> lights;  // where the scene has none of its own
     std::string camera;               // as chooseCamera takes it
+    Exposure exposure;                // of each frame; the shot's camera moves while the shutter is open, too
 };
 
 struct SequenceFrame {
     int frame = 0;
     double time = 0;  // s into the animation clip
-    Pose pose;
+    Pose pose;        // in the middle of the exposure
+    Shutter shutter;
     std::vector<PlacedLight> lights;
     View view;
     RenderSettings settings;

@@ -40,13 +40,22 @@ void addLens(Settings& settings, const Lens& lens) {
     settings.add(image.width, image.height, image.channels, hashBytes(std::as_bytes(std::span(image.pixels))));
 }
 
+void addPose(Settings& settings, const Pose& pose) {
+    for (const glm::dmat4& worldFromNode : pose.worldFromNode) settings.add(worldFromNode);
+    for (const Object& object : pose.objects)
+        for (const double weight : object.morphWeights) settings.add(weight);
+}
+
 }  // namespace
 
 std::string frameSettings(const FilmSettings& film, const SequenceFrame& frame) {
     Settings settings;
     settings.add(film.world, film.program, film.method, film.layerFormat, film.encoding);
     settings.add(frame.frame, frame.time);
-    for (const glm::dmat4& worldFromNode : frame.pose.worldFromNode) settings.add(worldFromNode);
+    addPose(settings, frame.pose);
+    settings.add(frame.shutter.perSample);
+    for (const Pose& pose : frame.shutter.poses) addPose(settings, pose);
+    for (const glm::dmat4& worldFromCamera : frame.view.shutterCameras) settings.add(worldFromCamera);
     for (const PlacedLight& placed : frame.lights) {
         const Light& light = placed.light;
         settings.add(placed.position);

@@ -30,7 +30,7 @@ protected:
         scene_.roots = {0, 1, 2};
         scene_.cameras.emplace_back().name = "Main";
         AnimationChannel climb;
-        climb.node = 1;
+        climb.target = 1;
         climb.times = {0, 2};
         climb.values = {0, 0, -2, 0, 2, -2};
         scene_.clips.push_back({"Climb", {climb}, 2});
@@ -83,6 +83,27 @@ TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
     expectNear(placeOf(frame(shot, 20)), {4, 0, -4});  // a quarter, counter-clockwise from above
     expectNear(forwardOf(frame(shot, 20)), {-1, 0, 0});
     expectNear(placeOf(frame(shot, 30)), {0, 0, -8});
+}
+
+// Half a frame of a dolly that goes 0.3 m a frame, and of a node that climbs 0.1 m a frame.
+TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
+    base_.exposure.seconds = 0.05;
+    const char* shot = R"({"frameRate": 10, "range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20],
+                        "interpolation": "linear"}}})";
+    const SequenceFrame moving = frame(shot, 15);
+    expectNear(placeOf(moving), {0, 0, -1.5});
+    ASSERT_EQ(moving.view.shutterCameras.size(), 2u);
+    expectNear(glm::dvec3(moving.view.shutterCameras[0][3]), {0, 0, -1.425});
+    expectNear(glm::dvec3(moving.view.shutterCameras[1][3]), {0, 0, -1.575});
+    ASSERT_EQ(moving.shutter.poses.size(), 2u);
+    EXPECT_NEAR(moving.shutter.poses[0].worldFromNode[1][3].y, 1.475, 1e-6);
+    EXPECT_NEAR(moving.pose.worldFromNode[1][3].y, 1.5, 1e-6);
+    EXPECT_NEAR(moving.shutter.poses[1].worldFromNode[1][3].y, 1.525, 1e-6);
+    EXPECT_TRUE(frame(shot, 40).view.shutterCameras.empty());  // the dolly has arrived
+
+    base_.exposure.position = ShutterPosition::start;
+    EXPECT_NEAR(frame(shot, 15).pose.worldFromNode[1][3].y, 1.525, 1e-6);
+    EXPECT_NEAR(frame(shot, 15).shutter.poses[0].worldFromNode[1][3].y, 1.5, 1e-6);
 }
 
 TEST_F(FrameSequence, dollyGoesForwardOverItsFrames) {

@@ -41,6 +41,11 @@ Image rendered(const World& world, const View& view, const RenderSettings& setti
     return renderer->image();
 }
 
+// Of a sample, as the plan has it.
+double timeOf(const View& view, std::uint32_t index) {
+    return static_cast<double>(lensSamples(view.lens, RenderSettings{}.sequence, index, 1, 0).front().time);
+}
+
 bool sameBits(const Image& a, const Image& b) {
     return a.pixels.size() == b.pixels.size() &&
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
@@ -148,8 +153,7 @@ TEST_F(Motion, segmentsFollowARotation) {
         return rendered(square.world, square.view, settingsFor(samples));
     };
     std::vector<double> exactShares, sixteenShares;
-    for (std::uint32_t i = 0; i < samples; ++i)
-        exactShares.push_back(static_cast<double>(lensSample(square.view.lens, i, 0).time));
+    for (std::uint32_t i = 0; i < samples; ++i) exactShares.push_back(timeOf(square.view, i));
     for (int i = 0; i <= 16; ++i) sixteenShares.push_back(i / 16.0);
     const Image exact = image(exactShares, true);
     const Image sixteen = image(sixteenShares, false);
@@ -197,7 +201,7 @@ TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
     small->world.environment = {EnvironmentType::uniform, {0.2f, 0.3f, 0.4f}, {}, {}, nullptr, true, 1};
     small->world.shutter.perSample = true;
     for (std::uint32_t i = 0; i < samples; ++i) {
-        const auto time = static_cast<double>(lensSample(view.lens, i, 0).time);
+        const auto time = timeOf(view, i);
         small->world.shutter.poses.push_back(unmeasuredPoseAt(small->scene, 0.3 + 0.1 * (time - 0.5), 2));
         view.shutterCameras.push_back(glm::rotate(view.worldFromCamera, 0.1 * (time - 0.5), glm::dvec3(0, 1, 0.5)));
     }
@@ -247,8 +251,7 @@ TEST_F(Motion, oneSegmentIsExactForTranslationAndMorphs) {
             small->view.lens.focusTilt = 0.3;
         }
         std::vector<double> times;
-        for (std::uint32_t i = 0; i < samples; ++i)
-            times.push_back(static_cast<double>(lensSample(small->view.lens, i, 0).time));
+        for (std::uint32_t i = 0; i < samples; ++i) times.push_back(timeOf(small->view, i));
         openShutter(*small, {0, 1});
         const Image linear = rendered(small->world, small->view, settingsFor(samples));
         openShutter(*small, times);
