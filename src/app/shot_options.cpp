@@ -39,6 +39,8 @@ void applyShot(const Shot& shot, SceneOptions& options) {
 void settleShot(Shot& shot, SceneOptions& options, bool cameraGiven) {
     if (cameraGiven) shot.camera.movement = {};
     shot.animation.start = options.time;
+    if (!options.clip.empty()) shot.animation.clip = options.clip;
+    shot.animation.loop = shot.animation.loop || options.loop;
     const bool focusGiven =
         options.lens.contains("focusDistance") || !options.focusNode.empty() || options.focusPixel.has_value();
     if (focusGiven) {

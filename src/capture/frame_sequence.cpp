@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "lens/lens_fields.h"
 #include "plan/camera_path.h"
+#include "scene/animation.h"
 
 namespace defocus {
 
@@ -151,13 +152,7 @@ int clipOf(const Shot& shot, const Scene& scene) {
             fail("there is no clip {}; the scene has {} (0 to {})", *number, count, count - 1);
         return *number;
     }
-    const std::string& name = std::get<std::string>(shot.animation.clip);
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (scene.clips[i].name == name) return static_cast<int>(i);
-        names.push_back(scene.clips[i].name);
-    }
-    fail("there is no clip '{}'; the scene has: {}", name, fmt::join(names, ", "));
+    return clipNamed(scene, std::get<std::string>(shot.animation.clip));
 }
 
 double timeAt(const ShotAnimation& animation, const Scene& scene, int clip, double seconds) {
