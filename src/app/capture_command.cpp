@@ -167,10 +167,10 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
 }
 
-void runCapture(CaptureArguments& arguments, bool cameraGiven, const GlobalOptions& global) {
+void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
     // Faults first: options, outputs, scene, every frame's camera and lens, device; only then the long work.
     Shot& shot = arguments.shot;
-    settleShot(shot, arguments.scene, cameraGiven);
+    settleShot(shot, arguments.scene, given);
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
     checkArguments(arguments);
     const MethodUse use = chosenMethod(arguments.scene);
@@ -314,7 +314,8 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
         "  defocus capture shot.json --range 0:48 --samples 16 --size 320x240 -o preview/####.png\n"
         "  defocus capture shot.json --shard 2/8 --resume");
     command->callback([arguments, command, &global] {
-        runCapture(*arguments, command->get_option("--camera")->count() > 0, global);
+        const auto given = [command](const char* name) { return command->get_option(name)->count() > 0; };
+        runCapture(*arguments, {given("--camera"), given("--shutter")}, global);
     });
 }
 

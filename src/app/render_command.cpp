@@ -102,6 +102,7 @@ void writeSums(const RenderArguments& arguments, FramePart part, const PreparedF
     SequenceFrame single;
     single.time = arguments.scene.time;
     single.pose = frame.world.pose;
+    single.shutter = frame.world.shutter;
     single.lights = frame.world.lights;
     single.view = frame.view;
     single.settings = frame.settings;

@@ -14,10 +14,16 @@ namespace defocus {
 // The shot's fixed values as if they had been given as options, except its lens, whose fields may have keys.
 void applyShot(const Shot& shot, SceneOptions& options);
 
+// What the command line said of these, which show no trace in SceneOptions.
+struct GivenOptions {
+    bool camera = false;
+    bool shutter = false;
+};
+
 // After the command line has been read. Takes from the shot what `options` replaces: lens fields and focus that have a
-// value, and with `cameraGiven` the camera's movement. Puts the first values of the shot's lens into `options`, so that
+// value, and with a camera given its movement. Puts the first values of the shot's lens into `options`, so that
 // the scene can be placed.
-void settleShot(Shot& shot, SceneOptions& options, bool cameraGiven);
+void settleShot(Shot& shot, SceneOptions& options, const GivenOptions& given);
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const SceneOptions& options);
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
 #include <numbers>
+#include <optional>
 
 #include "core/error.h"
 #include "lens/lens_fields.h"
@@ -51,20 +53,22 @@ double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, dou
     return std::clamp((frame - range.first) / length, 0.0, 1.0);
 }
 
+// A camera of the file goes where its node's animation takes it; one that frames the scene stays.
+std::optional<PlacedCamera> cameraOfFile(const SequenceBase& base, const Pose& pose) {
+    if (base.scene->cameras.empty() || base.camera == framingCamera) return {};
+    return chooseCamera(*base.scene, pose, base.camera, static_cast<double>(base.view.width) / base.view.height);
+}
+
 // At frame number `frame`, whole or not.
 View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, double frame) {
     View view = base.view;
-    // A camera of the file goes where its node's animation takes it; one that frames the scene stays.
     const Scene& scene = *base.scene;
-    if (!scene.cameras.empty() && base.camera != framingCamera) {
-        const double aspect = static_cast<double>(view.width) / view.height;
-        view.worldFromCamera = chooseCamera(scene, pose, base.camera, aspect).worldFromCamera;
-    }
+    if (const auto placed = cameraOfFile(base, pose)) view.worldFromCamera = placed->worldFromCamera;
     if (const auto* keys = std::get_if<CameraKeys>(&shot.camera.movement))
         view.worldFromCamera = lookingAt(valueAt(pointsOf(keys->positions, scene, pose), keys->easing, frame),
                                          valueAt(pointsOf(keys->targets, scene, pose), keys->easing, frame));
     if (const auto* turntable = std::get_if<Turntable>(&shot.camera.movement)) {
-        const glm::dvec3 centre = turntable->centre ? pointOf(*turntable->centre, scene, pose) : pose.bounds.centre();
+        const glm::dvec3 centre = turntable->centre ? pointOf(*turntable->centre, scene, pose) : base.centre;
         const double turns = turntable->turns * placeIn(turntable->frames, shot.range, frame);
         view = carriedAround(view, centre, 2 * std::numbers::pi * turns);
     }
@@ -128,8 +132,20 @@ double lensValueAt(const LensTrack& track, const LensField& field, double frame)
     return next == keys.begin() ? next->value : std::prev(next)->value;
 }
 
+// The camera's own values, which may be animated.
+void followCamera(const SequenceBase& base, const Camera& camera, Lens& lens) {
+    std::map<std::string, double, std::less<>> own;
+    for (const auto& [name, value] : camera.lens)
+        if (!base.fixedLens.contains(name)) own.emplace(name, value);
+    setLensFields(lens, own);  // values that no lens can have were warned of
+    if (base.fixedLens.contains("focalLength") || camera.lens.contains("focalLength")) return;
+    const double aspect = static_cast<double>(base.view.width) / base.view.height;
+    lens.focalLength = focalLengthFromFov(aspect * std::tan(camera.yfov / 2), lens.horizontalAperture);
+}
+
 Lens lensAt(const Shot& shot, const SequenceBase& base, const SequenceFrame& frame) {
     Lens lens = frame.view.lens;
+    if (const auto placed = cameraOfFile(base, frame.pose)) followCamera(base, placed->camera, lens);
     for (const auto& [name, track] : shot.lens) {
         const LensField& field = *lensFieldNamed(name);
         const double value = lensValueAt(track, field, frame.frame);
@@ -146,20 +162,12 @@ Lens lensAt(const Shot& shot, const SequenceBase& base, const SequenceFrame& fra
 // −1 where the scene has none.
 int clipOf(const Shot& shot, const Scene& scene) {
     if (scene.clips.empty()) return -1;
-    const auto count = scene.clips.size();
-    if (const int* number = std::get_if<int>(&shot.animation.clip)) {
-        if (static_cast<std::size_t>(*number) >= count)
-            fail("there is no clip {}; the scene has {} (0 to {})", *number, count, count - 1);
-        return *number;
-    }
-    return clipNamed(scene, std::get<std::string>(shot.animation.clip));
+    return shot.animation.clip.empty() ? 0 : clipNamed(scene, shot.animation.clip);
 }
 
 double timeAt(const ShotAnimation& animation, const Scene& scene, int clip, double seconds) {
     const double time = animation.start + animation.speed * seconds;
-    const double duration = clip < 0 ? 0 : static_cast<double>(scene.clips[static_cast<std::size_t>(clip)].duration);
-    if (!animation.loop || !(duration > 0)) return time;
-    return time - duration * std::floor(time / duration);
+    return animation.loop && clip >= 0 ? loopedTime(scene.clips[static_cast<std::size_t>(clip)], time) : time;
 }
 
 // Another well mixed seed for each frame (finaliser of MurmurHash3, Appleby).
@@ -185,12 +193,11 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     result.settings = base.settings;
     if (shot.animateSeed) result.settings.seed = frameSeed(base.settings.seed, frame);
 
-    // What moves while the shutter is open; a turntable goes round the middle's centre.
+    // What moves while the shutter is open.
     const auto momentAt = [&](double offset) {
         ShutterMoment moment;
         const double seconds = frame / shot.frameRate + offset;
         moment.pose = unmeasuredPoseAt(*base.scene, timeAt(shot.animation, *base.scene, clip, seconds), clip);
-        moment.pose.bounds = result.pose.bounds;
         moment.worldFromCamera = movedView(shot, base, moment.pose, seconds * shot.frameRate).worldFromCamera;
         return moment;
     };

@@ -2,6 +2,7 @@
 // What to render for each frame of a shot. A pure function of the shot and the frame's number: nothing is carried over
 // from frame to frame, so that frames can be rendered in any order and on any machine.
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,11 @@ struct SequenceBase {
     const Scene* scene = nullptr;
     View view;
     RenderSettings settings;
-    std::vector<PlacedLight> lights;  // where the scene has none of its own
-    std::string camera;               // as chooseCamera takes it
-    Exposure exposure;                // of each frame; the shot's camera moves while the shutter is open, too
+    std::vector<PlacedLight> lights;               // where the scene has none of its own
+    std::string camera;                            // as chooseCamera takes it
+    std::set<std::string, std::less<>> fixedLens;  // fields that don't follow the camera's own values
+    glm::dvec3 centre{0.0};                        // the middle of the scene at its start, around which turntables turn
+    Exposure exposure;  // of each frame; the shot's camera moves while the shutter is open, too
 };
 
 struct SequenceFrame {

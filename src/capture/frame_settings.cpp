@@ -42,8 +42,10 @@ void addLens(Settings& settings, const Lens& lens) {
 
 void addPose(Settings& settings, const Pose& pose) {
     for (const glm::dmat4& worldFromNode : pose.worldFromNode) settings.add(worldFromNode);
-    for (const Object& object : pose.objects)
+    for (const Object& object : pose.objects) {
+        settings.add(object.cocScale);
         for (const double weight : object.morphWeights) settings.add(weight);
+    }
 }
 
 }  // namespace
@@ -69,7 +71,7 @@ std::string frameSettings(const FilmSettings& film, const SequenceFrame& frame) 
     const RenderSettings& render = frame.settings;
     settings.add(render.sampleCount, sequenceName(render.sequence), render.seed, render.firstSample,
                  lodModeName(render.lod), render.metric == LodMetric::size, render.lodCocAtCentre,
-                 render.thresholds.blur, render.thresholds.size, render.keepAll);
+                 render.thresholds.blur, render.thresholds.size, render.keepAll, render.cocTolerance);
     return settings.hash();
 }
 

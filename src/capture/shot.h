@@ -14,7 +14,9 @@
 
 #include "capture/keyframes.h"
 #include "image/tone_map.h"
+#include "lens/sequences.h"
 #include "lod/level_selection.h"
+#include "plan/exposure.h"
 #include "render/layer_format.h"
 
 namespace defocus {
@@ -69,9 +71,9 @@ struct ShotCamera {
 };
 
 struct ShotAnimation {
-    std::variant<int, std::string> clip = 0;  // by number or name; ignored where the scene has none
-    double start = 0;                         // s into the clip at frame 0
-    double speed = 1;                         // of the clip's time; 0 holds it
+    std::string clip;  // by name or number; empty: the first, where the scene has one
+    double start = 0;  // s into the clip at frame 0
+    double speed = 1;  // of the clip's time; 0 holds it
     bool loop = false;
 };
 
@@ -86,12 +88,16 @@ struct Shot {
     double frameRate = 24;  // 1/s
     FrameRange range{0, 0};
     ShotAnimation animation;
+    std::optional<Exposure> shutter;
+    std::optional<double>
+        shutterAngle;  // degrees, in place of the shutter's seconds; 360: the time from frame to frame
     ShotCamera camera;
     std::optional<FocusTrack> focus;
     std::map<std::string, LensTrack, std::less<>> lens;  // by field
 
     std::optional<int> width, height;  // px, both or none
     std::optional<std::uint32_t> samples;
+    std::optional<Sequence> sequence;
     std::optional<std::uint32_t> seed;
     bool animateSeed = false;  // other sample positions in each frame: the noise moves
     std::optional<LodMode> lod;

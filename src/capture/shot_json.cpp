@@ -26,7 +26,6 @@ constexpr std::uint32_t mostSamples = 65'536;
 const std::vector<std::string> easings = {"linear", "smooth"};
 
 // ---- pieces
-// ----------------------------------------------------------------------------------------------------------
 
 Easing easingOf(const JsonReader& reader) {
     const auto given = reader.find("interpolation");
@@ -78,7 +77,6 @@ std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, cons
 }
 
 // ---- camera, focus, lens
-// ---------------------------------------------------------------------------------------------
 
 CameraKeys cameraKeysOf(const JsonReader& camera) {
     CameraKeys result;
@@ -182,7 +180,6 @@ std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
 }
 
 // ---- the rest
-// --------------------------------------------------------------------------------------------------------
 
 ShotAnimation animationOf(const JsonReader& reader) {
     reader.requireObject({"clip", "start", "speed", "loop"});
@@ -191,7 +188,7 @@ ShotAnimation animationOf(const JsonReader& reader) {
         if (clip->value().is_string())
             animation.clip = clip->text();
         else if (clip->value().is_number())
-            animation.clip = static_cast<int>(clip->whole(0, 1'000'000));
+            animation.clip = std::to_string(clip->whole(0, 1'000'000));
         else
             clip->failExpecting("the number or the name of a clip");
     }
@@ -199,6 +196,22 @@ ShotAnimation animationOf(const JsonReader& reader) {
     if (const auto speed = reader.find("speed")) animation.speed = speed->number(-1e3, 1e3);
     if (const auto loop = reader.find("loop")) animation.loop = loop->truth();
     return animation;
+}
+
+void readShutter(const JsonReader& reader, Shot& shot) {
+    reader.requireObject({"angle", "seconds", "position", "segments", "exact"});
+    if (reader.has("angle") == reader.has("seconds")) reader.failWith("give either 'angle' or 'seconds'");
+    if (const auto angle = reader.find("angle")) shot.shutterAngle = angle->number(0, 3600);
+    Exposure exposure;
+    if (const auto seconds = reader.find("seconds")) exposure.seconds = seconds->number(0, 1e6);
+    if (const auto position = reader.find("position")) {
+        const ShutterPosition positions[] = {ShutterPosition::start, ShutterPosition::centre, ShutterPosition::end};
+        exposure.position = positions[position->choice({"start", "centre", "end"})];
+    }
+    if (const auto segments = reader.find("segments"))
+        exposure.motionSegments = static_cast<std::uint32_t>(segments->whole(1, 64));
+    if (const auto exact = reader.find("exact")) exposure.exactMotion = exact->truth();
+    shot.shutter = exposure;
 }
 
 void readScene(const JsonReader& reader, Shot& shot) {
@@ -234,6 +247,13 @@ void readQuality(const JsonReader& reader, Shot& shot) {
     }
     if (const auto samples = reader.find("samples"))
         shot.samples = static_cast<std::uint32_t>(samples->whole(1, mostSamples));
+    if (const auto sequence = reader.find("sequence")) {
+        const std::vector<Sequence> sequences = {Sequence::sobol, Sequence::halton, Sequence::scrambledHalton,
+                                                 Sequence::r2};
+        std::vector<std::string> names;
+        for (const Sequence each : sequences) names.emplace_back(sequenceName(each));
+        shot.sequence = sequences[sequence->choice(names)];
+    }
     if (const auto seed = reader.find("seed"))
         shot.seed = static_cast<std::uint32_t>(seed->whole(0, std::numeric_limits<std::uint32_t>::max()));
     if (const auto animate = reader.find("animateSeed")) shot.animateSeed = animate->truth();
@@ -279,11 +299,11 @@ void readOutput(const JsonReader& reader, Shot& shot) {
 
 Shot shotOf(const json& document, const fs::path& file) {
     const JsonReader reader(document, file.string());
-    reader.requireObject({"$schema",     "scene",     "fish",          "environment",   "background",
-                          "frameRate",   "range",     "animation",     "camera",        "focus",
-                          "lens",        "size",      "samples",       "seed",          "animateSeed",
-                          "lod",         "lodMetric", "blurThreshold", "sizeThreshold", "method",
-                          "layerFormat", "output",    "exposure",      "toneMap",       "video"});
+    reader.requireObject({"$schema",   "scene",         "fish",          "environment", "background",  "frameRate",
+                          "range",     "animation",     "shutter",       "sequence",    "camera",      "focus",
+                          "lens",      "size",          "samples",       "seed",        "animateSeed", "lod",
+                          "lodMetric", "blurThreshold", "sizeThreshold", "method",      "layerFormat", "output",
+                          "exposure",  "toneMap",       "video"});
     Shot shot;
     shot.file = file;
     if (const auto schema = reader.find("$schema")) static_cast<void>(schema->text());
@@ -291,6 +311,7 @@ Shot shotOf(const json& document, const fs::path& file) {
     if (const auto rate = reader.find("frameRate")) shot.frameRate = rate->number(1e-3, 1e6);
     if (const auto range = reader.find("range")) shot.range = rangeOf(*range);
     if (const auto animation = reader.find("animation")) shot.animation = animationOf(*animation);
+    if (const auto shutter = reader.find("shutter")) readShutter(*shutter, shot);
     if (const auto camera = reader.find("camera")) shot.camera = cameraOf(*camera);
     if (const auto focus = reader.find("focus")) shot.focus = focusOf(*focus);
     if (const auto lens = reader.find("lens")) shot.lens = lensOf(*lens);

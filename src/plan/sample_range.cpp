@@ -23,6 +23,7 @@ FramePlan samplesOf(const FramePlan& plan, std::uint32_t first, std::uint32_t co
     FramePlan part = plan;
     const auto begin = plan.samples.begin() + first;
     part.samples.assign(begin, begin + count);
+    if (!plan.moments.empty()) part.moments.assign(plan.moments.begin() + first, plan.moments.begin() + first + count);
     part.settings.sampleCount = count;
     part.settings.firstSample += first;
     part.trianglesDrawn = 0;

@@ -35,6 +35,7 @@ protected:
         climb.values = {0, 0, -2, 0, 2, -2};
         scene_.clips.push_back({"Climb", {climb}, 2});
         base_.scene = &scene_;
+        base_.fixedLens = {"focalLength"};
     }
 
     [[nodiscard]] SequenceFrame frame(const char* shot, int number) const {
@@ -148,6 +149,19 @@ TEST_F(FrameSequence, lensValuesGoTheirOwnWay) {
     EXPECT_NEAR(lens.bladeRotation, std::numbers::pi / 2, 1e-12);
     EXPECT_EQ(frame(shot, 10).view.lens.bladeCount, 9);
     EXPECT_EQ(frame(shot, 99).view.lens.fStop, 4);
+}
+
+// As KHR_animation_pointer animates them; what is fixed stays.
+TEST_F(FrameSequence, lensFollowsTheCamerasOwnValues) {
+    scene_.cameras[0].yfov = 2 * std::atan(0.375);  // 4:3: tan(θx/2) = 0.5
+    scene_.cameras[0].lens = {{"fStop", 8}, {"focusDistance", 7}};
+    EXPECT_EQ(frame("{}", 0).view.lens.fStop, 8);
+    EXPECT_EQ(frame("{}", 0).view.lens.focusDistance, 7);
+    EXPECT_EQ(frame("{}", 0).view.lens.focalLength, 50);
+    EXPECT_EQ(frame(R"({"lens": {"fStop": 2}})", 0).view.lens.fStop, 2);
+    base_.fixedLens = {"fStop"};
+    EXPECT_EQ(frame("{}", 0).view.lens.fStop, 2.8);
+    EXPECT_NEAR(frame("{}", 0).view.lens.focalLength, 36, 1e-9);
 }
 
 TEST_F(FrameSequence, faultsNameShotAndFrame) {

@@ -46,7 +46,7 @@ TEST(ShotJson, everyPartIsRead) {
         "output": ["a/#.exr", "b/#.png"], "exposure": -1, "toneMap": "agx", "video": "film.mp4"})",
                                 "x.json");
     EXPECT_EQ(shot.range.last, 20);
-    EXPECT_EQ(std::get<std::string>(shot.animation.clip), "Walk");
+    EXPECT_EQ(shot.animation.clip, "Walk");
     EXPECT_TRUE(shot.animation.loop);
     const auto& keys = std::get<CameraKeys>(shot.camera.movement);
     EXPECT_EQ(keys.easing, Easing::linear);

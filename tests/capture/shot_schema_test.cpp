@@ -104,7 +104,8 @@ json fullShot() {
         "focus": {"keys": [{"frame": 0, "node": "Fish 1"}, {"frame": 24, "distance": 3}], "interpolation": "smooth"},
         "lens": {"fStop": {"keys": [{"frame": 0, "value": 1.4}, {"frame": 9, "value": 4}], "interpolation": "linear"},
                  "bladeCount": 7, "focusBreathing": true},
-        "size": [320, 240], "samples": 16, "seed": 3, "animateSeed": true, "lod": "continuous", "lodMetric": "error",
+        "size": [320, 240], "samples": 16, "seed": 3, "sequence": "r2", "animateSeed": true,
+        "shutter": {"angle": 180, "position": "start", "segments": 4, "exact": true}, "lod": "continuous", "lodMetric": "error",
         "blurThreshold": 0.2, "sizeThreshold": 0.5, "method": "accumulation", "layerFormat": "rgba32f",
         "output": ["a/####.exr", "b/####.png"], "exposure": 1, "toneMap": "agx", "video": "film.mp4"})");
 }
@@ -147,6 +148,7 @@ std::vector<json> shots() {
     other["focus"] = json::parse(R"({"node": "Fish 1"})");
     other["background"] = "none";
     other["animation"]["clip"] = "Walk";
+    other["shutter"] = json::parse(R"({"seconds": 0.02})");
     result.push_back(other);
     other.erase("fish");
     other["scene"] = "fox.glb";
