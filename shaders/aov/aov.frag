@@ -33,6 +33,7 @@ void main() {
 #else
     const float cocScale = 1.0;
 #endif
-    cocOut = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, ivec2(IMAGE_SIZE)), cocScale);
+    vec2 size = frame.coc.z * vec2(1.0, frame.projection.x / frame.projection.y);
+    cocOut = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, ivec2(size + 0.5)), cocScale);
     levelOut = object.values.x;
 }

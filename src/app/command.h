@@ -25,6 +25,7 @@ std::string programVersion();
 Progress terminalProgress(const GlobalOptions& global);
 
 void addRenderCommand(CLI::App& program, const GlobalOptions& global);
+void addViewCommand(CLI::App& program, const GlobalOptions& global);
 void addPlanCommand(CLI::App& program, const GlobalOptions& global);
 void addInfoCommand(CLI::App& program, const GlobalOptions& global);
 void addPyramidCommand(CLI::App& program, const GlobalOptions& global);

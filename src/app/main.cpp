@@ -113,6 +113,7 @@ int run(int argc, char** argv) {
     addRenderCommand(program, global);
     addCaptureCommand(program, global);
     addMergeCommand(program, global);
+    addViewCommand(program, global);
     addPlanCommand(program, global);
     addInfoCommand(program, global);
     addPyramidCommand(program, global);

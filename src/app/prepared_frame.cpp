@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -102,22 +103,6 @@ Lens chosenLens(const SceneOptions& options, const Camera& camera, std::vector<s
     return lens;
 }
 
-RenderSettings chosenSettings(const SceneOptions& options) {
-    RenderSettings settings;
-    settings.sampleCount = options.samples;
-    settings.sequence = options.sequence;
-    settings.seed = options.seed;
-    settings.lod = options.lod;
-    settings.metric = options.metric;
-    settings.lodCocAtCentre = options.lodCocAtCentre;
-    settings.thresholds = defaultThresholds(options.metric, options.samples);
-    settings.thresholds.blur = options.blurThreshold.value_or(settings.thresholds.blur);
-    settings.thresholds.size = options.sizeThreshold.value_or(settings.thresholds.size);
-    settings.keepAll = options.keepAll;
-    settings.cocTolerance = options.cocTolerance;
-    return settings;
-}
-
 // Levels of full detail are not worth storing.
 std::filesystem::path chosenCacheFolder(const SceneOptions& options) {
     if (options.noCache || options.lod == LodMode::off) return {};
@@ -136,7 +121,69 @@ std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const P
     return pyramids;
 }
 
+// The camera turned and moved as the options say.
+glm::dmat4 wanderedCamera(const SceneOptions& options, const glm::dmat4& worldFromCamera) {
+    const glm::dvec3 position = options.cameraPosition.value_or(glm::dvec3(worldFromCamera[3]));
+    const glm::dvec3 back = options.cameraTarget ? position - *options.cameraTarget : glm::dvec3(worldFromCamera[2]);
+    const glm::dvec3 up =
+        options.cameraUp.value_or(options.cameraTarget ? glm::dvec3(0, 1, 0) : glm::dvec3(worldFromCamera[1]));
+    const glm::dvec3 aside = glm::cross(up, back);
+    if (!(glm::length(back) > 0)) fail("--camera-target: the camera stands on it; move one of them");
+    if (!(glm::length(aside) > 1e-9 * glm::length(up) * glm::length(back)))
+        fail("--camera-up: the camera looks along it; give another direction");
+    const glm::dvec3 z = glm::normalize(back);
+    const glm::dvec3 x = glm::normalize(aside);
+    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
+}
+
+// The camera and its lens; the focus last, as it may depend on all else.
+PlacedCamera place(PreparedFrame& frame, const SceneOptions& options) {
+    const double aspect = static_cast<double>(options.width) / options.height;
+    PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, options.camera, aspect);
+    frame.cameraName = placed.camera.name;
+    frame.view.worldFromCamera = placed.worldFromCamera;
+    frame.view.nearPlane = placed.camera.znear;
+    if (options.cameraPosition || options.cameraTarget || options.cameraUp) {
+        frame.view.worldFromCamera = wanderedCamera(options, placed.worldFromCamera);
+        frame.view.nearPlane = wanderingNearPlane(placed.camera.znear, frame.world.pose.bounds);
+    }
+    frame.view.width = options.width;
+    frame.view.height = options.height;
+    SceneOptions withoutLens = options;
+    withoutLens.lens.clear();
+    frame.cameraLens = chosenLens(withoutLens, placed.camera, frame.refusedLensValues);
+    frame.view.lens = chosenLens(options, placed.camera, frame.refusedLensValues);
+    chooseFocus(options, placed.camera, *frame.scene, frame.world.pose, frame.view);
+    checkLens(frame.view.lens);
+    return placed;
+}
+
 }  // namespace
+
+RenderSettings chosenSettings(const SceneOptions& options) {
+    RenderSettings settings;
+    settings.sampleCount = options.samples;
+    settings.sequence = options.sequence;
+    settings.seed = options.seed;
+    settings.lod = options.lod;
+    settings.metric = options.metric;
+    settings.lodCocAtCentre = options.lodCocAtCentre;
+    settings.thresholds = defaultThresholds(options.metric, options.samples);
+    settings.thresholds.blur = options.blurThreshold.value_or(settings.thresholds.blur);
+    settings.thresholds.size = options.sizeThreshold.value_or(settings.thresholds.size);
+    settings.keepAll = options.keepAll;
+    settings.cocTolerance = options.cocTolerance;
+    return settings;
+}
+
+double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds) {
+    const double radius = 0.5 * glm::length(sceneBounds.size());
+    return radius > 0 ? std::min(cameraNear, 1e-3 * radius) : cameraNear;
+}
+
+void placeCamera(PreparedFrame& frame, const SceneOptions& options) {
+    place(frame, options);
+}
 
 PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) {
     // The scene, at its time.
@@ -149,20 +196,8 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     frame.world.scene = frame.scene.get();
     frame.world.pose = exposedPose(options, *frame.scene);
 
-    // The camera and its lens; the focus last, as it may depend on all else.
-    const double aspect = static_cast<double>(options.width) / options.height;
-    const PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, options.camera, aspect);
-    frame.cameraName = placed.camera.name;
-    frame.view.worldFromCamera = placed.worldFromCamera;
-    frame.view.nearPlane = placed.camera.znear;
-    frame.view.width = options.width;
-    frame.view.height = options.height;
-    frame.view.lens = chosenLens(options, placed.camera, frame.refusedLensValues);
-    chooseFocus(options, placed.camera, *frame.scene, frame.world.pose, frame.view);
-    checkLens(frame.view.lens);
-
-    // Light, surroundings and settings.
-    frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
+    // Camera, light, surroundings and settings.
+    frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, place(frame, options));
     frame.world.environment = chosenEnvironment(options, *frame.scene);
     frame.settings = chosenSettings(options);
     exposeMotion(options, placed, frame.settings, frame.world, frame.view);

@@ -19,6 +19,7 @@ struct PreparedFrame {
     RenderSettings settings;
     std::string sceneName;  // the file's name, or "fish school"
     std::string cameraName;
+    Lens cameraLens;                             // as it would be without the options' values
     std::vector<std::string> refusedLensValues;  // of the camera's extras, a line each
     double loadMilliseconds = 0;
     double pyramidMilliseconds = 0;
@@ -30,6 +31,16 @@ struct PreparedFrame {
 // Loads the scene and places camera, lens and lights; the world has no pyramids yet. Throws Error for whatever the
 // options ask for and the scene doesn't have.
 PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress = {});
+
+// The part of it that options.camera and the lens options decide, again for another camera. The lights stay.
+void placeCamera(PreparedFrame& frame, const SceneOptions& options);
+
+// What the settings of a frame are before its samples are known to be others than options.samples.
+RenderSettings chosenSettings(const SceneOptions& options);
+
+// The near plane (m) for cameras that go where no file has put them: that of the camera they started from, or nearer
+// where the scene is small.
+double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds);
 
 // Simplifies the meshes where the cache doesn't have them, or only brings them into the pyramids' form when the
 // settings use no other level.

@@ -137,6 +137,15 @@ void addCamera(CLI::App& command, SceneOptions& options) {
                     "Name of a camera of the file, or 'auto' for one that frames the scene; without it, the first")
         ->type_name("NAME")
         ->group(group);
+    const auto addPoint = [&](const char* name, std::optional<glm::dvec3>& target, const char* description) {
+        addParsed(command, name, "X,Y,Z", description, [&target](const std::string& text) {
+            const std::vector<double> xyz = parseNumbers(text, 3, {-1e12, 1e12});
+            target = glm::dvec3(xyz[0], xyz[1], xyz[2]);
+        })->group(group);
+    };
+    addPoint("--camera-position", options.cameraPosition, "Moves the camera there (m); lights stay as for the camera");
+    addPoint("--camera-target", options.cameraTarget, "Turns the camera towards this point, upright");
+    addPoint("--camera-up", options.cameraUp, "What is up in the image, as a direction");
     addParsed(command, "--size", "WxH", "Image size in pixels",
               [&options](const std::string& text) { parseSize(text, options); })
         ->default_str(fmt::format("{}x{}", options.width, options.height))

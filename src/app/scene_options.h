@@ -35,7 +35,10 @@ struct SceneOptions {
     glm::vec3 backgroundColor{0.0f};  // Background::uniform
 
     // Camera and image.
-    std::string camera;  // empty: the first, or one that frames the scene
+    std::string camera;                        // empty: the first, or one that frames the scene
+    std::optional<glm::dvec3> cameraPosition;  // m, of the world; each replaces that of the camera
+    std::optional<glm::dvec3> cameraTarget;
+    std::optional<glm::dvec3> cameraUp;
     int width = 1024;
     int height = 768;
 

@@ -137,8 +137,7 @@ private:
             return failed("eglMakeCurrent without a surface");
         device_ = currentDevice();
         driver_ = currentDriver();
-        software_ = device_.find("llvmpipe") != std::string::npos || device_.find("softpipe") != std::string::npos ||
-                    device_.find("SWR") != std::string::npos;
+        software_ = currentIsSoftware();
         return {};
     }
 
@@ -167,6 +166,12 @@ std::string currentDevice() {
 
 std::string currentDriver() {
     return reinterpret_cast<const char*>(glGetString(GL_VERSION));
+}
+
+bool currentIsSoftware() {
+    const std::string device = currentDevice();
+    return device.find("llvmpipe") != std::string::npos || device.find("softpipe") != std::string::npos ||
+           device.find("SWR") != std::string::npos;
 }
 
 std::unique_ptr<GlContext> createHeadlessContext() {

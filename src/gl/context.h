@@ -24,5 +24,7 @@ std::unique_ptr<GlContext> createHeadlessContext();
 // GL_RENDERER and GL_VERSION of the current context.
 std::string currentDevice();
 std::string currentDriver();
+// Whether the current context draws on the CPU.
+bool currentIsSoftware();
 
 }  // namespace defocus

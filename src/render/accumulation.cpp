@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "gl/timer.h"
 #include "render/frame_clock.h"
 #include "render/layer_sum.h"
 #include "render/surface_pass.h"
@@ -16,34 +17,45 @@ namespace defocus {
 namespace {
 
 // As many layers as the memory allows, at most a block.
-std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, LayerFormat format) {
+std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
+                         LayerFormat format) {
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
                                      static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format);
-    const std::uint64_t wanted = options.wave > 0 ? options.wave : options.waveBytes / layerBytes;
+    const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
 }
 
 class AccumulationRenderer final : public Renderer {
 public:
-    AccumulationRenderer(const World& world, const RendererOptions& options) : options_(options), scene_(world) {}
+    AccumulationRenderer(const World& world, const RendererOptions& options)
+        : options_(options), wave_(options.wave), scene_(world) {}
+
+    void setWave(std::uint32_t samples) override { wave_ = samples > 0 ? samples : options_.wave; }
 
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
         plan_ = plan;
         prepareTarget();
-        scene_.prepare(plan_);
-        frame_.upload(scene_.world(), plan_, sum_->info().layers);
-        surfaces_->prepare(plan_, frame_);
+        samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        stats_.peakBytes = std::max<std::uint64_t>(
-            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + sum_->bytes());
-        clock_.beginFrame();
+        for (GpuTimer* timer : {&surfaceTimer_, &sumTimer_}) timer->reset();
+        prepareDraws();
+    }
+
+    void continueWith(const FramePlan& plan) override {
+        const bool wholeBlocks = sum_ && samples() == sampleTotal() && samples() % blockSamples == 0;
+        if (!wholeBlocks || plan.view.width != plan_.view.width || plan.view.height != plan_.view.height)
+            fail("more samples were asked for before the block that was begun is whole");
+        clock_.beginSetup();
+        samplesBefore_ = samples();
+        plan_ = plan;
+        prepareDraws();
     }
 
     bool advance() override {
-        const std::uint32_t first = sum_->samples();
-        const std::uint32_t total = sampleTotal();
+        const std::uint32_t first = sum_->samples() - samplesBefore_;  // of the plan's
+        const auto total = static_cast<std::uint32_t>(plan_.samples.size());
         if (first >= total) return false;
         const std::uint32_t count = std::min({sum_->info().layers, total - first, blockSamples - first % blockSamples});
         clock_.beginWave();
@@ -55,9 +67,10 @@ public:
 
     [[nodiscard]] std::uint32_t samples() const override { return sum_ ? sum_->samples() : 0; }
     [[nodiscard]] std::uint32_t sampleTotal() const override {
-        return static_cast<std::uint32_t>(plan_.samples.size());
+        return samplesBefore_ + static_cast<std::uint32_t>(plan_.samples.size());
     }
     [[nodiscard]] Image image() override { return sum_->mean(); }
+    [[nodiscard]] const GlTexture* imageTexture() override { return &sum_->meanTexture(); }
 
     [[nodiscard]] std::optional<BlockSum> blockSum() override { return sum_->block(); }
 
@@ -67,14 +80,24 @@ public:
         clock_.fill(stats);
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
+        stats.passes = {{"surfaces", surfaceTimer_.milliseconds()}, {"sum", sumTimer_.milliseconds()}};
         return stats;
     }
 
 private:
+    void prepareDraws() {
+        scene_.prepare(plan_);
+        frame_.upload(scene_.world(), plan_, sum_->info().layers);
+        surfaces_->prepare(plan_, frame_);
+        stats_.peakBytes = std::max<std::uint64_t>(
+            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + sum_->bytes());
+        clock_.beginFrame();
+    }
+
     // The sums and the pass that fills them, made anew only when size or format change.
     void prepareTarget() {
         const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
-        const LayerSumInfo info{plan_.view.width, plan_.view.height, chosenWave(plan_, options_, format), format,
+        const LayerSumInfo info{plan_.view.width, plan_.view.height, chosenWave(plan_, options_, wave_, format), format,
                                 options_.shaderFolder};
         const bool same = sum_ && sum_->info().width == info.width && sum_->info().height == info.height &&
                           sum_->info().layers == info.layers && sum_->info().format == info.format;
@@ -91,12 +114,16 @@ private:
     }
 
     void drawWave(std::uint32_t first, std::uint32_t count) {
+        surfaceTimer_.begin();
         sum_->beginWave();
         surfaces_->drawOpaque(first, count);
         if (scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha)
             surfaces_->drawSky(first, count);
         surfaces_->drawBlended(first, count);
-        sum_->endWave(frame_, count);
+        surfaceTimer_.end();
+        sumTimer_.begin();
+        sum_->endWave(frame_, first, count);
+        sumTimer_.end();
         for (const ObjectPlan& object : plan_.objects)
             for (const LevelDraw& draw : {object.coarse, object.fine}) {
                 const std::uint32_t begin = std::max(first, draw.firstSample);
@@ -106,12 +133,15 @@ private:
     }
 
     RendererOptions options_;
+    std::uint32_t wave_;  // K asked for; 0: as many as waveBytes allow
     GpuScene scene_;
     FramePlan plan_;
+    std::uint32_t samplesBefore_ = 0;  // in the sum when the plan was begun
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> surfaces_;
     mutable FrameClock clock_;
+    mutable GpuTimer surfaceTimer_, sumTimer_;
     RenderStats stats_;
 };
 

@@ -2,9 +2,11 @@
 // Arbitrary output variables: what a pixel's nearest surface is, through the pinhole at the pixel's centre.
 
 #include <filesystem>
+#include <optional>
 
+#include "gl/target.h"
 #include "image/image.h"
-#include "plan/frame_plan.h"
+#include "render/surface_pass.h"
 
 namespace defocus {
 
@@ -14,11 +16,45 @@ struct AovImages {
     Image level;  // the object's fractional level λ; −1 where nothing is
 };
 
-// Draws opaque, alpha-tested and blended surfaces alike, at the nearest whole level. Needs a current GL context.
+// The same as textures (r32f, row 0 at the bottom), for frame after frame of one world. Needs a current GL context.
+class AovPass {
+public:
+    explicit AovPass(const World& world, std::filesystem::path shaderFolder = {});
+
+    // Draws opaque, alpha-tested and blended surfaces alike, at the nearest whole level.
+    void draw(const FramePlan& plan);
+    // The edges of the triangles that draw() drew and that nothing hides, coloured by λ (viridis), premultiplied.
+    void drawWireframe();
+
+    [[nodiscard]] const GlTexture& depth() const { return depth_; }
+    [[nodiscard]] const GlTexture& coc() const { return coc_; }
+    [[nodiscard]] const GlTexture& level() const { return level_; }
+    [[nodiscard]] const GlTexture& wireframe() const { return wireframe_; }
+
+private:
+    void makeTargets(int width, int height);
+
+    std::filesystem::path shaderFolder_;
+    GpuScene scene_;
+    SurfacePass surfaces_;
+    SurfacePass edges_;
+    FrameUniforms frame_;
+    FramePlan pinhole_;
+    GlTexture depth_, coc_, level_, depthBuffer_, wireframe_, levelColours_;
+    Target target_, wireTarget_;
+};
+
+// Draws them once.
 AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
+
+// λ from which on levels look alike in colour maps.
+inline constexpr float coarsestShownLevel = 8;
 
 // λ as colours that a person can read: level 0 dark violet to level 8 and beyond yellow (viridis), black where nothing
 // is.
 Image levelColourMap(const Image& level);
+
+// The same colours for λ from 0 (left) to 8 (right), 256 x 1.
+GlTexture levelColourTexture();
 
 }  // namespace defocus

@@ -80,7 +80,9 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
                 {"ENVIRONMENT_LEVELS", fmt::format("{:.1f}", static_cast<double>(levels))},
                 {"ENVIRONMENT_LIGHTING", fmt::format("{:.6f}", world.environment.lighting)},
                 {"LIGHT_COUNT", std::to_string(world.lights.size())}};
-    if (type == EnvironmentType::map && !environmentMap_) environmentMap_ = environmentTexture(*world.environment.map);
+    const bool knownMap = type == EnvironmentType::map && environmentMap_;
+    if (type == EnvironmentType::map && !knownMap) environmentMap_ = environmentTexture(*world.environment.map);
+    if (!knownMap) irradiance_ = diffuseCoefficients(world.environment);
     if (plan.usesCocScales) defines_.emplace_back("COC_SCALES", "1");
     if (plan.coc.chromatic > 0) defines_.emplace_back("CHROMATIC", "1");
     countsInAlpha_ = barrelCuts(plan);
@@ -101,7 +103,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     block.worldFromView = glm::mat4(glm::mat3(view.worldFromCamera));
     block.environment = {glm::vec4(world.environment.zenith, 1), glm::vec4(world.environment.horizon, 1),
                          glm::vec4(world.environment.nadir, 1)};
-    block.irradiance = diffuseCoefficients(world.environment);
+    block.irradiance = irradiance_;
     const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
     for (std::size_t i = 0; i < world.lights.size(); ++i) block.lights[i] = gpuLight(world.lights[i], viewFromWorld);
     frameBlock_ = Buffer(sizeof block, &block);

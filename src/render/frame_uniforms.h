@@ -34,6 +34,7 @@ private:
     void uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts);
 
     ShaderDefines defines_;
+    std::array<glm::vec4, 9> irradiance_{};  // of the environment
     Buffer frameBlock_;
     Buffer samples_;  // GpuSample, one a lens sample
     Buffer moments_;

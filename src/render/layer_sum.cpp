@@ -58,7 +58,7 @@ void LayerSum::beginWave() {
         glClearNamedFramebufferfv(layerTarget_.name(), GL_COLOR, 0, transparent);
 }
 
-void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t count) {
+void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
     if (!addLayers_ || addDefines_ != frame.defines()) {
         addDefines_ = frame.defines();
         ShaderDefines defines = addDefines_;
@@ -66,7 +66,7 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t count) {
         addLayers_ = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     }
     block_.target[1 - block_.current].bind();
-    frame.bind(samples_);
+    frame.bind(first);
     layers_.attach(0);
     block_.sum[block_.current].attach(1);
     block_.compensation[block_.current].attach(2);
@@ -110,24 +110,31 @@ void LayerSum::addBlock(const BlockSum& block) {
 }
 
 Image LayerSum::mean() {
+    return readBack(meanTexture(), 4);
+}
+
+const GlTexture& LayerSum::meanTexture() {
     if (samples_ == 0) fail("the accumulation holds no sample yet");
     // An unfinished block is added to a copy: the frame's own sum goes on at the block border.
     const bool unfinished = samples_ % blockSamples != 0;
     if (unfinished) addBlockTo(frame_, samples_ < blockSamples);
     const int latest = unfinished ? 1 - frame_.current : frame_.current;
 
-    const GlTexture result({.format = TextureFormat::rgba32f, .width = info_.width, .height = info_.height});
-    const Target target({&result});
-    target.bind();
+    if (!mean_) {
+        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = info_.width, .height = info_.height});
+        mean_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+        meanTarget_ = Target({&mean_});
+    }
+    meanTarget_.bind();
     frame_.sum[latest].attach(0);
     frame_.compensation[latest].attach(1);
     glProgramUniform1f(resolve_.name(), 0, countsInAlpha_ ? 0.0f : static_cast<float>(samples_));
     fullscreen_.draw(resolve_);
-    return readBack(result, 4);
+    return mean_;
 }
 
 std::size_t LayerSum::bytes() const {
-    std::size_t total = layers_.bytes() + depth_.bytes();
+    std::size_t total = layers_.bytes() + depth_.bytes() + mean_.bytes();
     for (const Sum* sum : {&block_, &frame_})
         for (int i = 0; i < 2; ++i) total += sum->sum[i].bytes() + sum->compensation[i].bytes();
     return total;

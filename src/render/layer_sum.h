@@ -34,9 +34,9 @@ public:
     void beginWave();
     // The layers as a target, which beginWave makes current.
     [[nodiscard]] const Target& layers() const { return layerTarget_; }
-    // Adds layers [0, count), each composed over the environment of `frame`; `count` ≤ K and not beyond the block's
-    // end.
-    void endWave(const FrameUniforms& frame, std::uint32_t count);
+    // Adds layers [0, count), each composed over the environment of `frame`, for whose samples from `first` on they
+    // were drawn; `count` ≤ K and not beyond the block's end.
+    void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
     // The block that the last wave belongs to, as far as it is summed. At least one sample.
     [[nodiscard]] BlockSum block() const;
@@ -46,6 +46,8 @@ public:
     void addBlock(const BlockSum& block);
     // The mean of the samples so far, RGBA. At least one.
     [[nodiscard]] Image mean();
+    // The same on the GPU, row 0 at the bottom, until the next call.
+    [[nodiscard]] const GlTexture& meanTexture();
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] const LayerSumInfo& info() const { return info_; }
 
@@ -67,6 +69,8 @@ private:
     Target layerTarget_;
     Sum block_;
     Sum frame_;
+    GlTexture mean_;  // made when first asked for
+    Target meanTarget_;
     Program addLayers_;
     ShaderDefines addDefines_;  // that addLayers_ was built with
     Program addBlock_;

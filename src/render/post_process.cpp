@@ -40,7 +40,7 @@ public:
         pinhole_->draw(index);
         sum_->beginWave();
         process_->draw(*pinhole_, frame_, sum_->layers());
-        sum_->endWave(frame_, 1);
+        sum_->endWave(frame_, index, 1);
         clock_.endWave();
         stats_.trianglesDrawn += plan_.trianglesDrawn / total;
         if (index + 1 == total) clock_.endFrame();
@@ -52,6 +52,7 @@ public:
         return static_cast<std::uint32_t>(plan_.samples.size());
     }
     [[nodiscard]] Image image() override { return sum_->mean(); }
+    [[nodiscard]] const GlTexture* imageTexture() override { return &sum_->meanTexture(); }
 
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = stats_;

@@ -5,11 +5,19 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "image/image.h"
 #include "plan/frame_plan.h"
 
 namespace defocus {
+
+class GlTexture;
+
+struct PassTime {
+    std::string name;
+    double milliseconds = 0;  // timer queries, over all waves of the frame
+};
 
 struct RenderStats {
     std::uint32_t samples = 0;
@@ -22,6 +30,7 @@ struct RenderStats {
     std::string layerFormat;      // of the layers, e.g. "rgb9e5", "rgba16f"
     std::string device;
     std::string driver;
+    std::vector<PassTime> passes;  // of methods that time them, in the order they run
 };
 
 // The sum of the samples of one block (64, the frame's last one fewer), RGBA: the value and what its additions lost,
@@ -49,6 +58,14 @@ public:
     // The block that the last wave belongs to, as far as it is summed; nothing for methods that sum no lens samples.
     [[nodiscard]] virtual std::optional<BlockSum> blockSum() { return {}; }
     [[nodiscard]] virtual RenderStats stats() const = 0;
+
+    // More samples of the same view: adds those of `plan` to the sum as further blocks. The samples of the plans before
+    // must all be in, in whole blocks of 64. Methods without lens samples begin anew.
+    virtual void continueWith(const FramePlan& plan) { start(plan); }
+    // K from the next start() on; 0: as the options said. The image is the same.
+    virtual void setWave(std::uint32_t /*samples*/) {}
+    // image() on the GPU, row 0 at the bottom; valid until the next call of any member. Null for methods without GL.
+    [[nodiscard]] virtual const GlTexture* imageTexture() { return nullptr; }
 };
 
 }  // namespace defocus

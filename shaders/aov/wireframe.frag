@@ -1,0 +1,17 @@
+// An edge of a triangle in the colour of its object's level.
+
+#include "include/frame.glsl"
+#include "include/tone_map.glsl"
+
+in Surface {
+#include "include/surface_varyings.glsl"
+} surface;
+
+layout(binding = 6) uniform sampler2D levelColours;   // linear
+
+layout(location = 0) out vec4 colour;
+
+void main() {
+    vec3 linear = texture(levelColours, vec2(object.values.x / 8.0, 0.5)).rgb;
+    colour = vec4(srgbEncoded(mix(linear, vec3(1.0), 0.15)), 1.0);
+}

@@ -1,0 +1,86 @@
+// The image as a person looks at it: tone-mapped, two images side by side, and what the overlays add.
+
+#include "include/tone_map.glsl"
+
+layout(binding = 0) uniform sampler2D firstImage;    // linear, premultiplied
+layout(binding = 1) uniform sampler2D secondImage;
+layout(binding = 2) uniform sampler2D cocImage;      // signed px
+layout(binding = 3) uniform sampler2D levelImage;    // λ, −1 where nothing is
+layout(binding = 4) uniform sampler2D wireImage;     // encoded
+layout(binding = 6) uniform sampler2D levelColours;  // linear
+
+layout(location = 0) uniform vec4 size;        // of the output, px; z: exposure gain, w: gain of the difference
+layout(location = 1) uniform ivec4 choices;    // curve; overlay; flags; unused
+layout(location = 2) uniform float divider;    // share of the width that the first image has
+layout(location = 3) uniform float cocScale;   // px of the output to a px of cocImage
+
+layout(location = 0) out vec4 display;
+
+const int OVERLAY_COC = 1;
+const int OVERLAY_LEVEL = 2;
+const int FLAG_DIFFERENCE = 1;
+const int FLAG_PEAKING = 2;
+const int FLAG_FOCUS_PLANE = 4;
+const int FLAG_WIREFRAME = 8;
+
+const vec3 luma = vec3(0.2126, 0.7152, 0.0722);
+
+float cocAt(vec2 uv) { return texture(cocImage, uv).r * cocScale; }
+
+vec3 encodedAt(sampler2D image, vec2 uv) {
+    vec4 value = texture(image, uv);
+    vec3 colour = displayEncoded(value.rgb, size.z, choices.x);
+    // Nothing behind: a checkerboard, as image editors show it.
+    ivec2 tile = ivec2(gl_FragCoord.xy) / 12;
+    float board = ((tile.x + tile.y) & 1) == 0 ? 0.42 : 0.50;
+    return colour + (1.0 - clamp(value.a, 0.0, 1.0)) * board;
+}
+
+vec3 shown(vec2 uv) {
+    if (uv.x < divider) return encodedAt(firstImage, uv);
+    if ((choices.z & FLAG_DIFFERENCE) == 0) return encodedAt(secondImage, uv);
+    return min(size.w * abs(encodedAt(firstImage, uv) - encodedAt(secondImage, uv)), 1.0);
+}
+
+// Orange in front of the focus plane, blue behind it, the darker the sharper.
+vec3 cocColour(float coc, float grey) {
+    float amount = clamp(log2(1.0 + abs(coc)) / 6.0, 0.0, 1.0);
+    vec3 side = coc < 0.0 ? vec3(1.0, 0.55, 0.10) : vec3(0.20, 0.55, 1.0);
+    vec3 shaded = side * (0.30 + 0.70 * grey);
+    return mix(vec3(grey), shaded, smoothstep(0.0, 0.5, amount) * 0.9);
+}
+
+vec3 withOverlay(vec3 colour, vec2 uv) {
+    float grey = dot(colour, luma);
+    if (choices.y == OVERLAY_COC) return cocColour(cocAt(uv), grey);
+    if (choices.y == OVERLAY_LEVEL) {
+        float level = texture(levelImage, uv).r;
+        if (level < 0.0) return 0.35 * vec3(grey);
+        return srgbEncoded(texture(levelColours, vec2(level / 8.0, 0.5)).rgb) * (0.35 + 0.75 * grey);
+    }
+    return colour;
+}
+
+// Contours that stand out, where the blur is below about a pixel: what a camera's peaking marks.
+float peaking(vec2 uv) {
+    vec2 step = 1.0 / size.xy;
+    float right = dot(shown(uv + vec2(step.x, 0.0)), luma) - dot(shown(uv - vec2(step.x, 0.0)), luma);
+    float up = dot(shown(uv + vec2(0.0, step.y)), luma) - dot(shown(uv - vec2(0.0, step.y)), luma);
+    float sharp = 1.0 - smoothstep(1.0, 2.5, abs(cocAt(uv)));
+    return sharp * smoothstep(0.06, 0.16, length(vec2(right, up)));
+}
+
+void main() {
+    vec2 uv = gl_FragCoord.xy / size.xy;
+    vec3 colour = withOverlay(shown(uv), uv);
+    if ((choices.z & FLAG_FOCUS_PLANE) != 0) {
+        float inFocus = 1.0 - smoothstep(0.5, 1.5, abs(cocAt(uv)));
+        colour = mix(colour, vec3(0.15, 0.95, 0.60), 0.50 * inFocus);
+    }
+    if ((choices.z & FLAG_PEAKING) != 0) colour = mix(colour, vec3(1.0, 0.25, 0.15), peaking(uv));
+    if ((choices.z & FLAG_WIREFRAME) != 0) {
+        vec4 wire = texture(wireImage, uv);
+        colour = colour * (1.0 - 0.85 * wire.a) + 0.85 * wire.rgb * wire.a;
+    }
+    display = vec4(colour, 1.0);
+}

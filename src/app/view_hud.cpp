@@ -1,0 +1,247 @@
+#include "app/view_hud.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "image/colour_map.h"
+#include "image/tone_map.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr ImU32 plate = IM_COL32(12, 12, 12, 190);
+constexpr ImU32 white = IM_COL32(240, 240, 240, 255);
+constexpr ImU32 quiet = IM_COL32(190, 190, 190, 255);
+
+ImVec2 corner(const HudContext& context, double x, double y) {
+    return {static_cast<float>(context.area.origin.x + x * context.area.size.x),
+            static_cast<float>(context.area.origin.y + y * context.area.size.y)};
+}
+
+// Text on a dark plate; `at` is its corner or, where the anchors say so, another point of it. Returns its size.
+ImVec2 label(const HudContext& context, ImVec2 at, float anchorX, float anchorY, const std::string& text, ImU32 color) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float pad = 6 * context.scale;
+    const ImVec2 words = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 size(words.x + 2 * pad, words.y + pad);
+    at.x = std::floor(at.x - anchorX * size.x);
+    at.y = std::floor(at.y - anchorY * size.y);
+    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, plate, 4 * context.scale);
+    list.AddText({at.x + pad, at.y + 0.5f * pad}, color, text.c_str());
+    return size;
+}
+
+std::string distanceText(double metres) {
+    if (!std::isfinite(metres)) return "∞";
+    return metres < 1 ? fmt::format("{:.1f} cm", 100 * metres) : fmt::format("{:.2f} m", metres);
+}
+
+void drawStatus(const HudContext& context, const ViewState& state) {
+    if (context.picture == nullptr) return;
+    const Lens& lens = state.lens;
+    const std::string optics = lens.dofEnabled ? fmt::format("{:.3g} mm   f/{:.3g}   {}", lens.focalLength, lens.fStop,
+                                                             distanceText(lens.focusDistance))
+                                               : fmt::format("{:.3g} mm   pinhole", lens.focalLength);
+    const View& view = context.picture->plan().view;
+    const std::string work =
+        fmt::format("{} samples{}   {} × {}   {:.0f} ms", context.picture->samples(),
+                    context.picture->finished() ? " ✓" : "", view.width, view.height, context.frameMilliseconds);
+    const float gap = 8 * context.scale;
+    const ImVec2 at = corner(context, 0, 1);
+    const ImVec2 size = label(context, {at.x + gap, at.y - gap}, 0, 1, optics, white);
+    label(context, {at.x + 1.5f * gap + size.x, at.y - gap}, 0, 1, work, quiet);
+    if (state.navigation == Navigation::fly) {
+        const ImVec2 right = corner(context, 1, 1);
+        label(context, {right.x - gap, right.y - gap}, 1, 1, "fly", white);
+    }
+}
+
+void drawDivider(const HudContext& context, const ViewState& state) {
+    if (context.rightLabel.empty()) return;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const ImVec2 top = corner(context, state.display.divider, 0);
+    const ImVec2 bottom = corner(context, state.display.divider, 1);
+    const float s = context.scale;
+    list.AddLine(top, bottom, IM_COL32(0, 0, 0, 160), 3 * s);
+    list.AddLine(top, bottom, white, s);
+    const ImVec2 middle(top.x, 0.5f * (top.y + bottom.y));
+    list.AddCircleFilled(middle, 11 * s, IM_COL32(30, 30, 30, 230), 32);
+    list.AddCircle(middle, 11 * s, white, 32, 1.2f * s);
+    for (const float side : {-1.0f, 1.0f})
+        list.AddTriangleFilled({middle.x + side * 7 * s, middle.y}, {middle.x + side * 2.5f * s, middle.y - 4 * s},
+                               {middle.x + side * 2.5f * s, middle.y + 4 * s}, white);
+    const float gap = 10 * s;
+    label(context, {top.x - gap, top.y + gap}, 1, 0, context.leftLabel, white);
+    std::string right = context.rightLabel;
+    if (state.display.difference) right = fmt::format("{:.0f} × difference to {}", state.display.differenceGain, right);
+    const auto psnr = context.picture->psnr();
+    if (psnr) right += std::isfinite(*psnr) ? fmt::format("   {:.1f} dB", *psnr) : "   equal";
+    label(context, {top.x + gap, top.y + gap}, 0, 0, right, white);
+}
+
+// A strip of colours with words at its ends, at the bottom right.
+void drawLegend(const HudContext& context, const ViewState& state) {
+    const DisplayOverlay overlay = state.display.overlay;
+    if (overlay == DisplayOverlay::none && !state.display.wireframe) return;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float s = context.scale;
+    const ImVec2 end = corner(context, 1, 1);
+    const ImVec2 size(170 * s, 10 * s);
+    const ImVec2 at(end.x - size.x - 18 * s, end.y - 50 * s);
+    list.AddRectFilled({at.x - 9 * s, at.y - 9 * s}, {end.x - 9 * s, end.y - 10 * s}, plate, 4 * s);
+    constexpr int steps = 85;
+    for (int i = 0; i < steps; ++i) {
+        const float t = (static_cast<float>(i) + 0.5f) / steps;
+        glm::vec3 color = viridis(t);
+        for (int c = 0; c < 3; ++c) color[c] = srgbEncode(color[c]);
+        if (overlay == DisplayOverlay::coc) {
+            const float signedShare = 2 * t - 1;
+            const glm::vec3 side = signedShare < 0 ? glm::vec3(1, 0.55f, 0.10f) : glm::vec3(0.2f, 0.55f, 1);
+            color = glm::mix(glm::vec3(0.6f), side, std::min(1.0f, 2 * std::abs(signedShare)));
+        }
+        const float x = at.x + size.x * static_cast<float>(i) / steps;
+        list.AddRectFilled({x, at.y}, {x + size.x / steps + 1, at.y + size.y},
+                           ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1}));
+    }
+    const bool coc = overlay == DisplayOverlay::coc;
+    const char* words[3] = {coc ? "−64 px" : "level 0", coc ? "sharp" : "4", coc ? "64 px" : "8"};
+    for (int i = 0; i < 3; ++i) {
+        const float width = ImGui::CalcTextSize(words[i]).x;
+        list.AddText({at.x + 0.5f * static_cast<float>(i) * (size.x - width), at.y + 14 * s}, white, words[i]);
+    }
+}
+
+// The object under the cursor: how it is drawn.
+void drawHover(const HudContext& context, const ViewState& state) {
+    const bool wanted = state.display.overlay != DisplayOverlay::none || state.display.wireframe;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const glm::dvec2 position(mouse.x, mouse.y);
+    if (!wanted || context.mouseOnInterface || context.picture == nullptr || !context.area.contains(position)) return;
+    static glm::dvec2 pickedAt(-1);
+    static std::optional<PickedSurface> picked;
+    static double restsSince = 0;
+    static bool known = false;
+    if (position != pickedAt) {
+        pickedAt = position;
+        restsSince = context.now;
+        known = false;
+    }
+    if (context.now - restsSince < 0.12) return;
+    if (!known) picked = pickedSurface(*context.frame, state, context.area, position);
+    known = true;
+    if (!picked) return;
+    for (const ObjectPlan& object : context.picture->plan().objects) {
+        if (object.object != picked->object) continue;
+        std::string text = fmt::format(
+            "{}\n{} away, blurred by {:.1f} px\nlevel λ {:.2f}", object.name, distanceText(picked->depth),
+            std::abs(circleOfConfusion(context.picture->plan().coc, picked->depth, context.picture->plan().view.width)),
+            object.lambda);
+        for (const LevelDraw& draw : {object.coarse, object.fine})
+            if (draw.sampleCount > 0)
+                text += fmt::format("\n{} samples at level {}: {} triangles", draw.sampleCount, draw.level,
+                                    draw.triangleCount);
+        ImGui::BeginTooltip();
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::EndTooltip();
+        return;
+    }
+}
+
+// The boxes of the objects to come, and how far it is.
+void drawLoading(const HudContext& context) {
+    if (!context.loader->busy()) return;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const auto preview = context.frame == nullptr ? context.loader->preview() : nullptr;
+    if (preview) {
+        const glm::dmat4 viewFromWorld = glm::inverse(preview->view.worldFromCamera);
+        const double tanX = tanHalfHorizontalFov(preview->view.lens);
+        const double tanY = tanX * context.area.size.y / context.area.size.x;
+        static constexpr int edges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                                             {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+        for (const std::array<glm::dvec3, 8>& box : preview->boxes) {
+            ImVec2 points[8];
+            bool inFront = true;
+            for (std::size_t i = 0; i < 8; ++i) {
+                const glm::dvec4 p = viewFromWorld * glm::dvec4(box[i], 1);
+                inFront = inFront && p.z < -preview->view.nearPlane;
+                points[i] = corner(context, 0.5 - 0.5 * p.x / (p.z * tanX), 0.5 + 0.5 * p.y / (p.z * tanY));
+            }
+            if (!inFront) continue;
+            for (const auto& edge : edges)
+                list.AddLine(points[edge[0]], points[edge[1]], context.colors.faint, context.scale);
+        }
+    }
+    const float s = context.scale;
+    const ImVec2 centre = corner(context, 0.5, 0.5);
+    const ImVec2 half(150 * s, 34 * s);
+    list.AddRectFilled({centre.x - half.x, centre.y - half.y}, {centre.x + half.x, centre.y + half.y}, plate, 6 * s);
+    const std::string text = fmt::format("Opening {}: {}", context.loader->name(), context.loader->stage());
+    list.PushClipRect({centre.x - half.x + 8 * s, centre.y - half.y}, {centre.x + half.x - 8 * s, centre.y + half.y},
+                      true);
+    list.AddText({centre.x - half.x + 16 * s, centre.y - 22 * s}, white, text.c_str());
+    list.PopClipRect();
+    const ImVec2 bar(centre.x - half.x + 16 * s, centre.y + 10 * s);
+    const float width = 2 * half.x - 32 * s;
+    list.AddRectFilled(bar, {bar.x + width, bar.y + 5 * s}, IM_COL32(80, 80, 80, 255), 2 * s);
+    list.AddRectFilled(bar, {bar.x + width * static_cast<float>(context.loader->share()), bar.y + 5 * s},
+                       IM_COL32(84, 148, 217, 255), 2 * s);
+}
+
+void drawMessages(const HudContext& context, ViewState& state) {
+    std::erase_if(state.messages, [&](const Message& message) { return message.until < context.now; });
+    float y = 12 * context.scale;
+    int index = 0;
+    for (const Message& message : state.messages) {
+        const ImVec2 at = corner(context, 0.5, 0);
+        ImGui::SetNextWindowPos({at.x, at.y + y}, ImGuiCond_Always, {0.5f, 0});
+        ImGui::SetNextWindowSizeConstraints({0, 0}, {static_cast<float>(context.area.size.x) * 0.9f, 1e4f});
+        ImGui::Begin(fmt::format("##message{}", index++).c_str(), nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
+                         ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
+        ImGui::PushTextWrapPos(static_cast<float>(context.area.size.x) * 0.8f);
+        if (message.fault) ImGui::PushStyleColor(ImGuiCol_Text, context.colors.fault);
+        ImGui::TextUnformatted(message.text.c_str());
+        if (message.fault) ImGui::PopStyleColor();
+        ImGui::PopTextWrapPos();
+        y += ImGui::GetWindowHeight() + 6 * context.scale;
+        ImGui::End();
+    }
+}
+
+void drawHelp(const HudContext& context, ViewState& state) {
+    if (!state.help) return;
+    const ImVec2 centre = corner(context, 0.5, 0.5);
+    ImGui::SetNextWindowPos(centre, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::Begin("Keys", &state.help,
+                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+        for (const KeyHelp& entry : keyHelp()) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(entry.keys);
+            ImGui::TableNextColumn();
+            ImGui::TextDisabled("%s", entry.meaning);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+}  // namespace
+
+void drawHud(const HudContext& context, ViewState& state) {
+    drawStatus(context, state);
+    drawDivider(context, state);
+    if (context.picture != nullptr) drawLegend(context, state);
+    drawHover(context, state);
+    drawLoading(context);
+    drawMessages(context, state);
+    drawHelp(context, state);
+}
+
+}  // namespace defocus

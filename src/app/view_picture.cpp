@@ -1,0 +1,204 @@
+#include "app/view_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lens/lens_fields.h"
+
+namespace defocus {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto settling = 120ms;               // without change, before an image begins to grow
+constexpr std::uint32_t firstShownSample = 4;  // of a growing image: fewer are worse than the frame before
+constexpr double softwareGrowth = 60;          // ms a frame that a still image takes at least
+constexpr auto psnrEvery = 700ms;
+
+// All that the image depends on, as numbers.
+std::vector<double> imageKey(const PictureRequest& request) {
+    const View& view = request.view;
+    const RenderSettings& settings = request.settings;
+    std::vector<double> key = {static_cast<double>(view.width),
+                               static_cast<double>(view.height),
+                               view.nearPlane,
+                               static_cast<double>(request.poseVersion),
+                               static_cast<double>(settings.seed),
+                               static_cast<double>(settings.metric),
+                               static_cast<double>(settings.lodCocAtCentre),
+                               static_cast<double>(settings.keepAll),
+                               static_cast<double>(request.thresholdsFollow),
+                               static_cast<double>(request.fixedQuality.has_value())};
+    if (!request.thresholdsFollow) key.insert(key.end(), {settings.thresholds.blur, settings.thresholds.size});
+    for (glm::length_t column = 0; column < 4; ++column)
+        for (glm::length_t row = 0; row < 4; ++row) key.push_back(view.worldFromCamera[column][row]);
+    for (const LensField& field : lensFields()) key.push_back(lensFieldValue(view.lens, field));
+    return key;
+}
+
+std::vector<double> displayKey(const DisplaySettings& display) {
+    return {static_cast<double>(display.toneMap),
+            display.exposure,
+            static_cast<double>(display.overlay),
+            static_cast<double>(display.focusPeaking),
+            static_cast<double>(display.focusPlane),
+            static_cast<double>(display.wireframe),
+            display.divider,
+            static_cast<double>(display.difference),
+            display.differenceGain};
+}
+
+// The view at another resolution: limits of the blur are px of the image.
+View resized(const View& view, double resolution) {
+    View result = view;
+    result.width = std::max(1, static_cast<int>(std::lround(view.width * resolution)));
+    result.height = std::max(1, static_cast<int>(std::lround(view.height * resolution)));
+    const double scale = static_cast<double>(result.width) / view.width;
+    result.lens.foregroundLimit *= scale;
+    result.lens.backgroundLimit *= scale;
+    return result;
+}
+
+RenderSettings settingsOf(const RenderSettings& settings, const PictureSide& side) {
+    RenderSettings result = settings;
+    result.lod = side.lod;
+    result.firstSample = side.firstSample;
+    return result;
+}
+
+}  // namespace
+
+ViewPicture::ViewPicture(const World& world, RendererOptions options, bool software)
+    : world_(&world), options_(std::move(options)), software_(software), display_(options_.shaderFolder) {}
+
+bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
+    // What has changed?
+    const bool otherSides = !firstSide_ || !(*firstSide_ == request.first) ||
+                            secondSide_.has_value() != request.second.has_value() ||
+                            (request.second && !(*secondSide_ == *request.second));
+    if (otherSides) prepareSides(request);
+    const std::vector<double> key = imageKey(request);
+    const bool changed = otherSides || key != lastKey_;
+    const std::vector<double> shown = displayKey(request.display);
+    bool presents = shown != lastDisplayKey_;
+    lastKey_ = key;
+    lastDisplayKey_ = shown;
+
+    // Draw a frame, wait until hands are still, or let the image grow.
+    if (changed) {
+        ++changes_;
+        drawMoving(request, budget);
+        growing_ = false;
+        grows_ = true;
+        settlesAt_ = Clock::now() + settling;
+        presents = true;
+    } else if (!growing_ && !request.fixedQuality && Clock::now() >= settlesAt_) {
+        beginGrowing(request);
+    } else if (growing_ && grows_) {
+        grow(std::max(budget.milliseconds, software_ ? softwareGrowth : 0.0));
+        const std::uint32_t least = std::min(samples(), second_ ? second_->samples() : samples());
+        presents = presents || least >= firstShownSample || !grows_;
+    }
+    const bool tooFew = growing_ && grows_ && samples() < firstShownSample;
+    if (!presents || tooFew) return false;
+    present(request);
+    return true;
+}
+
+void ViewPicture::prepareSides(const PictureRequest& request) {
+    if (!firstSide_ || firstSide_->method.text() != request.first.method.text()) {
+        first_.reset();
+        first_.emplace(*world_, request.first.method, options_);
+        fresh_ = true;
+    }
+    if (!request.second)
+        second_.reset();
+    else if (!second_ || secondSide_->method.text() != request.second->method.text()) {
+        second_.reset();
+        second_.emplace(*world_, request.second->method, options_);
+        fresh_ = true;
+    }
+    firstSide_ = request.first;
+    secondSide_ = request.second;
+    psnr_.reset();
+}
+
+void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget) {
+    const FrameQuality quality = request.fixedQuality.value_or(budget.quality());
+    const Clock::time_point begin = Clock::now();
+    const View view = resized(request.view, quality.resolution);
+    RenderSettings settings = request.settings;
+    settings.sampleCount = quality.samples;
+    if (request.thresholdsFollow) settings.thresholds = defaultThresholds(settings.metric, quality.samples);
+    settings.thresholds.blur *= quality.thresholdBias;
+    settings.thresholds.size *= quality.thresholdBias;
+    first_->drawFrame(view, settingsOf(settings, request.first));
+    if (second_) second_->drawFrame(view, settingsOf(settings, *request.second));
+    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    if (!fresh_ && !request.fixedQuality) budget = adapted(budget, milliseconds);
+    fresh_ = false;
+    aovsCurrent_ = false;
+    psnr_.reset();
+    notePasses();
+}
+
+void ViewPicture::beginGrowing(const PictureRequest& request) {
+    growing_ = true;
+    grows_ = true;
+    first_->begin(request.view, settingsOf(request.settings, request.first), request.thresholdsFollow,
+                  request.mostSamples);
+    if (second_)
+        second_->begin(request.view, settingsOf(request.settings, *request.second), request.thresholdsFollow,
+                       request.mostSamples);
+    nextPsnr_ = Clock::now() + psnrEvery;
+    aovsCurrent_ = false;
+}
+
+void ViewPicture::grow(double milliseconds) {
+    // Two sides take turns, the one behind first, so that they stay comparable.
+    const bool secondBehind =
+        second_ && !second_->finished() && (first_->finished() || second_->samples() < first_->samples());
+    (secondBehind ? *second_ : *first_).grow(milliseconds);
+    grows_ = !first_->finished() || (second_ && !second_->finished());
+    notePasses();
+}
+
+void ViewPicture::notePasses() {
+    const RenderStats stats = first_->stats();
+    passes_.clear();
+    for (const PassTime& pass : stats.passes) passes_.push_back({pass.name, pass.milliseconds});
+    if (passes_.empty()) passes_.push_back({"waves", stats.gpuMilliseconds});
+    passes_.push_back({"set-up", stats.setupMilliseconds});
+}
+
+void ViewPicture::drawAovs() {
+    if (!aovs_) aovs_.emplace(*world_, options_.shaderFolder);
+    aovs_->draw(first_->plan());
+    aovsCurrent_ = true;
+    wireframeCurrent_ = false;
+}
+
+void ViewPicture::present(const PictureRequest& request) {
+    const DisplaySettings& display = request.display;
+    if (display.needsAovs() && !aovsCurrent_) drawAovs();
+    if (display.wireframe && !wireframeCurrent_) {
+        aovs_->drawWireframe();
+        wireframeCurrent_ = true;
+    }
+    DisplayInputs inputs;
+    inputs.first = first_->texture();
+    if (second_) inputs.second = second_->texture();
+    if (aovsCurrent_) {
+        inputs.coc = &aovs_->coc();
+        inputs.level = &aovs_->level();
+        if (wireframeCurrent_) inputs.wireframe = &aovs_->wireframe();
+    }
+    if (second_ && growing_ && Clock::now() >= nextPsnr_) {
+        psnr_ = display_.psnr(*inputs.first, *inputs.second);
+        nextPsnr_ = Clock::now() + psnrEvery;
+    }
+    display_.draw(inputs, display, request.view.width, request.view.height);
+}
+
+}  // namespace defocus

@@ -1,0 +1,87 @@
+#pragma once
+// Everything that a window shows and that people can change, as plain data.
+
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/camera_controls.h"
+#include "app/focus_pull.h"
+#include "app/frame_budget.h"
+#include "app/scene_options.h"
+#include "render/display_pass.h"
+
+namespace defocus {
+
+enum class Navigation { orbit, fly };
+
+// What the right side of the divider shows.
+enum class Comparison {
+    none,
+    fullDetail,  // the same lens samples, full detail
+    nearest,     // one whole level an object
+    reference,   // full detail, lens samples of its own
+    method,      // ViewState::comparedMethod
+};
+
+struct Message {
+    std::string text;
+    bool fault = false;
+    double until = 0;  // s, of the window's clock
+};
+
+struct AnimationState {
+    int clip = 0;
+    double time = 0;  // s
+    double speed = 1;
+    bool playing = false;
+};
+
+struct ViewState {
+    // What is looked at, and through what.
+    SceneOptions options;  // of the scene that is shown
+    ViewCamera camera;
+    Lens lens;
+    double nearPlane = 0.01;     // m
+    bool followsCamera = false;  // the file's camera, as its animation moves it
+    Navigation navigation = Navigation::orbit;
+    int selected = -1;  // object; the one that was focused on last
+    AnimationState animation;
+    std::optional<FocusPull> pull;
+
+    // How it is shown.
+    DisplaySettings display;
+    Comparison comparison = Comparison::none;
+    std::string comparedMethod = "circular";
+    FrameBudget budget;
+    std::uint32_t mostSamples = 4096;    // of a still view
+    std::optional<double> poppingSince;  // s; a focus pull with fractional and nearest level side by side runs
+
+    // The window.
+    bool panel = true;
+    bool help = false;
+    bool dark = true;
+    double interfaceScale = 1;  // on top of the screen's own
+    std::string openPath;       // as typed
+    std::string exportPath = "still.png";
+    std::optional<glm::ivec2> exportSize;  // px; none: as the view is
+    std::deque<Message> messages;
+};
+
+// What the panel asks for, done once it is drawn.
+struct ViewActions {
+    std::optional<std::filesystem::path> open;
+    std::optional<std::string> chooseCamera;  // its name; "auto" frames the scene
+    bool copyCommand = false;
+    bool exportStill = false;
+    bool cancelExport = false;
+    bool screenshot = false;
+    bool frameSelection = false;
+    bool frameAll = false;
+    bool togglePopping = false;
+    bool quit = false;
+};
+
+}  // namespace defocus

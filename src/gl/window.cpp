@@ -1,0 +1,195 @@
+#include "gl/window.h"
+
+#include <epoxy/gl.h>
+// after epoxy
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "image/tone_map.h"
+
+namespace defocus {
+
+namespace {
+
+static_assert(key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER && key::tab == GLFW_KEY_TAB);
+static_assert(key::right == GLFW_KEY_RIGHT && key::up == GLFW_KEY_UP && key::home == GLFW_KEY_HOME);
+static_assert(key::f1 == GLFW_KEY_F1 && key::f12 == GLFW_KEY_F12 && key::leftShift == GLFW_KEY_LEFT_SHIFT);
+static_assert(key::rightShift == GLFW_KEY_RIGHT_SHIFT && key::leftControl == GLFW_KEY_LEFT_CONTROL &&
+              key::rightControl == GLFW_KEY_RIGHT_CONTROL && GLFW_KEY_A == 'A' && GLFW_KEY_SLASH == '/');
+
+std::string lastFault() {
+    const char* words = nullptr;
+    glfwGetError(&words);
+    return words != nullptr ? words : "no reason given";
+}
+
+constexpr const char* withoutWindow = "start it in a desktop session, or use 'defocus render', which needs no display";
+
+Window* owner(GLFWwindow* window) {
+    return static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+void setModifiers(WindowEvent& event, int modifiers) {
+    event.shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+    event.control = (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) != 0;
+    event.alt = (modifiers & GLFW_MOD_ALT) != 0;
+}
+
+int heldModifiers(GLFWwindow* window) {
+    const auto held = [&](int left, int right, int bit) {
+        return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS ? bit : 0;
+    };
+    return held(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT, GLFW_MOD_SHIFT) |
+           held(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, GLFW_MOD_CONTROL) |
+           held(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT, GLFW_MOD_ALT);
+}
+
+}  // namespace
+
+Window::Window(const WindowOptions& options) {
+    if (glfwInit() != GLFW_TRUE) fail("no window can be opened: {}; {}", lastFault(), withoutWindow);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr) {
+        const std::string reason = lastFault();
+        glfwTerminate();
+        fail("no window with OpenGL 4.5 can be opened: {}; {}", reason, withoutWindow);
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    device_ = currentDevice();
+    software_ = currentIsSoftware();
+    installCallbacks();
+}
+
+Window::~Window() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+void Window::installCallbacks() {
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+        owner(window)->mouse_ = {x, y};
+        WindowEvent& event = owner(window)->add(WindowEvent::Type::move);
+        setModifiers(event, heldModifiers(window));
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int modifiers) {
+        if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+        WindowEvent& event = owner(window)->add(WindowEvent::Type::button);
+        event.button = static_cast<MouseButton>(button);
+        event.pressed = action == GLFW_PRESS;
+        setModifiers(event, modifiers);
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
+        WindowEvent& event = owner(window)->add(WindowEvent::Type::scroll);
+        event.scroll = {x, y};
+        setModifiers(event, heldModifiers(window));
+    });
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int code, int, int action, int modifiers) {
+        WindowEvent& event = owner(window)->add(WindowEvent::Type::key);
+        event.key = code;
+        event.pressed = action != GLFW_RELEASE;
+        event.repeated = action == GLFW_REPEAT;
+        setModifiers(event, modifiers);
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+        WindowEvent& event = owner(window)->add(WindowEvent::Type::drop);
+        event.paths.assign(paths, paths + count);
+    });
+}
+
+WindowEvent& Window::add(WindowEvent::Type type) {
+    WindowEvent& event = events_.emplace_back();
+    event.type = type;
+    event.position = mouse_;  // as it was then; asking GLFW gives where it is now
+    return event;
+}
+
+std::vector<WindowEvent> Window::poll(double seconds) {
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+    return std::exchange(events_, {});
+}
+
+bool Window::closing() const {
+    return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+bool Window::keyHeld(int keyCode) const {
+    return glfwGetKey(window_, keyCode) == GLFW_PRESS;
+}
+
+glm::ivec2 Window::size() const {
+    glm::ivec2 result(0);
+    glfwGetWindowSize(window_, &result.x, &result.y);
+    return result;
+}
+
+glm::ivec2 Window::framebufferSize() const {
+    glm::ivec2 result(0);
+    glfwGetFramebufferSize(window_, &result.x, &result.y);
+    return result;
+}
+
+double Window::contentScale() const {
+    float x = 1;
+    float y = 1;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return std::clamp(static_cast<double>(x), 0.5, 4.0);
+}
+
+void Window::beginFrame(const glm::vec3& color) {
+    const glm::ivec2 area = framebufferSize();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, area.x, area.y);
+    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    glFrontFace(GL_CCW);
+    glDepthMask(GL_TRUE);
+    glClearColor(color.r, color.g, color.b, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void Window::endFrame() {
+    glfwSwapBuffers(window_);
+}
+
+Image Window::pixels() const {
+    const glm::ivec2 area = framebufferSize();
+    Image image(area.x, area.y, 3);
+    std::vector<unsigned char> bytes(image.pixels.size());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, area.x, area.y, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
+    const std::size_t row = static_cast<std::size_t>(area.x) * 3;
+    for (int y = 0; y < area.y; ++y)
+        for (std::size_t i = 0; i < row; ++i)
+            image.at(0, area.y - 1 - y)[i] =
+                srgbDecode(static_cast<float>(bytes[static_cast<std::size_t>(y) * row + i]) / 255.0f);
+    return image;
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::setClipboard(const std::string& text) {
+    glfwSetClipboardString(window_, text.c_str());
+}
+
+}  // namespace defocus

@@ -1,0 +1,64 @@
+#pragma once
+// The last step to a window: a linear image on the GPU becomes display values (exposure, tone map, sRGB), beside a
+// second image where two are compared, with overlays that say why it looks as it does. No pixel is read back.
+
+#include <filesystem>
+
+#include "gl/fullscreen.h"
+#include "gl/target.h"
+#include "image/tone_map.h"
+
+namespace defocus {
+
+enum class DisplayOverlay {
+    none,
+    coc,    // circle of confusion: orange in front of the focus plane, blue behind
+    level,  // objects by their level λ, dark violet (0) to yellow (8)
+};
+
+struct DisplaySettings {
+    ToneMap toneMap = ToneMap::none;
+    double exposure = 0;  // EV
+    DisplayOverlay overlay = DisplayOverlay::none;
+    bool focusPeaking = false;  // marks sharp contours that are in focus
+    bool focusPlane = false;    // tints what is in focus
+    bool wireframe = false;
+    double divider = 1;       // share of the width that shows the first image; the rest shows the second
+    bool difference = false;  // the rest shows differenceGain · |first − second| instead
+    double differenceGain = 4;
+
+    [[nodiscard]] bool needsAovs() const {
+        return overlay != DisplayOverlay::none || focusPeaking || focusPlane || wireframe;
+    }
+};
+
+// What is drawn; all but `first` may be null where the settings don't need them. Textures are stretched to the output.
+struct DisplayInputs {
+    const GlTexture* first = nullptr;  // linear RGBA, premultiplied
+    const GlTexture* second = nullptr;
+    const GlTexture* coc = nullptr;  // of AovPass
+    const GlTexture* level = nullptr;
+    const GlTexture* wireframe = nullptr;
+};
+
+class DisplayPass {
+public:
+    explicit DisplayPass(std::filesystem::path shaderFolder = {});
+
+    void draw(const DisplayInputs& inputs, const DisplaySettings& settings, int width, int height);
+    // Display values as rgba8, row 0 at the bottom; what was drawn last. At least one draw.
+    [[nodiscard]] const GlTexture& texture() const { return texture_; }
+
+    // PSNR in dB of two images of one size on display values at EV 0, as compareImages has it; infinity for equal ones.
+    // Reads back; not for every frame.
+    [[nodiscard]] double psnr(const GlTexture& first, const GlTexture& second);
+
+private:
+    std::filesystem::path shaderFolder_;
+    Program program_, squaredError_;
+    GlTexture texture_, levelColours_, black_;
+    Target target_;
+    Fullscreen fullscreen_;
+};
+
+}  // namespace defocus

@@ -1,0 +1,88 @@
+#include "render/progressive_image.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "render/frame_uniforms.h"
+
+namespace defocus {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+// All levels of the meshes that are drawn go to the GPU at once: none is uploaded in the middle of a movement.
+FramePlan withAllLevels(FramePlan plan) {
+    if (plan.settings.lod != LodMode::off)
+        for (std::vector<bool>& used : plan.levelsUsed) used.assign(used.size(), true);
+    return plan;
+}
+
+}  // namespace
+
+ProgressiveImage::ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options)
+    : world_(&world), growingWave_(options.wave > 0 ? options.wave : 4), usesLensSamples_(use.method->usesLensSamples) {
+    RendererOptions complete = options;
+    complete.settings = use.settings;
+    renderer_ = use.method->make(world, complete);
+}
+
+void ProgressiveImage::drawFrame(const View& view, const RenderSettings& settings) {
+    plan_ = withAllLevels(planFrame(*world_, view, settings));
+    finished_ = true;
+    renderer_->setWave(settings.sampleCount);
+    renderer_->start(plan_);
+    while (renderer_->advance()) {
+    }
+    glFinish();
+}
+
+void ProgressiveImage::begin(const View& view, const RenderSettings& settings, bool thresholdsFollow,
+                             std::uint32_t most) {
+    view_ = view;
+    settings_ = settings;
+    settings_.sampleCount = blockSamples;
+    thresholdsFollow_ = thresholdsFollow;
+    block_ = 0;
+    blocks_ = std::max(1u, (most + blockSamples - 1) / blockSamples);
+    planBlock();
+    renderer_->setWave(growingWave_);
+    renderer_->start(plan_);
+    finished_ = false;
+}
+
+void ProgressiveImage::planBlock() {
+    RenderSettings settings = settings_;
+    settings.firstSample += block_ * blockSamples;
+    if (thresholdsFollow_) settings.thresholds = defaultThresholds(settings.metric, (block_ + 1) * blockSamples);
+    plan_ = withAllLevels(planFrame(*world_, view_, settings));
+}
+
+bool ProgressiveImage::grow(double milliseconds) {
+    const Clock::time_point begin = Clock::now();
+    const std::uint32_t before = samples();
+    while (!finished_) {
+        const Clock::time_point waveBegin = Clock::now();
+        if (renderer_->samples() == renderer_->sampleTotal()) {
+            // A block that is left smaller holds all that can be seen: nothing is blurred, or the method needs no lens.
+            finished_ = ++block_ >= blocks_ || !usesLensSamples_ || plan_.samples.size() < blockSamples;
+            if (finished_) break;
+            planBlock();
+            renderer_->continueWith(plan_);
+        }
+        renderer_->advance();
+        glFinish();
+        if (millisecondsSince(begin) + millisecondsSince(waveBegin) > milliseconds) break;
+    }
+    const std::uint32_t drawn = samples() > before ? samples() - before : 0;
+    if (drawn > 0) millisecondsPerSample_ = millisecondsSince(begin) / drawn;
+    return !finished_;
+}
+
+}  // namespace defocus

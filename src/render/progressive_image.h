@@ -1,0 +1,52 @@
+#pragma once
+// An image that grows for as long as nothing moves: the first block of 64 lens samples, then further blocks, each
+// planned for the samples that will then be in the sum (levels get finer as the sampling error falls), all added to one
+// sum. Or, while things move, a frame at once from few samples.
+
+#include <memory>
+
+#include "render/methods.h"
+
+namespace defocus {
+
+class ProgressiveImage {
+public:
+    // `world` must outlive it; its pose may change between frames. While it grows, options.wave samples are drawn at
+    // once (0: 4): small waves end in time. Needs a current GL context.
+    ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
+
+    // A whole frame of settings.sampleCount samples.
+    void drawFrame(const View& view, const RenderSettings& settings);
+
+    // Begins an image that grow() then carries to `most` samples (rounded up to blocks). With `thresholdsFollow` the
+    // level-of-detail thresholds are the defaults for the samples that are in the sum after each block, else those of
+    // `settings`.
+    void begin(const View& view, const RenderSettings& settings, bool thresholdsFollow, std::uint32_t most);
+    // Draws waves for about `milliseconds`, at least one. False once the image is finished.
+    bool grow(double milliseconds);
+
+    [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
+    [[nodiscard]] bool finished() const { return finished_; }
+    [[nodiscard]] const FramePlan& plan() const { return plan_; }  // of the frame or the latest block
+    [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
+    [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
+    [[nodiscard]] double millisecondsPerSample() const { return millisecondsPerSample_; }  // of the latest grow()
+
+private:
+    void planBlock();
+
+    const World* world_;
+    std::unique_ptr<Renderer> renderer_;
+    FramePlan plan_;
+    View view_;
+    RenderSettings settings_;
+    bool thresholdsFollow_ = true;
+    std::uint32_t growingWave_;
+    std::uint32_t block_ = 0;
+    std::uint32_t blocks_ = 0;
+    bool usesLensSamples_ = true;
+    bool finished_ = true;
+    double millisecondsPerSample_ = 0;
+};
+
+}  // namespace defocus

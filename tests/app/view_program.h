@@ -1,0 +1,150 @@
+#pragma once
+// Runs `defocus view` on an X server of its own (Xvfb), with real mouse and key events (xdotool). The program keeps its
+// state in a JSON file, which the tests read.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace defocus {
+
+class ViewProgram : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        if (std::system("command -v Xvfb xdotool >/dev/null 2>&1") != 0) return;
+        int ends[2];
+        if (::pipe(ends) != 0) return;
+        server_ = ::fork();
+        if (server_ == 0) {
+            ::dup2(ends[1], 3);
+            silence();
+            ::execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp", nullptr);
+            ::_exit(97);
+        }
+        ::close(ends[1]);
+        char number[16] = {};
+        const ssize_t count = ::read(ends[0], number, sizeof number - 1);
+        ::close(ends[0]);
+        if (count > 1) display_ = ":" + std::string(number, static_cast<std::size_t>(count) - 1);
+    }
+    static void TearDownTestSuite() {
+        if (server_ > 0) stop(server_);
+        server_ = -1;
+        display_.clear();
+    }
+
+    void SetUp() override {
+        if (display_.empty()) GTEST_SKIP() << "Xvfb and xdotool are needed (Debian: xvfb xdotool)";
+        std::string pattern = (std::filesystem::temp_directory_path() / "defocus-view-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+        folder_ = pattern;
+    }
+    void TearDown() override {
+        if (program_ > 0) stop(program_);
+        std::error_code ignored;
+        if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+    }
+
+    // Starts the program; `arguments` follow `view`. Files with relative names lie in folder().
+    void start(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {DEFOCUS_PROGRAM, "view", "--stats", "state.json"});
+        program_ = ::fork();
+        if (program_ != 0) return;
+        if (::chdir(folder_.c_str()) != 0) ::_exit(96);
+        ::setenv("DISPLAY", display_.c_str(), 1);
+        ::setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
+        ::setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);
+        const int err = ::open("stderr", O_CREAT | O_TRUNC | O_WRONLY, 0600);
+        ::dup2(err, 2);
+        std::vector<char*> words;
+        for (std::string& word : arguments) words.push_back(word.data());
+        words.push_back(nullptr);
+        ::execv(DEFOCUS_PROGRAM, words.data());
+        ::_exit(95);
+    }
+
+    // Ends by itself within `seconds`: its exit code, else −1.
+    int ended(double seconds = 60) {
+        for (double waited = 0; waited < seconds; waited += 0.05) {
+            int status = 0;
+            if (::waitpid(program_, &status, WNOHANG) == program_) {
+                program_ = -1;
+                return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+            }
+            pause(0.05);
+        }
+        return -1;
+    }
+    [[nodiscard]] bool running() const { return program_ > 0 && ::waitpid(program_, nullptr, WNOHANG) == 0; }
+
+    [[nodiscard]] nlohmann::json state() const {
+        std::ifstream file(folder_ / "state.json");
+        nlohmann::json value = nlohmann::json::parse(file, nullptr, false);
+        return value.is_discarded() ? nlohmann::json::object() : value;
+    }
+    // Whether the state comes to satisfy `condition` in time. Software drivers on busy machines are slow.
+    bool reaches(const std::function<bool(const nlohmann::json&)>& condition, double seconds = 60) const {
+        for (double waited = 0; waited < seconds; waited += 0.1) {
+            const nlohmann::json now = state();
+            if (!now.empty() && condition(now)) return true;
+            pause(0.1);
+        }
+        return false;
+    }
+    bool showsScene(const std::string& name) const {
+        return reaches([&](const nlohmann::json& s) { return s.at("scene") == name && s.at("samples") > 0; });
+    }
+
+    // One xdotool command line, e.g. "mousemove 10 20 click 1".
+    void act(const std::string& commands) const {
+        const std::string line = "DISPLAY=" + display_ + " xdotool " + commands + " >/dev/null 2>&1";
+        EXPECT_EQ(std::system(line.c_str()), 0) << line;
+    }
+    // The window's area starts at the screen's corner without a window manager.
+    void click(int x, int y) const {
+        act("mousemove " + std::to_string(x) + " " + std::to_string(y) + " sleep 0.2 click 1");
+    }
+    void key(const std::string& name) const { act("key " + name); }
+
+    static void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+    [[nodiscard]] std::string textOf(const char* name) const {
+        std::ifstream file(folder_ / name);
+        return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    }
+
+private:
+    static void silence() {
+        const int null = ::open("/dev/null", O_WRONLY);
+        ::dup2(null, 1);
+        ::dup2(null, 2);
+    }
+    static void stop(pid_t process) {
+        ::kill(process, SIGTERM);
+        for (int i = 0; i < 100; ++i) {
+            if (::waitpid(process, nullptr, WNOHANG) != 0) return;
+            pause(0.05);
+        }
+        ::kill(process, SIGKILL);
+        ::waitpid(process, nullptr, 0);
+    }
+
+    static inline pid_t server_ = -1;
+    static inline std::string display_;
+    std::filesystem::path folder_;
+    pid_t program_ = -1;
+};
+
+}  // namespace defocus

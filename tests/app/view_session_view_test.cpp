@@ -1,0 +1,180 @@
+// defocus view, with a hand on mouse and keys.
+
+#include <cmath>
+
+#include "app/two_quads.h"
+#include "app/view_program.h"
+#include "image/image_io.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class View : public ViewProgram {
+protected:
+    // A picture of 400 x 300 with two squares: "Near" at 2 m around (200, 67), "Far" at 8 m around (360, 150).
+    void openTwoQuads(std::vector<std::string> more = {}) {
+        writeTwoQuads(folder() / "quads.gltf");
+        more.insert(more.begin(), {"quads.gltf", "--size", "400x300"});
+        start(more);
+        ASSERT_TRUE(showsScene("quads.gltf")) << textOf("stderr");
+    }
+    bool focusesAt(double distance) const {
+        return reaches([&](const json& s) {
+            return s.at("focusDistance").is_number() && std::abs(s.at("focusDistance").get<double>() - distance) < 1e-6;
+        });
+    }
+    double number(const char* name) const { return state().at(name).get<double>(); }
+};
+
+TEST_F(View, clickFocusesOnWhatIsUnderTheCursor) {
+    openTwoQuads({"--focus-distance", "4"});
+    click(360, 150);
+    EXPECT_TRUE(focusesAt(8)) << state();
+    EXPECT_EQ(state().at("selected"), "Far");
+    click(200, 67);
+    EXPECT_TRUE(focusesAt(2)) << state();
+    EXPECT_EQ(state().at("selected"), "Near");
+    click(30, 280);  // nothing there
+    pause(1);
+    EXPECT_TRUE(focusesAt(2)) << state();
+}
+
+TEST_F(View, stillViewGathersSamplesAndAChangeBeginsAnew) {
+    openTwoQuads({"--focus-distance", "4", "--fstop", "1.4"});
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("samples") > 130; })) << state();
+    EXPECT_EQ(state().at("moving"), false);
+    const double changes = number("changes");
+    key("bracketright");  // the next stop
+    ASSERT_TRUE(reaches([&](const json& s) { return s.at("changes") > changes; })) << state();
+    EXPECT_DOUBLE_EQ(number("fStop"), 1.6);
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("samples") < 130; }, 5)) << state();
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("samples") > 130; })) << state();
+}
+
+TEST_F(View, dragOrbitsAndTheWheelZooms) {
+    openTwoQuads();
+    const json before = state().at("cameraPosition");
+    act("mousemove 100 200 sleep 0.2 mousedown 1 sleep 0.1 mousemove 140 210 sleep 0.1 mousemove 180 220 sleep 0.1 "
+        "mouseup 1");
+    ASSERT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") != before; })) << state();
+    const json after = state().at("cameraPosition");
+    EXPECT_EQ(state().at("selected"), "");  // a drag is no click
+    act("mousemove 100 200 click 4 click 4");
+    EXPECT_TRUE(reaches([&](const json& s) { return s.at("cameraPosition") != after; })) << state();
+}
+
+TEST_F(View, wheelRacksFocusAndTurnsTheApertureRing) {
+    openTwoQuads({"--focus-distance", "4", "--fstop", "2.8"});
+    act("mousemove 100 200 sleep 0.2 keydown ctrl click 4 click 4 keyup ctrl");
+    EXPECT_TRUE(focusesAt(4 * std::exp(0.06))) << state();
+    act("keydown shift click 5 sleep 0.2 keyup shift");
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("fStop") == 3.2; })) << state();
+}
+
+TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
+    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
+    key("x");
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("comparison") == 1 && s.at("divider") == 0.5; })) << state();
+    act("mousemove 201 200 sleep 0.3 mousedown 1 sleep 0.1 mousemove 250 200 sleep 0.1 mousemove 300 200 sleep 0.2 "
+        "mouseup 1");
+    EXPECT_TRUE(reaches([](const json& s) { return std::abs(s.at("divider").get<double>() - 0.75) < 0.01; }))
+        << state();
+    key("x");  // nearest level
+    key("x");  // the reference, whose samples are others
+    EXPECT_TRUE(reaches([](const json& s) {
+        return s.at("comparison") == 3 && s.at("psnr").is_number() && s.at("psnr") > 20;
+    })) << state();
+}
+
+TEST_F(View, badFileReportsAndTheOldSceneStays) {
+    openTwoQuads();
+    std::ofstream(folder() / "bad.glb") << "no glTF";
+    act("mousemove 500 45 sleep 0.2 click 1 sleep 0.3 type --delay 30 bad.glb");
+    key("Return");
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("fault") != ""; })) << state();
+    EXPECT_NE(state().at("fault").get<std::string>().find("bad.glb"), std::string::npos);
+    EXPECT_EQ(state().at("scene"), "quads.gltf");
+    EXPECT_TRUE(running());
+}
+
+TEST_F(View, openedFileReplacesTheScene) {
+    openTwoQuads();
+    writeTwoQuads(folder() / "other.gltf");
+    act("mousemove 500 45 sleep 0.2 click 1 sleep 0.3 type --delay 30 other.gltf");
+    key("Return");
+    EXPECT_TRUE(showsScene("other.gltf")) << state();
+}
+
+TEST_F(View, exportedStillIsThatOfTheCommand) {
+    openTwoQuads({"--samples", "4", "--fstop", "1.4", "--focus-distance", "4"});
+    key("ctrl+e");
+    ASSERT_TRUE(
+        reaches([&](const json& s) { return fs::exists(folder() / "still.png") && s.at("exporting") == false; }));
+    const std::string command = std::string(DEFOCUS_PROGRAM) + " render '" + (folder() / "quads.gltf").string() +
+                                "' -o '" + (folder() / "render.png").string() +
+                                "' --quiet --size 400x300 --samples 4 --fstop 1.4 --focus-distance 4";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(readImage(folder() / "still.png").pixels, readImage(folder() / "render.png").pixels);
+}
+
+TEST_F(View, keysSwitchWhatTheyName) {
+    openTwoQuads();
+    key("t");
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("dark") == false; }));
+    key("question");
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("help") == true; }));
+    key("Escape");
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("help") == false; }));
+    key("b");
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("poppingTest") == true; }));
+    for (const char* overlay : {"c", "l", "z", "p", "o", "m"}) key(overlay);
+    key("ctrl+q");
+    EXPECT_EQ(ended(), 0);
+    start({"quads.gltf"});  // the look is remembered
+    ASSERT_TRUE(showsScene("quads.gltf"));
+    EXPECT_EQ(state().at("dark"), false);
+}
+
+TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
+    openTwoQuads();
+    for (const char* size : {"1 1", "700 1", "1 300", "640 480"}) {
+        act(std::string("search --onlyvisible --name defocus windowsize ") + size);
+        pause(0.4);
+        EXPECT_TRUE(running()) << size;
+    }
+    act("search --onlyvisible --name defocus windowunmap windowmap");
+    pause(0.5);
+    ASSERT_TRUE(running());
+    key("ctrl+q");
+    EXPECT_EQ(ended(), 0);
+    start({"--fish", "3", "--fish-triangles", "40000"});
+    pause(0.7);  // in the middle of opening
+    act("search --name defocus windowclose");
+    EXPECT_NE(ended(), -1);
+}
+
+TEST_F(View, screenshotShowsPictureAndPanel) {
+    writeTwoQuads(folder() / "quads.gltf");
+    start({"quads.gltf", "--size", "400x300", "--screenshot", "window.png", "--frames", "12"});
+    ASSERT_EQ(ended(), 0) << textOf("stderr");
+    const Image image = readImage(folder() / "window.png");
+    ASSERT_EQ(image.width, 744);
+    ASSERT_EQ(image.height, 300);
+    const float* near = image.at(200, 67);
+    EXPECT_GT(near[0], 2 * near[2]);  // the square is red
+    const float* panel = image.at(738, 150);
+    EXPECT_EQ(panel[0], panel[2]);  // the panel is grey
+    EXPECT_LT(panel[0], 0.1f);
+}
+
+TEST_F(View, unreadableSceneOfAScriptIsAFault) {
+    start({"missing.glb", "--frames", "3"});
+    EXPECT_EQ(ended(), 1);
+    EXPECT_NE(textOf("stderr").find("missing.glb"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace defocus
