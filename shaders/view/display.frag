@@ -72,7 +72,12 @@ float peaking(vec2 uv) {
 
 void main() {
     vec2 uv = gl_FragCoord.xy / size.xy;
-    vec3 colour = withOverlay(shown(uv), uv);
+    vec3 colour = shown(uv);
+    if (uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // read as it is
+        display = vec4(colour, 1.0);
+        return;
+    }
+    colour = withOverlay(colour, uv);
     if ((choices.z & FLAG_FOCUS_PLANE) != 0) {
         float inFocus = 1.0 - smoothstep(0.5, 1.5, abs(cocAt(uv)));
         colour = mix(colour, vec3(0.15, 0.95, 0.60), 0.50 * inFocus);

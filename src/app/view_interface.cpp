@@ -97,7 +97,7 @@ glm::vec3 windowColor(bool dark) {
     return glm::vec3(dark ? 0.09f : 0.78f);
 }
 
-ViewInterface::ViewInterface(Window& window) {
+ViewInterface::ViewInterface(Window& window) : window_(&window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
@@ -139,10 +139,18 @@ void ViewInterface::applyLook(bool dark, double scale) {
     dark_ = dark;
 }
 
-void ViewInterface::beginFrame(bool dark, double scale) {
+void ViewInterface::beginFrame(bool dark, double scale, const std::vector<WindowEvent>& events) {
     if (dark != dark_ || scale != scale_) applyLook(dark, scale);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int code : tappedKeys_) io.KeysDown[code] = window_->keyHeld(code);
+    tappedKeys_.clear();
+    for (const WindowEvent& event : events) {
+        if (event.type != WindowEvent::Type::key || !event.pressed || event.key < 0) continue;
+        io.KeysDown[event.key] = true;
+        tappedKeys_.push_back(event.key);
+    }
     ImGui::NewFrame();
 }
 

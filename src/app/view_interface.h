@@ -24,14 +24,17 @@ public:
     ViewInterface(const ViewInterface&) = delete;
     ViewInterface& operator=(const ViewInterface&) = delete;
 
-    // `scale`: px a unit of the interface.
-    void beginFrame(bool dark, double scale);
+    // `scale`: px a unit of the interface. `events`: what came since the last frame; ImGui would miss keys that were
+    // pressed and released between two frames.
+    void beginFrame(bool dark, double scale, const std::vector<WindowEvent>& events);
     // Draws all widgets to the window's framebuffer.
     void endFrame();
 
 private:
     void applyLook(bool dark, double scale);
 
+    Window* window_;
+    std::vector<int> tappedKeys_;  // that ImGui was told are down, though they were up again
     double scale_ = 0;
     bool dark_ = true;
 };

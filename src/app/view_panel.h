@@ -8,7 +8,7 @@
 
 namespace defocus {
 
-inline constexpr double panelWidth = 344;  // units of the interface
+inline constexpr double panelWidth = 364;  // units of the interface
 
 struct PanelContext {
     const PreparedFrame* frame = nullptr;  // null: no scene yet

@@ -13,6 +13,7 @@ using namespace std::chrono_literals;
 
 constexpr auto settling = 120ms;               // without change, before an image begins to grow
 constexpr std::uint32_t firstShownSample = 4;  // of a growing image: fewer are worse than the frame before
+constexpr double nextShown = 1.08;             // times the samples that were shown last: less can't be seen
 constexpr double softwareGrowth = 60;          // ms a frame that a still image takes at least
 constexpr auto psnrEvery = 700ms;
 
@@ -97,13 +98,17 @@ bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
         beginGrowing(request);
     } else if (growing_ && grows_) {
         grow(std::max(budget.milliseconds, software_ ? softwareGrowth : 0.0));
-        const std::uint32_t least = std::min(samples(), second_ ? second_->samples() : samples());
-        presents = presents || least >= firstShownSample || !grows_;
+        presents = presents || fewestSamples() >= static_cast<std::uint32_t>(nextShown * presentedSamples_) || !grows_;
     }
-    const bool tooFew = growing_ && grows_ && samples() < firstShownSample;
+    const bool tooFew = growing_ && grows_ && fewestSamples() < firstShownSample;
     if (!presents || tooFew) return false;
+    presentedSamples_ = fewestSamples();
     present(request);
     return true;
+}
+
+std::uint32_t ViewPicture::fewestSamples() const {
+    return std::min(first_->samples(), second_ ? second_->samples() : first_->samples());
 }
 
 void ViewPicture::prepareSides(const PictureRequest& request) {
@@ -146,6 +151,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
 void ViewPicture::beginGrowing(const PictureRequest& request) {
     growing_ = true;
     grows_ = true;
+    presentedSamples_ = firstShownSample - 1;
     first_->begin(request.view, settingsOf(request.settings, request.first), request.thresholdsFollow,
                   request.mostSamples);
     if (second_)

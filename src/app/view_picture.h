@@ -62,6 +62,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    [[nodiscard]] std::uint32_t fewestSamples() const;  // of both sides
     void prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
     void beginGrowing(const PictureRequest& request);
@@ -83,6 +84,7 @@ private:
     std::vector<double> lastDisplayKey_;
     Clock::time_point settlesAt_;
     Clock::time_point nextPsnr_;
+    std::uint32_t presentedSamples_ = 0;
     bool growing_ = false;
     bool grows_ = false;
     bool fresh_ = true;  // the next frame uploads: its time says nothing

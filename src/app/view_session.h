@@ -55,6 +55,7 @@ private:
     void writeStats();
     void say(std::string text, bool fault = false);
 
+    [[nodiscard]] static double millisecondsSince(Clock::time_point begin);
     [[nodiscard]] double now() const;
     [[nodiscard]] double scale() const;
     [[nodiscard]] PictureArea area() const;

@@ -70,6 +70,8 @@ struct ViewState {
     std::deque<Message> messages;
 };
 
+inline constexpr double poppingDuration = 8;  // s, from near to far and back
+
 // What the panel asks for, done once it is drawn.
 struct ViewActions {
     std::optional<std::filesystem::path> open;

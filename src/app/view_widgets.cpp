@@ -142,7 +142,7 @@ void rowLabel(const char* label, const char* help) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(label);
     if (help != nullptr) tooltip(help);
-    ImGui::SameLine(ImGui::GetFontSize() * 9.2f);
+    ImGui::SameLine(ImGui::GetFontSize() * 10.2f);
     ImGui::SetNextItemWidth(-1);
 }
 
@@ -249,7 +249,7 @@ void aperturePreview(const Lens& lens, float scale) {
 
 void depthDiagram(const FramePlan& plan, const InterfaceColors& colors, float scale) {
     const ImVec2 origin = ImGui::GetCursorScreenPos();
-    const ImVec2 size = area(112 * scale);
+    const ImVec2 size = area(134 * scale);
     ImGui::Dummy(size);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end(origin.x + size.x, origin.y + size.y);
@@ -257,15 +257,15 @@ void depthDiagram(const FramePlan& plan, const InterfaceColors& colors, float sc
     list.PushClipRect(origin, end, true);
     const Depths depths = depthsOf(plan);
     const auto x = [&](double depth) { return origin.x + depths.share(depth) * size.x; };
-    const float axis = origin.y + 0.42f * size.y;
-    const float reach = 0.36f * size.y;
+    const float axis = origin.y + 46 * scale;
+    const float reach = 40 * scale;
 
     // What is blurred by less than a pixel: |1/z − 1/s| ≤ 1/(|a|·W).
     const double focus = plan.view.lens.focusDistance;
     const double perPixel = plan.coc.a != 0 ? 1 / (std::abs(plan.coc.a) * plan.view.width) : 1e9;
     const double nearLimit = 1 / (1 / focus + perPixel);
     const double farLimit = 1 / focus > perPixel ? 1 / (1 / focus - perPixel) : depths.farthest;
-    list.AddRectFilled({x(nearLimit), origin.y}, {std::max(x(farLimit), x(nearLimit) + 1), end.y},
+    list.AddRectFilled({x(nearLimit), origin.y}, {std::max(x(farLimit), x(nearLimit) + 1), end.y - 20 * scale},
                        faded(colors.accent, 0.28f));
 
     // The circle of confusion over depth, to both sides of the axis; logarithmic, 64 px at the edge.
@@ -285,14 +285,14 @@ void depthDiagram(const FramePlan& plan, const InterfaceColors& colors, float sc
         last[1] = points[1];
     }
     list.AddLine({origin.x, axis}, {end.x, axis}, faded(colors.faint, 0.4f), scale);
-    list.AddLine({x(focus), origin.y}, {x(focus), end.y - 17 * scale}, colors.accent, 1.5f * scale);
+    list.AddLine({x(focus), origin.y}, {x(focus), end.y - 20 * scale}, colors.accent, 1.5f * scale);
 
     // The objects below, each over the depths that it fills.
     const std::size_t shown = std::min<std::size_t>(plan.objects.size(), 24);
     for (std::size_t i = 0; i < shown; ++i) {
         const ObjectPlan& object = plan.objects[i];
-        const float y = axis + reach +
-                        (3 + 18 * static_cast<float>(i) / static_cast<float>(std::max<std::size_t>(shown, 8))) * scale;
+        const float row = 18 * static_cast<float>(i) / static_cast<float>(std::max<std::size_t>(shown, 6));
+        const float y = axis + reach + (6 + row) * scale;
         const bool sharp = object.coc.smallest < 1;
         list.AddLine({x(std::max(object.nearestDepth, 1e-6)), y}, {x(std::max(object.farthestDepth, 1e-6)) + 1, y},
                      sharp ? colors.text : faded(colors.faint, 0.8f), 1.5f * scale);

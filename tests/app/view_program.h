@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -58,12 +59,15 @@ protected:
     }
 
     // Starts the program; `arguments` follow `view`. Files with relative names lie in folder().
-    void start(std::vector<std::string> arguments) {
+    void start(std::vector<std::string> arguments, bool hasDisplay = true) {
         arguments.insert(arguments.begin(), {DEFOCUS_PROGRAM, "view", "--stats", "state.json"});
         program_ = ::fork();
         if (program_ != 0) return;
         if (::chdir(folder_.c_str()) != 0) ::_exit(96);
-        ::setenv("DISPLAY", display_.c_str(), 1);
+        if (hasDisplay)
+            ::setenv("DISPLAY", display_.c_str(), 1);
+        else
+            ::unsetenv("DISPLAY");
         ::setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
         ::setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);
         const int err = ::open("stderr", O_CREAT | O_TRUNC | O_WRONLY, 0600);

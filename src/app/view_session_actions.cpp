@@ -1,0 +1,159 @@
+// What people ask a view for, once: files to open and to write, the clipboard, the state as JSON.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/render_command_text.h"
+#include "app/view_session.h"
+#include "core/error.h"
+#include "core/file.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double statsEvery = 0.2;  // s
+constexpr double exportSlice = 60;  // ms a frame
+
+}  // namespace
+
+void ViewSession::act() {
+    const ViewActions actions = std::exchange(actions_, {});
+    try {
+        if (actions.open) {
+            SceneOptions options = state_.options;
+            options.path = *actions.open;
+            options.camera.clear();
+            options.cameraPosition.reset();
+            options.cameraTarget.reset();
+            options.cameraUp.reset();
+            options.focusNode.clear();
+            options.focusPixel.reset();
+            options.lens.clear();
+            options.time = 0;
+            loader_.open(options);
+        }
+        if (actions.chooseCamera) chooseCamera(*actions.chooseCamera);
+        if (actions.frameSelection || actions.frameAll) frameBounds(actions.frameSelection);
+        if (actions.togglePopping && picture_)
+            state_.poppingSince = state_.poppingSince ? std::nullopt : std::optional(now());
+        if (actions.copyCommand && frame_) {
+            View view = currentView();
+            const glm::ivec2 size = state_.exportSize.value_or(glm::ivec2(view.width, view.height));
+            view.width = size.x;
+            view.height = size.y;
+            const RenderCommandText text{state_.options,
+                                         *frame_,
+                                         view,
+                                         state_.camera.pivotDistance,
+                                         {state_.display.toneMap, state_.display.exposure},
+                                         state_.exportPath};
+            window_.setClipboard(renderCommand(text));
+            say("The command is on the clipboard.");
+        }
+        if (actions.cancelExport && export_) {
+            export_.reset();
+            say("The export was stopped; nothing was written.");
+        }
+        if (actions.exportStill && frame_ && !export_) beginExport();
+        if (actions.quit) window_.close();
+    } catch (const Error& error) {
+        say(error.what(), true);
+    }
+}
+
+void ViewSession::beginExport() {
+    state_.animation.playing = false;
+    StillRequest still;
+    still.options = state_.options;
+    still.view = currentView();
+    const glm::ivec2 size = state_.exportSize.value_or(glm::ivec2(still.view.width, still.view.height));
+    still.view.width = size.x;
+    still.view.height = size.y;
+    still.output = state_.exportPath;
+    still.write = {state_.display.toneMap, state_.display.exposure};
+    still.software = window_.software();
+    still.shaderFolder = shaderFolder_;
+    export_.emplace(*frame_, still);
+}
+
+void ViewSession::exportStep() {
+    if (!export_) return;
+    try {
+        const Clock::time_point begin = Clock::now();
+        bool more = true;
+        while (more && millisecondsSince(begin) < exportSlice) more = export_->step();
+        if (more) return;
+        say("Written: " + export_->request().output.string());
+    } catch (const Error& error) {
+        say(error.what(), true);
+    }
+    export_.reset();
+}
+
+void ViewSession::takeScreenshot(const std::filesystem::path& path) {
+    std::filesystem::path chosen = path;
+    for (int i = 1; chosen.empty() || (path.empty() && std::filesystem::exists(chosen)); ++i)
+        chosen = fmt::format("defocus-view-{:03}.png", i);
+    try {
+        writeImage(chosen, window_.pixels());
+    } catch (const Error& error) {
+        if (!path.empty()) throw;
+        say(error.what(), true);
+        return;
+    }
+    if (path.empty()) say("Written: " + chosen.string());
+}
+
+void ViewSession::say(std::string text, bool fault) {
+    if (fault) fault_ = text;
+    if (fault && !quiet_ && options_.frames == 0) fmt::print(stderr, "defocus: {}\n", text);
+    state_.messages.push_back({std::move(text), fault, now() + (fault ? 9.0 : 3.0)});
+    if (state_.messages.size() > 4) state_.messages.pop_front();
+}
+
+void ViewSession::writeStats() {
+    if (options_.stats.empty() || (statsWrittenAt_ >= 0 && now() - statsWrittenAt_ < statsEvery)) return;
+    statsWrittenAt_ = now();
+    const PictureArea picture = area();
+    const glm::dvec3 position = state_.camera.position();
+    nlohmann::ordered_json json = {
+        {"scene", frame_ ? frame_->sceneName : ""},
+        {"loading", loader_.busy()},
+        {"fault", fault_},
+        {"samples", picture_ ? picture_->samples() : 0},
+        {"moving", picture_ && picture_->moving()},
+        {"changes", picture_ ? picture_->changes() : 0},
+        {"frameMilliseconds", frameMilliseconds_},
+        {"budgetMilliseconds", state_.budget.milliseconds},
+        {"quality", state_.budget.rung},
+        {"picture", {picture.origin.x, picture.origin.y, picture.size.x, picture.size.y}},
+        {"cameraPosition", {position.x, position.y, position.z}},
+        {"focusDistance",
+         std::isfinite(state_.lens.focusDistance) ? nlohmann::ordered_json(state_.lens.focusDistance) : nullptr},
+        {"fStop", state_.lens.fStop},
+        {"focalLength", state_.lens.focalLength},
+        {"selected", frame_ && state_.selected >= 0
+                         ? frame_->world.pose.objects[static_cast<std::size_t>(state_.selected)].name
+                         : ""},
+        {"time", state_.animation.time},
+        {"playing", state_.animation.playing},
+        {"comparison", static_cast<int>(state_.comparison)},
+        {"divider", state_.display.divider},
+        {"psnr", picture_ && picture_->psnr() && std::isfinite(*picture_->psnr())
+                     ? nlohmann::ordered_json(*picture_->psnr())
+                     : nullptr},
+        {"dark", state_.dark},
+        {"help", state_.help},
+        {"poppingTest", state_.poppingSince.has_value()},
+        {"exporting", export_.has_value()},
+        {"device", window_.device()},
+    };
+    writeFile(options_.stats, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace defocus

@@ -1,0 +1,124 @@
+// The scene of a view: taken over from the loader, posed at its time, seen by a camera.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "app/view_session.h"
+
+namespace defocus {
+
+void ViewSession::takeScene() {
+    std::optional<LoadedScene> loaded = loader_.take();
+    if (!loaded) return;
+    if (loaded->frame) {
+        adoptScene(std::move(*loaded));
+        return;
+    }
+    say(loaded->fault, true);
+}
+
+void ViewSession::adoptScene(LoadedScene scene) {
+    export_.reset();
+    picture_.reset();
+    frame_ = std::move(scene.frame);
+    state_.options = scene.options;
+    state_.animation = {.clip = 0, .time = scene.options.time, .speed = state_.animation.speed, .playing = false};
+    posedTime_ = state_.animation.time;
+    posedClip_ = 0;
+    state_.selected = -1;
+    state_.poppingSince.reset();
+    state_.lens = frame_->view.lens;
+    state_.pull.reset();
+    state_.camera.worldFromCamera = frame_->view.worldFromCamera;
+    const Bounds& bounds = frame_->world.pose.bounds;
+    const double depth =
+        bounds.empty() ? 0 : -(glm::inverse(frame_->view.worldFromCamera) * glm::dvec4(bounds.centre(), 1)).z;
+    state_.camera.pivotDistance = depth > 0 ? depth : std::min(state_.lens.focusDistance, 1e6);
+    state_.followsCamera = !scene.options.cameraPosition && !scene.options.cameraTarget;
+    state_.nearPlane = wanderingNearPlane(frame_->view.nearPlane, bounds);
+    for (const std::string& line : frame_->refusedLensValues)
+        say(fmt::format("camera '{}': {}; not used", frame_->cameraName, line), true);
+    if (!frame_->cacheFailure.empty()) say("simplified meshes are not kept: " + frame_->cacheFailure, true);
+    makePicture();
+    window_.setTitle(frame_->sceneName + " – defocus");
+}
+
+void ViewSession::moveThings(double seconds) {
+    if (!frame_) return;
+    const InputContext context = inputContext();
+    input_.fly(window_, context, seconds, state_);
+    if (state_.pull) {
+        state_.lens.focusDistance = state_.pull->distanceAt(now());
+        if (state_.pull->over(now())) state_.pull.reset();
+    }
+    if (state_.poppingSince && now() - *state_.poppingSince > poppingDuration) actions_.togglePopping = true;
+
+    AnimationState& animation = state_.animation;
+    const std::vector<AnimationClip>& clips = frame_->scene->clips;
+    if (clips.empty()) {
+        animation.playing = false;
+        return;
+    }
+    animation.clip = std::clamp(animation.clip, 0, static_cast<int>(clips.size()) - 1);
+    const double duration =
+        std::max(1e-3, static_cast<double>(clips[static_cast<std::size_t>(animation.clip)].duration));
+    if (animation.playing) animation.time += animation.speed * std::min(seconds, 0.25);
+    if (animation.playing || animation.time < 0) animation.time -= std::floor(animation.time / duration) * duration;
+    if (animation.time != posedTime_ || animation.clip != posedClip_) poseScene();
+}
+
+void ViewSession::poseScene() {
+    if (export_) return;  // the still that is being rendered stands
+    const AnimationState& animation = state_.animation;
+    World& world = frame_->world;
+    world.pose = poseAt(*frame_->scene, animation.time, animation.clip);
+    if (!world.pose.lights.empty()) world.lights = world.pose.lights;
+    if (state_.followsCamera) {
+        const glm::ivec2 size = pictureSize();
+        const PlacedCamera placed = defocus::chooseCamera(*frame_->scene, world.pose, state_.options.camera,
+                                                          static_cast<double>(size.x) / size.y);
+        if (placed.camera.name != "auto") state_.camera.worldFromCamera = placed.worldFromCamera;
+    }
+    posedTime_ = animation.time;
+    posedClip_ = animation.clip;
+    state_.options.time = animation.time;
+    ++poseVersion_;
+}
+
+void ViewSession::chooseCamera(const std::string& name) {
+    if (!frame_) return;
+    SceneOptions options = state_.options;
+    options.camera = name;
+    options.cameraPosition.reset();
+    options.cameraTarget.reset();
+    options.cameraUp.reset();
+    const glm::ivec2 size = pictureSize();
+    options.width = size.x;
+    options.height = size.y;
+    placeCamera(*frame_, options);
+    state_.options = options;
+    state_.lens = frame_->view.lens;
+    state_.pull.reset();
+    state_.camera = {frame_->view.worldFromCamera, std::clamp(frame_->view.lens.focusDistance, 1e-3, 1e6)};
+    state_.nearPlane = wanderingNearPlane(frame_->view.nearPlane, frame_->world.pose.bounds);
+    state_.followsCamera = true;
+}
+
+void ViewSession::frameBounds(bool selection) {
+    if (!frame_) return;
+    const World& world = frame_->world;
+    Bounds bounds = world.pose.bounds;
+    if (selection && state_.selected >= 0) {
+        const Object& object = world.pose.objects[static_cast<std::size_t>(state_.selected)];
+        bounds = transformed(world.pyramids[static_cast<std::size_t>(object.mesh)].bounds, object.worldFromObject);
+    }
+    const glm::dvec2 tangents = tanHalfFov(state_, area());
+    state_.camera = framed(state_.camera, bounds, tangents.x, tangents.y);
+    state_.followsCamera = false;
+    pullFocus(state_, state_.camera.pivotDistance, now());
+}
+
+}  // namespace defocus
