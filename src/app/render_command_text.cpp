@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "lens/lens_fields.h"
+#include "lens/sequences.h"
 
 namespace defocus {
 
@@ -61,12 +62,18 @@ void addLens(std::string& command, const RenderCommandText& text) {
             command += fmt::format(" {}={}", field.option, std::min(value, field.most));
         }
     }
+    const SceneOptions& options = text.options;
+    if (!options.apertureImage.empty()) add(command, "--aperture-image", options.apertureImage.string());
+    for (const auto& [name, scale] : options.nodeBlur) add(command, "--node-blur", fmt::format("{}={}", name, scale));
+    if (options.cocTolerance != SceneOptions{}.cocTolerance)
+        add(command, "--coc-tolerance", fmt::format("{}", options.cocTolerance));
 }
 
 void addSettings(std::string& command, const RenderCommandText& text) {
     const SceneOptions& options = text.options;
     const SceneOptions standard;
     add(command, "--samples", fmt::format("{}", options.samples));
+    if (options.sequence != standard.sequence) add(command, "--sequence", std::string(sequenceName(options.sequence)));
     if (options.seed != 0) add(command, "--seed", fmt::format("{}", options.seed));
     if (options.lod != standard.lod) add(command, "--lod", lodModeName(options.lod));
     if (options.metric != standard.metric) add(command, "--lod-metric", "error");

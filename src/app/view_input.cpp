@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "app/photographic_stops.h"
-#include "lens/lens.h"
+#include "lens/circle_of_confusion.h"
 #include "scene/pick.h"
 
 namespace defocus {
@@ -39,6 +39,7 @@ constexpr KeyHelp keys[] = {
     {"B", "popping test"},
     {"Ctrl C", "copy as a command"},
     {"Ctrl E", "export a still"},
+    {"K", "key frame of a shot from this view"},
     {"F12", "screenshot of the window"},
     {"H, T", "hide the panel, light or dark"},
     {"Ctrl + −", "interface larger, smaller"},
@@ -120,6 +121,9 @@ void handlePlainKey(int code, const InputContext& context, ViewState& state, Vie
         case key::f1:
             state.help = !state.help;
             break;
+        case 'K':
+            actions.recordKey = true;
+            break;
         case key::f12:
             actions.screenshot = true;
             break;
@@ -162,6 +166,16 @@ void handleControlKey(int code, ViewState& state, ViewActions& actions) {
         default:
             break;
     }
+}
+
+// The focus distance over the depth that is in focus at a point of the picture: 1 but for a focus surface that is
+// tilted or curved (q of lens/circle_of_confusion.h).
+double focusTerm(const ViewState& state, const PictureArea& area, const glm::dvec2& position) {
+    const glm::ivec2 size(glm::max(area.size, glm::dvec2(1)));
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(state.lens, size.x, size.y);
+    const glm::dvec2 ndc = area.normalized(position);
+    const double radius2 = ndc.x * ndc.x + ndc.y * ndc.y / (coc.aspect * coc.aspect);
+    return std::max(1e-3, 1 + coc.curvature * radius2 + glm::dot(coc.tilt, ndc));
 }
 
 double farFocus(const ViewState& state) {
@@ -267,7 +281,7 @@ void ViewInput::release(const WindowEvent& event, const InputContext& context, V
     const auto surface = pickedSurface(*context.frame, state, context.area, event.position);
     if (!surface) return;
     state.selected = surface->object;
-    pullFocus(state, surface->depth, context.now);
+    pullFocus(state, surface->depth * focusTerm(state, context.area, event.position), context.now);
     state.camera.pivotDistance = surface->depth;
     if (lastClick_ >= 0 && context.now - lastClick_ < doubleClick) actions.frameSelection = true;
     lastClick_ = context.now;

@@ -274,6 +274,16 @@ void exportSection(const PanelContext& context, ViewState& state, ViewActions& a
     } else if (ImGui::Button("Export still")) {
         actions.exportStill = true;
     }
+    rowLabel("Shot", "Key frames, two seconds apart, for 'defocus capture'");
+    ImGui::InputText("##shot", &state.shotPath);
+    if (ImGui::Button("Record key")) actions.recordKey = true;
+    tooltip("Camera, lens and focus as they are now (K)");
+    if (!state.shotKeys.empty()) {
+        ImGui::SameLine();
+        if (ImGui::Button(fmt::format("Save {} keys###save", state.shotKeys.size()).c_str())) actions.saveShot = true;
+        ImGui::SameLine();
+        if (ImGui::Button("Forget")) state.shotKeys.clear();
+    }
     if (ImGui::Button("Copy as command")) actions.copyCommand = true;
     tooltip("Puts the 'defocus render' command that makes this picture on the clipboard (Ctrl C)");
 }

@@ -26,6 +26,8 @@ std::vector<double> imageKey(const PictureRequest& request) {
                                view.nearPlane,
                                static_cast<double>(request.poseVersion),
                                static_cast<double>(settings.seed),
+                               static_cast<double>(settings.sequence),
+                               settings.cocTolerance,
                                static_cast<double>(settings.metric),
                                static_cast<double>(settings.lodCocAtCentre),
                                static_cast<double>(settings.keepAll),

@@ -47,6 +47,7 @@ private:
     void updatePicture();
     void drawInterface();
     void act();
+    void share(const ViewActions& actions);
     void exportStep();
     void chooseCamera(const std::string& name);
     void beginExport();
@@ -61,6 +62,8 @@ private:
     [[nodiscard]] PictureArea area() const;
     [[nodiscard]] glm::ivec2 pictureSize() const;
     [[nodiscard]] View currentView() const;
+    [[nodiscard]] View exportView() const;  // of the size that was asked for
+    [[nodiscard]] WriteOptions writeOptions() const;
     [[nodiscard]] InputContext inputContext() const;
     [[nodiscard]] PictureRequest request() const;
     [[nodiscard]] std::string sideLabel(const PictureSide& side) const;

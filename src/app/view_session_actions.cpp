@@ -19,63 +19,85 @@ namespace {
 constexpr double statsEvery = 0.2;  // s
 constexpr double exportSlice = 60;  // ms a frame
 
+// What another scene keeps of the options: samples, levels, method, surroundings.
+SceneOptions withoutScene(SceneOptions options) {
+    const SceneOptions standard;
+    options.time = standard.time;
+    options.camera = standard.camera;
+    options.cameraPosition = options.cameraTarget = options.cameraUp = std::nullopt;
+    options.lens = standard.lens;
+    options.apertureImage = standard.apertureImage;
+    options.focusNode = standard.focusNode;
+    options.focusPixel = standard.focusPixel;
+    options.focusPoints = standard.focusPoints;
+    options.focusAuto = standard.focusAuto;
+    options.nodeBlur = standard.nodeBlur;
+    return options;
+}
+
 }  // namespace
 
 void ViewSession::act() {
     const ViewActions actions = std::exchange(actions_, {});
     try {
         if (actions.open) {
-            SceneOptions options = state_.options;
+            SceneOptions options = withoutScene(state_.options);
             options.path = *actions.open;
-            options.camera.clear();
-            options.cameraPosition.reset();
-            options.cameraTarget.reset();
-            options.cameraUp.reset();
-            options.focusNode.clear();
-            options.focusPixel.reset();
-            options.lens.clear();
-            options.time = 0;
             loader_.open(options);
         }
         if (actions.chooseCamera) chooseCamera(*actions.chooseCamera);
         if (actions.frameSelection || actions.frameAll) frameBounds(actions.frameSelection);
         if (actions.togglePopping && picture_)
             state_.poppingSince = state_.poppingSince ? std::nullopt : std::optional(now());
-        if (actions.copyCommand && frame_) {
-            View view = currentView();
-            const glm::ivec2 size = state_.exportSize.value_or(glm::ivec2(view.width, view.height));
-            view.width = size.x;
-            view.height = size.y;
-            const RenderCommandText text{state_.options,
-                                         *frame_,
-                                         view,
-                                         state_.camera.pivotDistance,
-                                         {state_.display.toneMap, state_.display.exposure},
-                                         state_.exportPath};
-            window_.setClipboard(renderCommand(text));
-            say("The command is on the clipboard.");
-        }
-        if (actions.cancelExport && export_) {
-            export_.reset();
-            say("The export was stopped; nothing was written.");
-        }
-        if (actions.exportStill && frame_ && !export_) beginExport();
+        if (frame_) share(actions);
         if (actions.quit) window_.close();
     } catch (const Error& error) {
         say(error.what(), true);
     }
 }
 
+// What leaves the window.
+void ViewSession::share(const ViewActions& actions) {
+    if (actions.copyCommand) {
+        const View view = exportView();
+        window_.setClipboard(renderCommand(
+            {state_.options, *frame_, view, state_.camera.pivotDistance, writeOptions(), state_.exportPath}));
+        say("The command is on the clipboard.");
+    }
+    if (actions.recordKey) {
+        state_.shotKeys.push_back({exportView(), state_.camera.pivotDistance});
+        say(fmt::format("Key {} is recorded; save the shot in the panel's Export.", state_.shotKeys.size()));
+    }
+    if (actions.saveShot && !state_.shotKeys.empty()) {
+        writeFile(state_.shotPath, shotJson(state_.options, state_.shotKeys, writeOptions()));
+        say(fmt::format("Written: {}; film it with: defocus capture {}", state_.shotPath, shellWord(state_.shotPath)));
+    }
+    if (actions.cancelExport && export_) {
+        export_.reset();
+        say("The export was stopped; nothing was written.");
+    }
+    if (actions.exportStill && !export_) beginExport();
+}
+
+View ViewSession::exportView() const {
+    View view = currentView();
+    const glm::ivec2 size = state_.exportSize.value_or(glm::ivec2(view.width, view.height));
+    view.width = size.x;
+    view.height = size.y;
+    return view;
+}
+
+WriteOptions ViewSession::writeOptions() const {
+    return {state_.display.toneMap, state_.display.exposure};
+}
+
 void ViewSession::beginExport() {
     state_.animation.playing = false;
     StillRequest still;
     still.options = state_.options;
-    still.view = currentView();
-    const glm::ivec2 size = state_.exportSize.value_or(glm::ivec2(still.view.width, still.view.height));
-    still.view.width = size.x;
-    still.view.height = size.y;
+    still.view = exportView();
     still.output = state_.exportPath;
-    still.write = {state_.display.toneMap, state_.display.exposure};
+    still.write = writeOptions();
     still.software = window_.software();
     still.shaderFolder = shaderFolder_;
     export_.emplace(*frame_, still);
@@ -150,6 +172,7 @@ void ViewSession::writeStats() {
         {"dark", state_.dark},
         {"help", state_.help},
         {"poppingTest", state_.poppingSince.has_value()},
+        {"shotKeys", state_.shotKeys.size()},
         {"exporting", export_.has_value()},
         {"device", window_.device()},
     };

@@ -29,6 +29,7 @@ void ViewSession::adoptScene(LoadedScene scene) {
     posedTime_ = state_.animation.time;
     posedClip_ = 0;
     state_.selected = -1;
+    state_.shotKeys.clear();
     state_.poppingSince.reset();
     state_.lens = frame_->view.lens;
     state_.pull.reset();
@@ -95,6 +96,9 @@ void ViewSession::chooseCamera(const std::string& name) {
     options.cameraPosition.reset();
     options.cameraTarget.reset();
     options.cameraUp.reset();
+    options.focusPixel.reset();
+    options.focusPoints.reset();
+    options.focusAuto = false;
     const glm::ivec2 size = pictureSize();
     options.width = size.x;
     options.height = size.y;

@@ -11,6 +11,7 @@
 #include "app/focus_pull.h"
 #include "app/frame_budget.h"
 #include "app/scene_options.h"
+#include "app/view_shot.h"
 #include "render/display_pass.h"
 
 namespace defocus {
@@ -67,6 +68,8 @@ struct ViewState {
     std::string openPath;       // as typed
     std::string exportPath = "still.png";
     std::optional<glm::ivec2> exportSize;  // px; none: as the view is
+    std::string shotPath = "shot.json";
+    std::vector<ShotKey> shotKeys;
     std::deque<Message> messages;
 };
 
@@ -80,6 +83,8 @@ struct ViewActions {
     bool exportStill = false;
     bool cancelExport = false;
     bool screenshot = false;
+    bool recordKey = false;
+    bool saveShot = false;
     bool frameSelection = false;
     bool frameAll = false;
     bool togglePopping = false;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/photographic_stops.h"
 #include "core/error.h"
@@ -57,6 +58,23 @@ Depths depthsOf(const FramePlan& plan) {
         depths.farthest = std::max(depths.farthest, std::min(object.farthestDepth, 50 * focus));
     }
     return {depths.nearest / 1.4, depths.farthest * 1.4};
+}
+
+// The depth (m) at the image's centre where the blur reaches a pixel, on the way from the focus to `lastDioptre` (1/m);
+// that of `lastDioptre` where it never does.
+double limitOfFocus(const FramePlan& plan, double lastDioptre) {
+    const auto sharp = [&](double dioptre) {
+        const double depth = dioptre > 0 ? 1 / dioptre : std::numeric_limits<double>::infinity();
+        return std::abs(circleOfConfusion(plan.coc, depth, plan.view.width)) < 1;
+    };
+    if (sharp(lastDioptre)) return 1 / lastDioptre;
+    double inside = 1 / plan.view.lens.focusDistance;
+    double outside = lastDioptre;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (inside + outside);
+        (sharp(middle) ? inside : outside) = middle;
+    }
+    return 1 / inside;
 }
 
 const char* unitText(const LensField& field) {
@@ -238,12 +256,9 @@ void aperturePreview(const Lens& lens, float scale) {
     const ImVec2 centre(origin.x + 0.5f * size.x, origin.y + 0.5f * size.y);
     const float radius = 0.44f * side;
     list.AddCircle(centre, radius, IM_COL32(70, 70, 70, 255), 64, scale);
-    constexpr std::uint32_t count = 420;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const LensSample sample = lensSample(lens, i, 0);
+    for (const LensSample& sample : lensSamples(lens, RenderSettings{}.sequence, 0, 420, 0))
         list.AddCircleFilled({centre.x + radius * sample.lens.x, centre.y - radius * sample.lens.y}, 1.6f * scale,
                              IM_COL32(255, 236, 200, 190), 6);
-    }
     tooltip("The shape of the aperture, and of a blurred point of light: the first 420 lens samples.");
 }
 
@@ -260,11 +275,9 @@ void depthDiagram(const FramePlan& plan, const InterfaceColors& colors, float sc
     const float axis = origin.y + 46 * scale;
     const float reach = 40 * scale;
 
-    // What is blurred by less than a pixel: |1/z − 1/s| ≤ 1/(|a|·W).
     const double focus = plan.view.lens.focusDistance;
-    const double perPixel = plan.coc.a != 0 ? 1 / (std::abs(plan.coc.a) * plan.view.width) : 1e9;
-    const double nearLimit = 1 / (1 / focus + perPixel);
-    const double farLimit = 1 / focus > perPixel ? 1 / (1 / focus - perPixel) : depths.farthest;
+    const double nearLimit = limitOfFocus(plan, 1 / (0.01 * depths.nearest));
+    const double farLimit = limitOfFocus(plan, 0);
     list.AddRectFilled({x(nearLimit), origin.y}, {std::max(x(farLimit), x(nearLimit) + 1), end.y - 20 * scale},
                        faded(colors.accent, 0.28f));
 

@@ -16,8 +16,10 @@ namespace defocus {
 AovPass::AovPass(const World& world, std::filesystem::path shaderFolder)
     : shaderFolder_(std::move(shaderFolder)),
       scene_(world),
-      surfaces_(scene_,
-                {.fragmentShader = "aov/aov.frag", .defines = {{"READS_COC_SCALE", "1"}}, .shaded = false, .shaderFolder = shaderFolder_}),
+      surfaces_(scene_, {.fragmentShader = "aov/aov.frag",
+                         .defines = {{"READS_COC_SCALE", "1"}},
+                         .shaded = false,
+                         .shaderFolder = shaderFolder_}),
       edges_(scene_,
              {.fragmentShader = "aov/wireframe.frag", .defines = {}, .shaded = false, .shaderFolder = shaderFolder_}) {}
 

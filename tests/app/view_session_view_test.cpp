@@ -121,6 +121,13 @@ TEST_F(View, exportedStillIsThatOfTheCommand) {
     EXPECT_EQ(readImage(folder() / "still.png").pixels, readImage(folder() / "render.png").pixels);
 }
 
+TEST_F(View, recordedKeyIsCounted) {
+    openTwoQuads();
+    key("k");
+    pause(0.5);
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("shotKeys") == 1; })) << state();
+}
+
 TEST_F(View, keysSwitchWhatTheyName) {
     openTwoQuads();
     key("t");
