@@ -35,10 +35,10 @@ protected:
             ::_exit(97);
         }
         ::close(ends[1]);
-        char number[16] = {};
-        const ssize_t count = ::read(ends[0], number, sizeof number - 1);
+        std::string number;  // of the display, and the end of the line, perhaps one after the other
+        for (char letter = 0; ::read(ends[0], &letter, 1) == 1 && letter != '\n';) number += letter;
         ::close(ends[0]);
-        if (count > 1) display_ = ":" + std::string(number, static_cast<std::size_t>(count) - 1);
+        if (!number.empty()) display_ = ":" + number;
     }
     static void TearDownTestSuite() {
         if (server_ > 0) stop(server_);
