@@ -197,7 +197,8 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     frame.world.pose = exposedPose(options, *frame.scene);
 
     // Camera, light, surroundings and settings.
-    frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, place(frame, options));
+    const PlacedCamera placed = place(frame, options);
+    frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
     frame.world.environment = chosenEnvironment(options, *frame.scene);
     frame.settings = chosenSettings(options);
     exposeMotion(options, placed, frame.settings, frame.world, frame.view);

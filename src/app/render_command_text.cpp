@@ -27,6 +27,8 @@ void addScene(std::string& command, const SceneOptions& options) {
     if (options.fishCount != standard.fishCount) add(command, "--fish", fmt::format("{}", options.fishCount));
     if (options.trianglesPerFish != standard.trianglesPerFish)
         add(command, "--fish-triangles", fmt::format("{}", options.trianglesPerFish));
+    if (!options.clip.empty()) add(command, "--clip", options.clip);
+    if (options.loop) command += " --loop";
     if (options.time != 0) command += fmt::format(" --time={}", options.time);
     if (!options.environment.empty()) add(command, "--environment", options.environment.string());
     if (options.background == Background::none) add(command, "--background", "none");

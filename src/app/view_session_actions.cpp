@@ -23,6 +23,7 @@ constexpr double exportSlice = 60;  // ms a frame
 SceneOptions withoutScene(SceneOptions options) {
     const SceneOptions standard;
     options.time = standard.time;
+    options.clip = standard.clip;
     options.camera = standard.camera;
     options.cameraPosition = options.cameraTarget = options.cameraUp = std::nullopt;
     options.lens = standard.lens;

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "app/view_session.h"
+#include "scene/animation.h"
 
 namespace defocus {
 
@@ -25,9 +26,10 @@ void ViewSession::adoptScene(LoadedScene scene) {
     picture_.reset();
     frame_ = std::move(scene.frame);
     state_.options = scene.options;
-    state_.animation = {.clip = 0, .time = scene.options.time, .speed = state_.animation.speed, .playing = false};
+    const int clip = scene.options.clip.empty() ? 0 : clipNamed(*frame_->scene, scene.options.clip);
+    state_.animation = {.clip = clip, .time = scene.options.time, .speed = state_.animation.speed, .playing = false};
     posedTime_ = state_.animation.time;
-    posedClip_ = 0;
+    posedClip_ = clip;
     state_.selected = -1;
     state_.shotKeys.clear();
     state_.poppingSince.reset();
@@ -76,6 +78,8 @@ void ViewSession::poseScene() {
     const AnimationState& animation = state_.animation;
     World& world = frame_->world;
     world.pose = poseAt(*frame_->scene, animation.time, animation.clip);
+    world.shutter = {};  // of another moment
+    state_.options.clip = animation.clip == 0 ? "" : std::to_string(animation.clip);
     if (!world.pose.lights.empty()) world.lights = world.pose.lights;
     if (state_.followsCamera) {
         const glm::ivec2 size = pictureSize();
