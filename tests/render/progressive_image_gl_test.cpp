@@ -26,7 +26,17 @@ protected:
         small_->view.height = 48;
     }
 
-    static RendererOptions options() { return {.layerFormat = LayerFormat::rgba32f}; }
+    static RendererOptions options() {
+        RendererOptions options;
+        options.layerFormat = LayerFormat::rgba32f;
+        return options;
+    }
+
+    static RenderSettings settingsOf(std::uint32_t samples) {
+        RenderSettings settings;
+        settings.sampleCount = samples;
+        return settings;
+    }
 
     Image renderedAtOnce(std::uint32_t samples, LodMode lod) const {
         RenderSettings settings;
@@ -110,7 +120,7 @@ TEST_F(Growing, movingFramesAndStillOnesTakeTurns) {
     View smaller = small_->view;
     smaller.width = 32;
     smaller.height = 24;
-    const RenderSettings settings{.sampleCount = 4};
+    const RenderSettings settings = settingsOf(4);
     image.drawFrame(smaller, settings);
     EXPECT_EQ(image.samples(), 4u);
     EXPECT_EQ(image.texture()->info().width, 32);
@@ -134,7 +144,7 @@ TEST_F(Growing, continuingIsRefusedWithinABlock) {
 // What a window shows is what an 8-bit file holds.
 TEST_F(Growing, displayIsTheToneMapOfTheImage) {
     ProgressiveImage image = progressive();
-    image.drawFrame(small_->view, {.sampleCount = 8});
+    image.drawFrame(small_->view, settingsOf(8));
     const Image linear = readBack(*image.texture(), 4);
     DisplayPass display;
     for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx}) {
@@ -159,8 +169,8 @@ TEST_F(Growing, dividerPartsTheImages) {
     ProgressiveImage blurred = progressive();
     View pinhole = small_->view;
     pinhole.lens.dofEnabled = false;
-    sharp.drawFrame(pinhole, {.sampleCount = 16});
-    blurred.drawFrame(small_->view, {.sampleCount = 16});
+    sharp.drawFrame(pinhole, settingsOf(16));
+    blurred.drawFrame(small_->view, settingsOf(16));
     DisplayPass display;
     DisplaySettings settings;
     const auto shownAt = [&](double divider) {
@@ -181,8 +191,8 @@ TEST_F(Growing, dividerPartsTheImages) {
 TEST_F(Growing, psnrIsThatOfCompare) {
     ProgressiveImage few = progressive();
     ProgressiveImage many = progressive();
-    few.drawFrame(small_->view, {.sampleCount = 4});
-    many.drawFrame(small_->view, {.sampleCount = 32});
+    few.drawFrame(small_->view, settingsOf(4));
+    many.drawFrame(small_->view, settingsOf(32));
     DisplayPass display;
     const double expected = compareImages(readBack(*many.texture(), 3), readBack(*few.texture(), 3)).psnr;
     EXPECT_NEAR(display.psnr(*many.texture(), *few.texture()), expected, 0.02);
