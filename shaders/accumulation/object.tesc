@@ -1,5 +1,5 @@
 // How finely a triangle must be divided so that C is linear in each part to the tolerance: decided for each edge from that edge
-// alone, so that neighbours agree.
+// alone, so that neighbours agree. OpenGL divides an edge into 64 parts at most: a triangle that needs more shows the rest.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"

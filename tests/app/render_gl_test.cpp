@@ -81,7 +81,8 @@ TEST_F(Render, apertureImageOfTheCameraLiesBesideTheScene) {
     scene["cameras"][0]["extras"] = {{"apertureImage", "missing.exr"}};
     std::ofstream(folder() / "missing.gltf") << scene.dump();
     const auto rendered = [&](const char* name, std::vector<std::string> more) {
-        more.insert(more.begin(), {"render", name, "-o", "out.exr", "--size", "64x48", "--samples", "8"});
+        more.insert(more.begin(),
+                    {"render", name, "-o", "out.exr", "--size", "64x48", "--samples", "8", "--fstop", "0.2"});
         const Outcome outcome = run(more);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_EQ(outcome.err.find("missing.exr") != std::string::npos, std::string(name) == "missing.gltf");
