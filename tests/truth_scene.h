@@ -79,6 +79,7 @@ inline RenderSettings fullDetailSettings(std::uint32_t samples, std::uint32_t se
     settings.sampleCount = samples;
     settings.seed = seed;
     settings.lod = LodMode::off;
+    settings.sequence = Sequence::halton;  // the limits of what uses these settings were found with its points
     return settings;
 }
 
