@@ -140,6 +140,11 @@ FramePart renderPart(Renderer& renderer, const FramePlan& plan, const SampleRang
     part.width = plan.view.width;
     part.height = plan.view.height;
     if (part.range.first == part.range.end) return part;  // a frame that needs fewer samples than were asked for
+    // Both weigh a frame's samples against each other, which a part cannot do by itself.
+    const Lens& lens = plan.view.lens;
+    if (plan.usesLens && (lens.catEye > 0 || lens.axialChromaticAberration != 0))
+        fail(
+            "--sample-range: a frame with a cat's eye or axial chromatic aberration cannot be parted; render it whole");
     renderer.start(samplesOf(plan, part.range.first, part.range.end - part.range.first));
     for (bool more = true; more;) {
         more = renderer.advance();
