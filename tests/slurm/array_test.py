@@ -121,7 +121,9 @@ MinJobAge=600
 
 
 def frame_bytes(folder):
-    return {path.name: path.read_bytes() for path in sorted(folder.glob("*.exr"))}
+    """The frames under their final names. Not those in the making: such a name begins with a dot, which glob() takes for
+    any other character, and is gone as soon as the frame is done."""
+    return {path.name: path.read_bytes() for path in sorted(folder.glob("[!.]*.exr"))}
 
 
 def task_process(cluster, job, task):
