@@ -40,7 +40,7 @@ def wait_until(what, condition, seconds=120):
     while time.monotonic() < end:
         if condition():
             return
-        time.sleep(0.2)
+        time.sleep(0.05)
     raise AssertionError(f"after {seconds} s: {what}")
 
 
