@@ -101,7 +101,7 @@ Pattern patternOf(const char* name, std::vector<glm::dvec2> (*points)(std::uint3
 
 std::vector<Pattern> patterns() {
     std::vector<Pattern> list;
-    for (const Sequence sequence : {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2})
+    for (const Sequence sequence : allSequences)
         list.push_back({std::string(sequenceName(sequence)), false, [=](std::uint32_t count, std::uint32_t seed) {
                             return lensSamples(Lens{}, sequence, 0, count, seed);
                         }});

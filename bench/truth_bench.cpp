@@ -106,10 +106,8 @@ int main(int argc, char** argv) {
     CLI::App app("The accumulation method against an independent thin-lens ray tracer");
     app.add_option("--samples", options.samples, "samples a pixel, of both")->check(CLI::Range(1, 65536));
     using defocus::Sequence;
-    const std::map<std::string, Sequence> sequences = {{"halton", Sequence::halton},
-                                                       {"scrambled-halton", Sequence::scrambledHalton},
-                                                       {"sobol", Sequence::sobol},
-                                                       {"r2", Sequence::r2}};
+    std::map<std::string, Sequence> sequences;
+    for (const Sequence sequence : defocus::allSequences) sequences.emplace(sequenceName(sequence), sequence);
     app.add_option("--sequence", options.sequence, "the rasteriser's lens samples: sobol, halton, scrambled-halton, r2")
         ->transform(CLI::CheckedTransformer(sequences));
     app.add_option("--size", options.size, "WxH in px");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/number_text.h"
 #include "app/option_text.h"
 #include "lens/lens_fields.h"
 #include "scene/fish_school.h"
@@ -32,13 +33,6 @@ constexpr std::size_t meshesListed = 12;  // for people; --json lists all
 constexpr double degrees = 57.295779513082321;
 
 // "1234567" → "1,234,567".
-std::string grouped(std::uint64_t number) {
-    std::string digits = std::to_string(number);
-    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
-        digits.insert(static_cast<std::size_t>(i), 1, ',');
-    return digits;
-}
-
 std::string nameOr(const std::string& name, const char* kind, std::size_t index) {
     return name.empty() ? fmt::format("({} {})", kind, index) : name;
 }

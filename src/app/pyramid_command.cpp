@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/number_text.h"
 #include "app/option_text.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -60,13 +61,6 @@ struct MeshReport {
 };
 
 // "1234567" → "1,234,567".
-std::string grouped(std::uint64_t number) {
-    std::string digits = std::to_string(number);
-    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
-        digits.insert(static_cast<std::size_t>(i), 1, ',');
-    return digits;
-}
-
 // As `defocus info` calls it.
 std::string shownName(const Scene& scene, std::size_t mesh) {
     return scene.meshes[mesh].name.empty() ? fmt::format("(mesh {})", mesh) : scene.meshes[mesh].name;

@@ -221,11 +221,9 @@ void addLens(CLI::App& command, SceneOptions& options) {
 void addLevels(CLI::App& command, SceneOptions& options) {
     const char* group = "Samples and level of detail";
     addWhole(command, "--samples", options.samples, 1, mostSamples, "Lens samples")->group(group);
-    addChoice<Sequence>(command, "--sequence", options.sequence,
-                        {{"sobol", Sequence::sobol},
-                         {"halton", Sequence::halton},
-                         {"scrambled-halton", Sequence::scrambledHalton},
-                         {"r2", Sequence::r2}},
+    std::vector<std::pair<std::string, Sequence>> sequences;
+    for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence), sequence);
+    addChoice<Sequence>(command, "--sequence", options.sequence, sequences,
                         "Where the samples lie on the lens and in the pixel; the paper has halton")
         ->group(group);
     addWhole(command, "--seed", options.seed, 0, std::numeric_limits<std::uint32_t>::max(),

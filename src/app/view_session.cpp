@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace defocus {
 
@@ -117,10 +118,6 @@ void ViewSession::frame() {
     frameTimes_.push_back(static_cast<float>(frameMilliseconds_));
     if (frameTimes_.size() > shownFrameTimes) frameTimes_.erase(frameTimes_.begin());
     writeStats();
-}
-
-double ViewSession::millisecondsSince(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
 // Nothing moves and nothing grows: sleep until something happens.

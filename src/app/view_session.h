@@ -13,6 +13,7 @@
 #include "app/view_interface.h"
 #include "app/view_panel.h"
 #include "app/view_settings.h"
+#include "core/stopwatch.h"
 
 namespace defocus {
 
@@ -35,8 +36,6 @@ public:
     void run();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     void frame();
     void takeScene();
     void adoptScene(LoadedScene scene);
@@ -56,7 +55,6 @@ private:
     void writeStats();
     void say(std::string text, bool fault = false);
 
-    [[nodiscard]] static double millisecondsSince(Clock::time_point begin);
     [[nodiscard]] double now() const;
     [[nodiscard]] double scale() const;
     [[nodiscard]] PictureArea area() const;

@@ -11,6 +11,7 @@
 #include "app/view_session.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/stopwatch.h"
 
 namespace defocus {
 

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "plan/frame_plan.h"
 #include "render/frame_uniforms.h"
 
@@ -21,13 +22,7 @@ namespace defocus {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t framesWaiting = 2;  // for the writer; more would only take memory
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // frames/0012.exr → frames/0012.part00064-00128.exr
 fs::path partPath(const fs::path& frame, const SampleRange& range) {

@@ -35,7 +35,7 @@ std::string escaped(std::string_view key) {
     return result;
 }
 
-bool isFinite(const json& value) {
+bool isFiniteNumber(const json& value) {
     return value.is_number() && std::isfinite(value.get<double>());
 }
 
@@ -86,13 +86,13 @@ std::vector<JsonReader> JsonReader::elements(std::size_t least, const std::strin
 }
 
 double JsonReader::number(double least, double most) const {
-    const double number = isFinite(*value_) ? value_->get<double>() : std::nan("");
+    const double number = isFiniteNumber(*value_) ? value_->get<double>() : std::nan("");
     if (!(number >= least && number <= most)) failExpecting(fmt::format("a number from {} to {}", least, most));
     return number;
 }
 
 std::int64_t JsonReader::whole(std::int64_t least, std::int64_t most) const {
-    const double number = isFinite(*value_) ? value_->get<double>() : std::nan("");
+    const double number = isFiniteNumber(*value_) ? value_->get<double>() : std::nan("");
     const bool inside = number >= static_cast<double>(least) && number <= static_cast<double>(most);
     if (!inside || number != std::floor(number))
         failExpecting(fmt::format("a whole number from {} to {}", least, most));
@@ -122,7 +122,7 @@ std::size_t JsonReader::choice(const std::vector<std::string>& choices) const {
 }
 
 std::optional<std::vector<double>> JsonReader::threeNumbers() const {
-    if (!value_->is_array() || value_->size() != 3 || !std::ranges::all_of(*value_, isFinite)) return {};
+    if (!value_->is_array() || value_->size() != 3 || !std::ranges::all_of(*value_, isFiniteNumber)) return {};
     return value_->get<std::vector<double>>();
 }
 

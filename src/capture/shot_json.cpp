@@ -248,11 +248,9 @@ void readQuality(const JsonReader& reader, Shot& shot) {
     if (const auto samples = reader.find("samples"))
         shot.samples = static_cast<std::uint32_t>(samples->whole(1, mostSamples));
     if (const auto sequence = reader.find("sequence")) {
-        const std::vector<Sequence> sequences = {Sequence::sobol, Sequence::halton, Sequence::scrambledHalton,
-                                                 Sequence::r2};
         std::vector<std::string> names;
-        for (const Sequence each : sequences) names.emplace_back(sequenceName(each));
-        shot.sequence = sequences[sequence->choice(names)];
+        for (const Sequence each : allSequences) names.emplace_back(sequenceName(each));
+        shot.sequence = allSequences[sequence->choice(names)];
     }
     if (const auto seed = reader.find("seed"))
         shot.seed = static_cast<std::uint32_t>(seed->whole(0, std::numeric_limits<std::uint32_t>::max()));

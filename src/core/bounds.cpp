@@ -1,5 +1,6 @@
 #include "core/bounds.h"
 
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
 
@@ -23,6 +24,10 @@ std::array<glm::dvec3, 8> Bounds::corners() const {
                                                (i & 2) != 0 ? maximum.y : minimum.y,
                                                (i & 4) != 0 ? maximum.z : minimum.z};
     return result;
+}
+
+bool isFinite(const glm::vec3& point) {
+    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
 Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix) {

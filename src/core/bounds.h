@@ -23,6 +23,9 @@ struct Bounds {
     [[nodiscard]] std::array<glm::dvec3, 8> corners() const;
 };
 
+// Whether a box can hold the point: no coordinate is infinite or NaN.
+[[nodiscard]] bool isFinite(const glm::vec3& point);
+
 // The box around the eight transformed corners of `bounds`; empty stays empty.
 Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix);
 

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "image/metrics.h"
 
 namespace defocus {
 
@@ -68,6 +71,16 @@ Image rendered(const BoardScene& boards, const std::string& method, const Render
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance, const glm::dvec2& offset) {
     const double pixel = view.lens.horizontalAperture / view.lens.focalLength * depth / view.width;  // m
     return {depth, pixel * offset, glm::dvec2(0.5 * pixels * pixel), radiance};
+}
+
+std::vector<Board> threeBoards(const View& view, double nearest, double farthest) {
+    return {squareAt(view, nearest, 20, {0.9f, 0.3f, 0.1f}, {-20, 5}), squareAt(view, 2, 30, {0.2f, 0.8f, 0.3f}),
+            squareAt(view, farthest, 40, {0.1f, 0.3f, 0.9f}, {15, -10})};
+}
+
+double largestError(const Image& a, const Image& b) {
+    const Difference difference = compareImages(a, b);
+    return difference.nonFinite > 0 ? std::numeric_limits<double>::infinity() : difference.maxError;
 }
 
 double blurDiameter(const View& view, double depth) {

@@ -41,6 +41,12 @@ Image rendered(const BoardScene& boards, const std::string& method = "accumulati
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance,
                const glm::dvec2& offset = glm::dvec2(0));
 
+// In front of the focus, at it and behind it: nearest and farthest depth as given, the middle one 2 m.
+std::vector<Board> threeBoards(const View& view, double nearest, double farthest);
+
+// Of any channel of any pixel, linear; infinite where one image has a value that isn't finite.
+double largestError(const Image& a, const Image& b);
+
 // The blur diameter in px of DESIGN's formula, c = A·|1/s − 1/z|·W / (2 tan(θx/2)), in double from the lens alone.
 double blurDiameter(const View& view, double depth);
 

@@ -9,19 +9,14 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/stopwatch.h"
 
 namespace defocus {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr const char* baselineMethod = "accumulation";
 constexpr std::array alwaysThere = {"embree", "embree-shared"};
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // ---- cases ----------------------------------------------------------------------------------------------------------
 

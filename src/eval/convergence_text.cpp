@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/json_number.h"
+#include "eval/spread.h"
 
 namespace defocus {
 
@@ -27,10 +28,6 @@ std::string frontsOf(const ConvergenceRow& row) {
 }
 
 // ---- JSON -----------------------------------------------------------------------------------------------------------
-
-ordered_json spreadJson(const Spread& spread) {
-    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
-}
 
 ordered_json errorJson(const ImageError& error) {
     return {{"mse", error.mse}, {"psnr", jsonNumber(error.psnr())}, {"ssim", error.ssim}, {"flip", error.flip}};

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/json_number.h"
+#include "eval/spread.h"
 
 namespace defocus {
 
@@ -34,15 +35,6 @@ constexpr NamedMeasure measures[] = {
     {"stepRmseImage", [](const PoppingFrame& f) { return f.step.image.rmse; }, &PoppingRow::stepRmseImage},
     {"stepFlipImage", [](const PoppingFrame& f) { return f.step.image.flip; }, &PoppingRow::stepFlipImage},
 };
-
-// Hyndman and Fan's type 7.
-double percentile(std::vector<double> values, double share) {
-    std::sort(values.begin(), values.end());
-    const double place = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return std::lerp(values[below], values[above], place - static_cast<double>(below));
-}
 
 PopSummary summaryOf(std::span<const PoppingFrame* const> frames, Measure measure) {
     PopSummary summary;

@@ -15,7 +15,7 @@ namespace defocus {
 
 namespace {
 
-constexpr std::array modes = {LodMode::off, LodMode::fractional};
+constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
 constexpr int gridTriangles = 500;        // of an instance
 constexpr int smallFactor = 40;           // by which the image shrinks for the work of vertices alone
 constexpr double bytesPerTriangle = 400;  // mesh, pyramid while it is made, and what the driver keeps
@@ -108,11 +108,12 @@ ScalingRow rowOf(const ScalingWorld& world, const ScalingPoint& point, LodMode m
 
 void measurePoint(const ScalingWorld& world, const ScalingPoint& point, const ScalingOptions& options,
                   const ScalingVisitor& visitor) {
-    std::array<TimedMode, modes.size()> timed;
-    for (std::size_t m = 0; m < modes.size(); ++m) timed[m] = timedMode(world, point, modes[m], options.renderer);
+    std::array<TimedMode, comparedModes.size()> timed;
+    for (std::size_t m = 0; m < comparedModes.size(); ++m)
+        timed[m] = timedMode(world, point, comparedModes[m], options.renderer);
     for (int i = 0; i <= options.runs; ++i)
         for (TimedMode& mode : timed) mode.run(i > 0);
-    for (std::size_t m = 0; m < modes.size(); ++m) visitor.row(rowOf(world, point, modes[m], timed[m]));
+    for (std::size_t m = 0; m < comparedModes.size(); ++m) visitor.row(rowOf(world, point, comparedModes[m], timed[m]));
 }
 
 bool sameWorld(const ScalingPoint& a, const ScalingPoint& b) {

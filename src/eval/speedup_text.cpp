@@ -6,16 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/json_number.h"
+#include "eval/spread.h"
 
 namespace defocus {
 
 namespace {
 
 using nlohmann::json;
-
-json spreadJson(const Spread& spread) {
-    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
-}
 
 json differenceJson(const Difference& difference) {
     return {{"rmse", difference.rmse},

@@ -1,6 +1,7 @@
 #pragma once
 // The middle of repeated measurements and how far they scatter.
 
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 namespace defocus {
@@ -11,7 +12,12 @@ struct Spread {
     double high = 0;  // 90th percentile
 };
 
-// Percentiles between the values are interpolated linearly (as Hyndman and Fan's type 7). No values: all 0.
-Spread spreadOf(std::vector<double> values);
+// Between the values it is interpolated linearly (Hyndman and Fan's type 7). `share` in [0, 1]; at least one value.
+double percentile(std::vector<double> values, double share);
+
+// No values: all 0.
+Spread spreadOf(const std::vector<double>& values);
+
+nlohmann::ordered_json spreadJson(const Spread& spread);
 
 }  // namespace defocus

@@ -3,12 +3,15 @@
 // anything is measured. The benchmark prints them; a test holds them.
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/progress.h"
 
 namespace defocus {
+
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
     std::string area;      // "sums", "lens", "space", "levels"

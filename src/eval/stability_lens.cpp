@@ -16,9 +16,7 @@ namespace {
 
 constexpr double pixelLimit = 0.5;  // of a diameter, px
 constexpr std::uint32_t manySamples = 1024;
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-struct Setting {
+struct LensSetting {
     double fStop = 1;
     double focusDistance = 2;  // m
     double depth = 6;          // m
@@ -27,7 +25,7 @@ struct Setting {
 };
 
 // The diameter of a point's disk by its second moment against the formula, px.
-double diameterError(const Setting& setting) {
+double diameterError(const LensSetting& setting) {
     View view = boardView(setting.width, 64);
     view.lens.fStop = setting.fStop;
     view.lens.focusDistance = setting.focusDistance;
@@ -38,26 +36,15 @@ double diameterError(const Setting& setting) {
     return std::abs(measured - blurDiameter(view, setting.depth));
 }
 
-double largestDifference(const Image& a, const Image& b) {
-    const Difference difference = compareImages(a, b);
-    return difference.nonFinite > 0 ? infinite : difference.maxError;
-}
-
-// Three boards in front of, at and behind the focus.
-std::vector<Board> threeBoards(const View& view) {
-    return {squareAt(view, 1, 20, {0.9f, 0.3f, 0.1f}, {-20, 5}), squareAt(view, 2, 30, {0.2f, 0.8f, 0.3f}),
-            squareAt(view, 7, 40, {0.1f, 0.3f, 0.9f}, {15, -10})};
-}
-
 // Aperture zero by each way to say it, against no depth of field at all.
 double pinholeError(double fStop, double blurScale) {
     View view = boardView();
     view.lens.fStop = fStop;
     view.lens.blurScale = blurScale;
-    BoardScene boards(view, threeBoards(view), glm::vec3(0.4f));
+    BoardScene boards(view, threeBoards(view, 1, 7), glm::vec3(0.4f));
     const Image image = rendered(boards);
     boards.view.lens.dofEnabled = false;
-    return largestDifference(image, rendered(boards));
+    return largestError(image, rendered(boards));
 }
 
 // A wall that fills the frame and far more, blurred by more than the image is wide.
@@ -78,10 +65,10 @@ double macroError() {
 double farFocusError() {
     View view = boardView();
     view.lens.focusDistance = 1e9;
-    BoardScene boards(view, threeBoards(view), glm::vec3(0.4f));
+    BoardScene boards(view, threeBoards(view, 1, 7), glm::vec3(0.4f));
     const Image image = rendered(boards);
     boards.view.lens.focusDistance = infinite;
-    return largestDifference(image, rendered(boards));
+    return largestError(image, rendered(boards));
 }
 
 // The centre of a square that lies `offset` px from the image's middle, for a field of view in degrees.
@@ -103,7 +90,7 @@ void addLensCases(std::vector<StabilityCase>& cases) {
                          std::function<double()> error) {
         cases.push_back({"lens", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
     };
-    const auto addDiameter = [&](std::string name, const Setting& setting) {
+    const auto addDiameter = [&](std::string name, const LensSetting& setting) {
         add(std::move(name), "disk diameter, px", "closed form", pixelLimit,
             [setting] { return diameterError(setting); });
     };

@@ -15,8 +15,6 @@ namespace defocus {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 // Samples drawn at another level when λ passes the whole number `level` by ±1e-6.
 double splitError(double level, std::uint32_t samples) {
     const auto levelsOf = [&](double lambda) {

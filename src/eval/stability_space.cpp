@@ -15,22 +15,10 @@ namespace defocus {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-double largestDifference(const Image& a, const Image& b) {
-    const Difference difference = compareImages(a, b);
-    return difference.nonFinite > 0 ? infinite : difference.maxError;
-}
-
-std::vector<Board> threeBoards(const View& view) {
-    return {squareAt(view, 1.2, 20, {0.9f, 0.3f, 0.1f}, {-20, 5}), squareAt(view, 2, 30, {0.2f, 0.8f, 0.3f}),
-            squareAt(view, 5, 40, {0.1f, 0.3f, 0.9f}, {15, -10})};
-}
-
 // Everything `scale` times as large, the aperture too.
 double scaleError(double scale) {
     const View view = boardView();
-    BoardScene boards(view, threeBoards(view), glm::vec3(0.4f));
+    BoardScene boards(view, threeBoards(view, 1.2, 5), glm::vec3(0.4f));
     const Image image = rendered(boards);
     for (Object& object : boards.world.pose.objects)
         object.worldFromObject = glm::scale(glm::dmat4(1), glm::dvec3(scale)) * object.worldFromObject;
@@ -64,7 +52,7 @@ double cameraPlaneError() {
         boards.world.pose.objects[0].worldFromObject = glm::scale(lying, glm::dvec3(30, 0.5 * length, 1));
         return rendered(boards);
     };
-    return largestDifference(floorFrom(-25), floorFrom(view.nearPlane));
+    return largestError(floorFrom(-25), floorFrom(view.nearPlane));
 }
 
 // Boards at 0.02 m and at 2,000 km, and one just before the far one: each hides what lies behind it.

@@ -6,6 +6,7 @@
 // shutter; other seeds give other points, and with `sobol` and `scrambledHalton` each of their points is uniform over
 // the seeds.
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <string_view>
@@ -18,6 +19,7 @@ enum class Sequence {
     sobol,            // six dimensions, Owen-scrambled: a net on the lens
     r2,               // additive recurrence by powers of the plastic number
 };
+inline constexpr std::array allSequences = {Sequence::sobol, Sequence::halton, Sequence::scrambledHalton, Sequence::r2};
 
 // As the command line has it.
 std::string_view sequenceName(Sequence sequence);

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "core/bounds.h"
 #include "lod/smoothing_groups.h"
 
 namespace defocus {
@@ -22,7 +23,7 @@ constexpr double largestArea = 1e3;
 // A vertex whose normal stands square to its face's counts this much of its area.
 constexpr double leastForeshortening = 0.02;
 // A fitted face that is turned by more than 60° goes back to where it was.
-constexpr double leastTurnCosine = 0.5;
+constexpr double leastFittedTurnCosine = 0.5;
 
 template <std::size_t channels>
 using Row = std::array<float, channels>;
@@ -31,10 +32,10 @@ enum class Prior { mean, zero };  // of what a vertex stands for
 
 // Least squares over groups of vertices: minimises Σ share·|Σ weight·x − target|² + pull·Σ weightOf·|x − prior|².
 template <std::size_t channels>
-class Fit {
+class LeastSquares {
 public:
-    Fit(const std::vector<std::uint32_t>& groups, std::span<const Anchor> anchors, const std::vector<float>& shares,
-        const std::vector<Row<channels>>& targets, Prior prior)
+    LeastSquares(const std::vector<std::uint32_t>& groups, std::span<const Anchor> anchors,
+                 const std::vector<float>& shares, const std::vector<Row<channels>>& targets, Prior prior)
         : groups_(groups),
           anchors_(anchors),
           shares_(shares),
@@ -143,10 +144,6 @@ std::vector<std::uint32_t> colorGroups(const std::vector<std::uint32_t>& smoothi
     return groups;
 }
 
-bool finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 // How much of its face each anchored vertex stands for, seen straight on: its area, foreshortened.
 std::vector<float> projectedShares(const Vertices& vertices, std::span<const Anchor> anchors,
                                    const std::vector<float>& areas) {
@@ -177,7 +174,7 @@ void keepFacesUpright(std::vector<glm::vec3>& fitted, const std::vector<glm::vec
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             const glm::dvec3 before = normalOf(original, i);
             const glm::dvec3 after = normalOf(fitted, i);
-            if (glm::dot(before, after) >= leastTurnCosine * glm::length(before) * glm::length(after)) continue;
+            if (glm::dot(before, after) >= leastFittedTurnCosine * glm::length(before) * glm::length(after)) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t g = groups[indices[i + k]];
                 changed |= fitted[g] != original[g];
@@ -205,14 +202,14 @@ std::vector<glm::vec3> fitPositions(const std::vector<glm::vec3>& positions, con
         const glm::vec3 gap(glm::dvec3(positions[v]) - onLevel);
         if (sum > 0) gaps[v] = {gap.x, gap.y, gap.z};
     }
-    Fit<3> fit(groups, anchors, shares, gaps, Prior::zero);
+    LeastSquares<3> fit(groups, anchors, shares, gaps, Prior::zero);
     const std::vector<Row<3>>& moves = fit.solve();
 
     std::vector<glm::vec3> fitted = positions;
     for (std::size_t v = 0; v < fitted.size(); ++v) {
         const Row<3>& move = moves[groups[v]];
         const glm::vec3 moved = positions[groups[v]] + glm::vec3(move[0], move[1], move[2]);
-        if (finite(moved)) fitted[v] = glm::clamp(moved, glm::vec3(bounds.minimum), glm::vec3(bounds.maximum));
+        if (isFinite(moved)) fitted[v] = glm::clamp(moved, glm::vec3(bounds.minimum), glm::vec3(bounds.maximum));
     }
     keepFacesUpright(fitted, positions, groups, indices);
     for (std::size_t v = 0; v < fitted.size(); ++v) fitted[v] = fitted[groups[v]];
@@ -239,7 +236,7 @@ std::vector<glm::vec3> fitNormals(const std::vector<glm::vec3>& normals, const s
     // Fitted as vectors: their means are shorter than 1 where they differ.
     std::vector<Row<3>> targets(normals.size());
     for (std::size_t v = 0; v < normals.size(); ++v) targets[v] = {normals[v].x, normals[v].y, normals[v].z};
-    Fit<3> fit(smoothing, anchors, shares, targets, Prior::mean);
+    LeastSquares<3> fit(smoothing, anchors, shares, targets, Prior::mean);
     const std::vector<Row<3>>& solution = fit.solve();
     std::vector<glm::vec3> fitted(normals.size());
     for (std::size_t v = 0; v < normals.size(); ++v) {
@@ -263,7 +260,7 @@ std::vector<glm::u8vec4> fitColors(const std::vector<glm::u8vec4>& colors, const
     std::vector<Row<4>> targets(colors.size());
     for (std::size_t v = 0; v < colors.size(); ++v)
         for (glm::length_t c = 0; c < 4; ++c) targets[v][static_cast<std::size_t>(c)] = colors[v][c];
-    Fit<4> fit(alike, anchors, shares, targets, Prior::mean);
+    LeastSquares<4> fit(alike, anchors, shares, targets, Prior::mean);
     const std::vector<Row<4>>& solution = fit.solve();
     std::vector<glm::u8vec4> fitted(colors.size());
     for (std::size_t v = 0; v < colors.size(); ++v)
@@ -303,7 +300,7 @@ FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::siz
                      vertexAreas(vertices.positions, indices),
                      {}};
     for (const std::uint32_t v : indices)
-        if (finite(vertices.positions[v])) source.bounds.extend(glm::dvec3(vertices.positions[v]));
+        if (isFinite(vertices.positions[v])) source.bounds.extend(glm::dvec3(vertices.positions[v]));
     for (std::size_t v = ownCount; v < source.smoothing.size(); ++v)
         source.smoothing[v] = static_cast<std::uint32_t>(v);
     return source;

@@ -13,7 +13,6 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t none = Manifold::none;
 // Beyond this many faces at one edge nothing continues anything: all are cut apart, in time linear in their number.
 constexpr std::size_t mostFacesToPair = 32;
 
@@ -26,7 +25,7 @@ std::uint32_t previousCorner(std::uint32_t corner) {
 
 // What is known while the surface is put together; faces are those that were kept, corners and half-edges are 3·face +
 // i.
-struct Surface {
+struct PairedSurface {
     const std::vector<glm::dvec3>& points;
     std::vector<std::uint32_t> at;          // welded position of each corner
     std::vector<std::uint32_t> primitives;  // of each face
@@ -88,7 +87,7 @@ struct EdgeGroups {
     std::vector<std::uint32_t> starts;
 };
 
-EdgeGroups groupEdges(const Surface& surface) {
+EdgeGroups groupEdges(const PairedSurface& surface) {
     const auto edgeCount = static_cast<std::uint32_t>(surface.at.size());
     const auto low = [&](std::uint32_t e) { return std::min(surface.start(e), surface.end(e)); };
     const auto high = [&](std::uint32_t e) { return std::max(surface.start(e), surface.end(e)); };
@@ -116,8 +115,8 @@ EdgeGroups groupEdges(const Surface& surface) {
 
 // Turns the minority of each component's faces so that neighbours across edges of two faces agree, where they can (a
 // Möbius band stays cut at one edge).
-void orient(Surface& surface, const EdgeGroups& groups) {
-    std::vector<std::uint32_t> across(surface.at.size(), none);
+void orient(PairedSurface& surface, const EdgeGroups& groups) {
+    std::vector<std::uint32_t> across(surface.at.size(), Manifold::none);
     for (std::size_t g = 0; g + 1 < groups.starts.size(); ++g) {
         if (groups.starts[g + 1] - groups.starts[g] != 2) continue;
         const std::uint32_t a = groups.order[groups.starts[g]];
@@ -137,7 +136,7 @@ void orient(Surface& surface, const EdgeGroups& groups) {
         std::size_t turnedCount = 0;
         for (std::size_t i = 0; i < component.size(); ++i) {
             for (std::uint32_t e = 3 * component[i]; e < 3 * component[i] + 3; ++e) {
-                if (across[e] == none || reached[across[e] / 3] != 0) continue;
+                if (across[e] == Manifold::none || reached[across[e] / 3] != 0) continue;
                 const std::uint32_t neighbour = across[e] / 3;
                 reached[neighbour] = 1;
                 if (surface.forward(e) == surface.forward(across[e])) {
@@ -155,7 +154,7 @@ void orient(Surface& surface, const EdgeGroups& groups) {
     }
 }
 
-glm::dvec3 faceNormal(const Surface& surface, std::uint32_t face) {
+glm::dvec3 faceNormal(const PairedSurface& surface, std::uint32_t face) {
     const glm::dvec3& a = surface.points[surface.at[3 * face]];
     glm::dvec3 normal =
         glm::cross(surface.points[surface.at[3 * face + 1]] - a, surface.points[surface.at[3 * face + 2]] - a);
@@ -166,7 +165,7 @@ glm::dvec3 faceNormal(const Surface& surface, std::uint32_t face) {
 
 // Pairs the half-edges at one edge: same primitive before flatter before earlier. A face and its reverse (a sheet with
 // two faces) only close onto each other where nothing else continues them.
-void pairEdges(Surface& surface, const std::uint32_t* edges, std::size_t count) {
+void pairEdges(PairedSurface& surface, const std::uint32_t* edges, std::size_t count) {
     struct Candidate {
         double score;
         std::uint32_t forward, backward;
@@ -188,15 +187,16 @@ void pairEdges(Surface& surface, const std::uint32_t* edges, std::size_t count) 
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     for (const Candidate& candidate : candidates) {
-        if (surface.twins[candidate.forward] != none || surface.twins[candidate.backward] != none) continue;
+        if (surface.twins[candidate.forward] != Manifold::none || surface.twins[candidate.backward] != Manifold::none)
+            continue;
         surface.twins[candidate.forward] = candidate.backward;
         surface.twins[candidate.backward] = candidate.forward;
     }
     for (std::size_t i = 0; i < count; ++i)
-        if (surface.twins[edges[i]] == none) surface.repaired[edges[i] / 3] = 1;
+        if (surface.twins[edges[i]] == Manifold::none) surface.repaired[edges[i] / 3] = 1;
 }
 
-void pairAllEdges(Surface& surface, const EdgeGroups& groups) {
+void pairAllEdges(PairedSurface& surface, const EdgeGroups& groups) {
     for (std::size_t g = 0; g + 1 < groups.starts.size(); ++g) {
         const std::uint32_t* edges = &groups.order[groups.starts[g]];
         const std::size_t count = groups.starts[g + 1] - groups.starts[g];
@@ -211,7 +211,7 @@ void pairAllEdges(Surface& surface, const EdgeGroups& groups) {
 }
 
 // Numbers the fans: corners that are joined by paired edges are one vertex. Union-find, the smaller corner is the root.
-void numberVertices(Surface& surface, Manifold& manifold) {
+void numberVertices(PairedSurface& surface, Manifold& manifold) {
     std::vector<std::uint32_t> parent(surface.at.size());
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](std::uint32_t corner) {
@@ -220,7 +220,7 @@ void numberVertices(Surface& surface, Manifold& manifold) {
     };
     for (std::uint32_t e = 0; e < surface.at.size(); ++e) {
         const std::uint32_t twin = surface.twins[e];
-        if (twin == none || twin < e) continue;
+        if (twin == Manifold::none || twin < e) continue;
         for (const std::uint32_t mine : {e, nextCorner(e)}) {
             const std::uint32_t theirs = surface.at[mine] == surface.at[twin] ? twin : nextCorner(twin);
             const std::uint32_t a = root(mine);
@@ -252,10 +252,10 @@ Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>
     Manifold manifold;
     manifold.faces = properFaces(triangles);
     const std::size_t count = manifold.faces.size();
-    Surface surface{points, {}, {}, {}, {}, {}};
+    PairedSurface surface{points, {}, {}, {}, {}, {}};
     surface.turned.assign(count, 0);
     surface.repaired.assign(count, 0);
-    surface.twins.assign(3 * count, none);
+    surface.twins.assign(3 * count, Manifold::none);
     for (const std::uint32_t face : manifold.faces) {
         for (std::size_t i = 0; i < 3; ++i) surface.at.push_back(triangles.positions[3 * std::size_t{face} + i]);
         surface.primitives.push_back(triangles.primitives[face]);

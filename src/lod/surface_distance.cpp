@@ -12,6 +12,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/bounds.h"
 #include "lod/triangle_distance.h"
 
 namespace defocus {
@@ -26,10 +27,6 @@ constexpr double stepU = 0.7548776662466927;
 constexpr double stepV = 0.5698402909980532;
 
 using Triangle = std::array<glm::vec3, 3>;
-
-bool finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 double areaOf(const Triangle& t) {
     const glm::dvec3 a = t[0];
@@ -50,7 +47,7 @@ std::vector<Triangle> properTriangles(std::span<const glm::vec3> positions, std:
     triangles.reserve(indices.size() / 3);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const Triangle t = {positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]};
-        if (finite(t[0]) && finite(t[1]) && finite(t[2]) && areaOf(t) > 0) triangles.push_back(t);
+        if (isFinite(t[0]) && isFinite(t[1]) && isFinite(t[2]) && areaOf(t) > 0) triangles.push_back(t);
     }
     return triangles;
 }

@@ -12,23 +12,23 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t emptySlot = 0xffffffffu;
 
 // Open addressing with linear probing over a table of at most half load. `equal` compares vertices of equal hash.
 template <typename Equal>
 Welded weld(const std::vector<std::uint64_t>& hashes, const Equal& equal) {
     const std::size_t size = std::bit_ceil(2 * hashes.size() + 1);
-    std::vector<std::uint32_t> table(size, none);
+    std::vector<std::uint32_t> table(size, emptySlot);
     Welded result;
     result.id.resize(hashes.size());
     for (std::uint32_t v = 0; v < hashes.size(); ++v) {
         std::uint64_t slot = (hashes[v] ^ (hashes[v] >> 32)) & (size - 1);
-        while (table[slot] != none) {
+        while (table[slot] != emptySlot) {
             const std::uint32_t other = result.first[table[slot]];
             if (hashes[other] == hashes[v] && equal(other, v)) break;
             slot = (slot + 1) & (size - 1);
         }
-        if (table[slot] == none) {
+        if (table[slot] == emptySlot) {
             table[slot] = static_cast<std::uint32_t>(result.first.size());
             result.first.push_back(v);
         }

@@ -2,17 +2,10 @@
 
 #include <epoxy/gl.h>
 
+#include "core/stopwatch.h"
 #include "gl/context.h"
 
 namespace defocus {
-
-namespace {
-
-double millisecondsSince(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
-
-}  // namespace
 
 void FrameClock::beginSetup() {
     setupMilliseconds_ = 0;

@@ -5,17 +5,12 @@
 #include <algorithm>
 #include <chrono>
 
+#include "core/stopwatch.h"
 #include "render/frame_uniforms.h"
 
 namespace defocus {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 // All levels of the meshes that are drawn go to the GPU at once: none is uploaded in the middle of a movement.
 FramePlan withAllLevels(FramePlan plan) {

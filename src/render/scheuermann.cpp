@@ -21,7 +21,7 @@ namespace {
 constexpr double publishedLargest = 10;       // px, diameter
 constexpr float publishedSmallRadius = 0.4f;  // of the taps in the small image, whose pixels are 4 times as wide
 constexpr float trueSmallRadius = 0.25f;      // the same distance in both images
-constexpr int reduction = 4;                  // of the small image, a side
+constexpr int smallReduction = 4;             // of the small image, a side
 constexpr std::uint32_t mostTaps = 64;
 constexpr std::uint32_t candidatesPerPoint = 32;
 
@@ -98,8 +98,8 @@ private:
             texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
             return texture;
         };
-        const int smallWidth = (width + reduction - 1) / reduction;
-        const int smallHeight = (height + reduction - 1) / reduction;
+        const int smallWidth = (width + smallReduction - 1) / smallReduction;
+        const int smallHeight = (height + smallReduction - 1) / smallReduction;
         sharp_ = linear(width, height);
         reduced_ = linear(smallWidth, smallHeight);
         small_ = linear(smallWidth, smallHeight);
@@ -116,12 +116,12 @@ private:
         ShaderDefines blurriness = frame.defines();
         if (thinLens_) blurriness.emplace_back("THIN_LENS", "1");
         blurriness_ = pass("scheuermann/blurriness.frag", std::move(blurriness));
-        reduce_ = pass("scheuermann/reduce.frag", {{"REDUCTION", std::to_string(reduction)}});
+        reduce_ = pass("scheuermann/reduce.frag", {{"REDUCTION", std::to_string(smallReduction)}});
         preblur_ = pass("scheuermann/preblur.frag", {});
         gather_ = pass("scheuermann/gather.frag",
                        {{"TAPS", std::to_string(taps_)},
                         {"MOST_TAPS", std::to_string(mostTaps)},
-                        {"SMALL_PIXEL", fmt::format("{:.1f}", static_cast<double>(reduction))},
+                        {"SMALL_PIXEL", fmt::format("{:.1f}", static_cast<double>(smallReduction))},
                         {"SMALL_RADIUS", fmt::format("{}", thinLens_ ? trueSmallRadius : publishedSmallRadius)}});
         GpuTaps block{};
         const std::vector<glm::vec2> points = poissonDisk(taps_);

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <numbers>
 
 #include "scene/fish_surface.h"
 
 namespace defocus {
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr float rimHalfThickness = 0.0013f;  // body lengths
 constexpr float rootHalfThickness = 0.007f;
 constexpr float rayRelief = 0.0018f;
@@ -31,7 +31,7 @@ float rayLength(const std::array<float, 6>& heights, float t) {
 
 // 1 on each of `rays` rays, 0 halfway between two.
 float rayWave(float t, int rays) {
-    return 0.5f + 0.5f * std::cos(2.0f * pi * t * static_cast<float>(rays));
+    return 0.5f + 0.5f * std::cos(2.0f * std::numbers::pi_v<float> * t * static_cast<float>(rays));
 }
 
 Fin medianFin(const FishShape& shape, const MedianFin& fin) {
@@ -115,8 +115,8 @@ Fin pairedFin(const FishShape& shape, const PairedFin& fin, float side) {
 glm::vec3 pointOnRay(const Fin& fin, const FinRay& ray, float t, float r) {
     const float q = 1.0f - r;
     const glm::vec3 curve = q * q * ray.root + 2.0f * q * r * ray.middle + r * r * ray.tip;
-    const float swing = std::sin(2.0f * pi * 1.7f * t + fin.phase + 2.2f * r) +
-                        0.3f * std::sin(2.0f * pi * 4.3f * t - fin.phase + 1.3f * r);
+    const float swing = std::sin(2.0f * std::numbers::pi_v<float> * 1.7f * t + fin.phase + 2.2f * r) +
+                        0.3f * std::sin(2.0f * std::numbers::pi_v<float> * 4.3f * t - fin.phase + 1.3f * r);
     return curve + fin.ripple * r * std::sqrt(r) * swing * fin.sideways;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <numbers>
 
 #include "scene/fish_fins.h"
 #include "scene/fish_surface.h"
@@ -11,7 +12,7 @@
 namespace defocus {
 namespace {
 
-constexpr float pi = 3.14159265f;
+constexpr float pi = std::numbers::pi_v<float>;
 constexpr float eyeEdge = 0.75f;  // the eyes' triangle edges against the body's: pupils want crisp borders
 
 // ---- body

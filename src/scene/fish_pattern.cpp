@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <numbers>
 
 #include "scene/fish_random.h"
 
 namespace defocus {
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr float softness = 0.012f;  // of painted borders, in body lengths: a few edges of the mesh
 
 // 1 where |distance| < halfWidth, with a soft border.
@@ -132,7 +132,7 @@ glm::vec3 finColor(const FishPattern& pattern, FinKind kind, float t, float r, f
 }
 
 glm::vec3 eyeColor(const FishPattern& pattern, float angle) {
-    const float fromPupil = angle / pi;
+    const float fromPupil = angle / std::numbers::pi_v<float>;
     const glm::vec3 black(0.004f, 0.006f, 0.012f);
     glm::vec3 color = glm::mix(0.55f * pattern.iris, pattern.iris, 1.0f - glm::smoothstep(0.2f, 0.34f, fromPupil));
     const glm::vec3 ring = glm::mix(pattern.iris, glm::vec3(1.0f, 0.92f, 0.7f), 0.55f);

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/bounds.h"
 #include "core/error.h"
 #include "core/file.h"
 
@@ -26,10 +27,6 @@ constexpr int unsignedByte = 5121, unsignedInt = 5125, floatType = 5126;
 constexpr int vertexData = 34962, indexData = 34963;  // targets of buffer views
 constexpr std::uint32_t unused = 0xffffffffu;
 constexpr std::size_t headerBytes = 12, chunkHeaderBytes = 8;
-
-bool finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 // The vertices and triangles that are written.
 struct Written {
@@ -49,7 +46,7 @@ Written chooseTriangles(const Mesh& mesh) {
                 if (corner[k] >= mesh.vertices.count())
                     fail("mesh \"{}\": index {} is beyond its {} vertices", mesh.name, corner[k],
                          mesh.vertices.count());
-                proper = proper && finite(mesh.vertices.positions[corner[k]]);
+                proper = proper && isFinite(mesh.vertices.positions[corner[k]]);
             }
             for (int k = 0; k < 3 && proper; ++k) {
                 std::uint32_t& number = newNumber[corner[k]];

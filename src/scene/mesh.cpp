@@ -57,7 +57,7 @@ Bounds Mesh::bounds() const {
 Bounds boundsOf(const std::vector<glm::vec3>& positions) {
     Bounds bounds;
     for (const glm::vec3& p : positions)
-        if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) bounds.extend(glm::dvec3(p));
+        if (isFinite(p)) bounds.extend(glm::dvec3(p));
     return bounds;
 }
 

@@ -11,7 +11,7 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t unusedVertex = std::numeric_limits<std::uint32_t>::max();
 
 template <typename T>
 std::vector<T> pick(const std::vector<T>& values, std::span<const std::uint32_t> order) {
@@ -70,11 +70,11 @@ VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> or
 }
 
 VertexBlock compacted(const VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices) {
-    std::vector<std::uint32_t> renumbered(block.vertices.count(), unused);
+    std::vector<std::uint32_t> renumbered(block.vertices.count(), unusedVertex);
     std::vector<std::uint32_t> order;
     for (std::vector<std::uint32_t>* list : indices)
         for (std::uint32_t& index : *list) {
-            if (renumbered[index] == unused) {
+            if (renumbered[index] == unusedVertex) {
                 renumbered[index] = static_cast<std::uint32_t>(order.size());
                 order.push_back(index);
             }

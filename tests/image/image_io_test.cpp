@@ -14,14 +14,12 @@
 #include "models.h"
 #include "png_builder.h"
 #include "scratch_folder.h"
+#include "special_values.h"
 
 namespace defocus {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
 Image gradient(int width, int height, int channels) {
     Image image(width, height, channels);

@@ -8,12 +8,10 @@
 
 #include "core/error.h"
 #include "image/tone_map.h"
+#include "special_values.h"
 
 namespace defocus {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
 Image constant(int width, int height, int channels, float value) {
     Image image(width, height, channels);

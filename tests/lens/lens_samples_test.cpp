@@ -9,14 +9,12 @@
 namespace defocus {
 namespace {
 
-constexpr Sequence sequences[] = {Sequence::halton, Sequence::scrambledHalton, Sequence::sobol, Sequence::r2};
-
 std::vector<LensSample> samplesOf(const Lens& lens, std::uint32_t count, Sequence sequence = Sequence::sobol) {
     return lensSamples(lens, sequence, 0, count, 0);
 }
 
 TEST(LensSamples, firstSampleIsThePinholeInTheMiddleOfTheShutter) {
-    for (const Sequence sequence : sequences)
+    for (const Sequence sequence : allSequences)
         for (const int blades : {0, 3, 6}) {
             Lens lens;
             lens.bladeCount = blades;
@@ -33,7 +31,7 @@ TEST(LensSamples, firstSampleIsThePinholeInTheMiddleOfTheShutter) {
 }
 
 TEST(LensSamples, fillLensPixelTimeAndBandEvenly) {
-    for (const Sequence sequence : sequences) {
+    for (const Sequence sequence : allSequences) {
         int pixels[4] = {};
         int times[4] = {};
         int bands[4] = {};
@@ -60,7 +58,7 @@ TEST(LensSamples, fillLensPixelTimeAndBandEvenly) {
 // Sheared by time or band, the lens must stay covered: in each eighth of them the mean of n independent points of the
 // disk strays by √(0.5/n).
 TEST(LensSamples, everyPartOfTimeAndBandSeesAllOfTheLens) {
-    for (const Sequence sequence : sequences) {
+    for (const Sequence sequence : allSequences) {
         glm::dvec2 times[8] = {};
         glm::dvec2 bands[8] = {};
         for (const LensSample& sample : samplesOf(Lens{}, 512, sequence)) {
@@ -75,7 +73,7 @@ TEST(LensSamples, everyPartOfTimeAndBandSeesAllOfTheLens) {
 }
 
 TEST(LensSamples, rangesAreThoseOfTheWholeSequence) {
-    for (const Sequence sequence : sequences) {
+    for (const Sequence sequence : allSequences) {
         const std::vector<LensSample> all = lensSamples(Lens{}, sequence, 0, 200, 3);
         const std::vector<LensSample> part = lensSamples(Lens{}, sequence, 128, 64, 3);
         for (std::size_t i = 0; i < part.size(); ++i) {
@@ -88,7 +86,7 @@ TEST(LensSamples, rangesAreThoseOfTheWholeSequence) {
 
 TEST(LensSamples, seedsGiveOtherPointsOfTheSameShape) {
     const Aperture disk = makeAperture(Lens{});
-    for (const Sequence sequence : sequences) {
+    for (const Sequence sequence : allSequences) {
         EXPECT_NE(lensSample(disk, sequence, 5, 1).lens, lensSample(disk, sequence, 5, 0).lens);
         EXPECT_NE(lensSample(disk, sequence, 5, 1).lens, lensSample(disk, sequence, 5, 2).lens);
         EXPECT_EQ(lensSample(disk, sequence, 5, 2).lens, lensSample(disk, sequence, 5, 2).lens);

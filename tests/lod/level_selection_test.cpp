@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "special_values.h"
+
 namespace defocus {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Edges 1, √2, 2, 2√2, 4; errors 0, 0.01, 0.02, 0.04, 0.08.
 Pyramid uniformPyramid() {
@@ -64,7 +64,7 @@ TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTarget) {
 TEST(LevelOfDetail, IsZeroWhereNothingCanBeSaid) {
     const Pyramid pyramid = uniformPyramid();
     for (const LodMetric metric : {LodMetric::size, LodMetric::error}) {
-        for (const double bad : {infinity, -infinity, std::nan(""), -1.0})
+        for (const double bad : {double(infinity), -double(infinity), std::nan(""), -1.0})
             EXPECT_EQ(levelOfDetail(pyramid, {bad, 10}, metric, {1, 1}), 0) << bad;
         EXPECT_EQ(levelOfDetail(pyramid, {1, std::nan("")}, metric, {1, 0}), 0);
         EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {0, 0}), 0) << "thresholds of 0 mean full detail";

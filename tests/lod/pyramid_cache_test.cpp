@@ -18,6 +18,7 @@
 #include "core/file.h"
 #include "core/hash.h"
 #include "image/scratch_folder.h"
+#include "likeness.h"
 #include "lod/pyramid_file.h"
 #include "shapes.h"
 
@@ -27,12 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-bool sameBits(const Vertices& a, const Vertices& b) {
+bool sameVertices(const Vertices& a, const Vertices& b) {
     return sameBits(a.positions, b.positions) && sameBits(a.normals, b.normals) && sameBits(a.tangents, b.tangents) &&
            sameBits(a.uv0, b.uv0) && sameBits(a.uv1, b.uv1) && sameBits(a.colors, b.colors) &&
            sameBits(a.joints, b.joints) && sameBits(a.weights, b.weights) && sameBits(a.joints1, b.joints1) &&
@@ -40,7 +36,7 @@ bool sameBits(const Vertices& a, const Vertices& b) {
 }
 
 void expectEqual(const Pyramid& a, const Pyramid& b) {
-    EXPECT_TRUE(sameBits(a.vertices, b.vertices));
+    EXPECT_TRUE(sameVertices(a.vertices, b.vertices));
     EXPECT_TRUE(sameBits(a.source, b.source));
     EXPECT_TRUE(sameBits(a.indices, b.indices));
     EXPECT_EQ(std::memcmp(&a.bounds, &b.bounds, sizeof a.bounds), 0);

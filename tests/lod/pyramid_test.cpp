@@ -7,15 +7,11 @@
 
 #include "core/error.h"
 #include "invariants.h"
+#include "likeness.h"
 #include "shapes.h"
 
 namespace defocus {
 namespace {
-
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 
 // Every attribute takes part: what a level draws at a position must be a vertex of the mesh.
 Mesh decorated(Mesh mesh) {

@@ -7,13 +7,12 @@
 #include <numbers>
 
 #include "shapes.h"
+#include "special_values.h"
 
 namespace defocus {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 Surface surfaceOf(const Mesh& mesh, const glm::vec3& shift = glm::vec3(0)) {
     std::vector<glm::vec3> positions = mesh.vertices.positions;
     for (glm::vec3& p : positions) p += shift;

@@ -7,23 +7,12 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "plan/plan_checks.h"
 #include "plan/plan_text.h"
 #include "small_world.h"
 
 namespace defocus {
 namespace {
-
-RenderSettings settingsFor(std::uint32_t samples) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.thresholds = {0.5, 2};
-    return settings;
-}
-
-bool leftOut(const FramePlan& plan, const std::string& what) {
-    return std::any_of(plan.leftOut.begin(), plan.leftOut.end(),
-                       [&](const LeftOut& entry) { return entry.what == what; });
-}
 
 // The first sphere goes by `step` from moment to moment.
 void moveFirst(SmallWorld& small, std::size_t moments, const glm::dvec3& step) {

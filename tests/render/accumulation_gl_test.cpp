@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "image/metrics.h"
+#include "likeness.h"
 #include "render/aov.h"
 #include "render/methods.h"
 #include "small_world.h"
@@ -37,18 +38,6 @@ Image rendered(const SmallWorld& small, const RenderSettings& settings, const Re
     while (renderer->advance()) {
     }
     return renderer->image();
-}
-
-bool sameBits(const Image& a, const Image& b) {
-    return a.pixels.size() == b.pixels.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
-}
-
-double largestDifference(const Image& a, const Image& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        largest = std::max(largest, std::abs(double(a.pixels[i]) - double(b.pixels[i])));
-    return largest;
 }
 
 // A green quad that fills the frame at `depth`, in front of a uniform red background.

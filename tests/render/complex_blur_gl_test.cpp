@@ -7,6 +7,7 @@
 
 #include "gl/context.h"
 #include "gl/read_back.h"
+#include "likeness.h"
 #include "render/circular_kernel.h"
 #include "render/complex_blur.h"
 
@@ -65,15 +66,6 @@ Image blocks() {
 }
 
 // Infinity where either holds a NaN.
-double largestDifference(const Image& a, const Image& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        const double difference = std::abs(double(a.pixels[i]) - double(b.pixels[i]));
-        largest = std::isnan(difference) ? std::numeric_limits<double>::infinity() : std::max(largest, difference);
-    }
-    return largest;
-}
-
 TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
     for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight, ComplexTaps::sets})
         for (int components = 1; components <= circularKernelLimit; ++components)

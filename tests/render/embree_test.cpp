@@ -12,6 +12,7 @@
 #include "embree/aperture_mask.h"
 #include "embree/embree_renderer.h"
 #include "embree/lens_rays.h"
+#include "likeness.h"
 #include "render/methods.h"
 
 namespace defocus {
@@ -32,14 +33,6 @@ Image traced(const Scene& scene, const View& view, std::uint32_t samples,
 
 Rectangle quadAt(const View& view, double depth) {
     return {view.width / 2.0 - 1.5, view.height / 2.0 - 1.5, view.width / 2.0 + 1.5, view.height / 2.0 + 1.5, depth};
-}
-
-double largestDifference(const Image& a, const Image& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        largest = std::max(largest, std::abs(static_cast<double>(a.pixels[i]) - b.pixels[i]));
-    }
-    return largest;
 }
 
 TEST(EmbreePinhole, RectangleCoversItsPixelsAndNoOthers) {

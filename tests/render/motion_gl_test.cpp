@@ -8,6 +8,7 @@
 #include "gl/context.h"
 #include "image/metrics.h"
 #include "lens/lens_samples.h"
+#include "likeness.h"
 #include "models.h"
 #include "posed_world.h"
 #include "render/methods.h"
@@ -23,7 +24,7 @@ protected:
 };
 std::unique_ptr<GlContext> Motion::context_;
 
-RenderSettings settingsFor(std::uint32_t samples) {
+RenderSettings fullDetailFor(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
@@ -31,7 +32,7 @@ RenderSettings settingsFor(std::uint32_t samples) {
     return settings;
 }
 
-Image rendered(const World& world, const View& view, const RenderSettings& settings) {
+Image renderedInFloat(const World& world, const View& view, const RenderSettings& settings) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
     const auto renderer = methodNamed("accumulation").make(world, options);
@@ -44,11 +45,6 @@ Image rendered(const World& world, const View& view, const RenderSettings& setti
 // Of a sample, as the plan has it.
 double timeOf(const View& view, std::uint32_t index) {
     return static_cast<double>(lensSamples(view.lens, RenderSettings{}.sequence, index, 1, 0).front().time);
-}
-
-bool sameBits(const Image& a, const Image& b) {
-    return a.pixels.size() == b.pixels.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
 }
 
 double sumOf(const Image& image) {
@@ -88,7 +84,7 @@ TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
     square.world.shutter.poses.assign(2, square.world.pose);
     square.world.shutter.poses[0].objects[0].worldFromObject = square.at({-way / 2, 0}, a);
     square.world.shutter.poses[1].objects[0].worldFromObject = square.at({way / 2, 0}, a);
-    const Image image = rendered(square.world, square.view, settingsFor(1024));
+    const Image image = renderedInFloat(square.world, square.view, fullDetailFor(1024));
     for (int x = 0; x < 128; ++x) {
         const double place = x + 0.5 - 64;
         const double from = std::max((place - a) / way + 0.5, 0.0);
@@ -100,22 +96,22 @@ TEST_F(Motion, aSquareThatGoesByLeavesATrapezoid) {
 
 TEST_F(Motion, keepsTheEnergyOfWhatMoves) {
     WhiteSquare square(6);
-    const double still = sumOf(rendered(square.world, square.view, settingsFor(64)));
+    const double still = sumOf(renderedInFloat(square.world, square.view, fullDetailFor(64)));
     square.world.shutter.poses.assign(2, square.world.pose);
     square.world.shutter.poses[0].objects[0].worldFromObject = square.at({-30, -11}, 6);
     square.world.shutter.poses[1].objects[0].worldFromObject = square.at({25, 20}, 6);
     square.view.lens.dofEnabled = true;
     square.view.lens.fStop = 0.8;
     square.view.lens.focusDistance = 2;
-    EXPECT_NEAR(sumOf(rendered(square.world, square.view, settingsFor(64))), still, 0.01 * still);
+    EXPECT_NEAR(sumOf(renderedInFloat(square.world, square.view, fullDetailFor(64))), still, 0.01 * still);
 }
 
 TEST_F(Motion, anOpenShutterChangesNoBitOfAStillScene) {
     const auto small = fiveSpheres();
-    const Image still = rendered(small->world, small->view, settingsFor(16));
+    const Image still = renderedInFloat(small->world, small->view, fullDetailFor(16));
     small->world.shutter.poses.assign(5, small->world.pose);
     small->view.shutterCameras.assign(5, small->view.worldFromCamera);
-    EXPECT_TRUE(sameBits(rendered(small->world, small->view, settingsFor(16)), still));
+    EXPECT_TRUE(sameBits(renderedInFloat(small->world, small->view, fullDetailFor(16)), still));
 }
 
 // Post-process methods draw the middle of the exposure.
@@ -123,7 +119,7 @@ TEST_F(Motion, postProcessMethodsDrawTheMiddle) {
     const auto small = fiveSpheres();
     const auto circular = [&] {
         const auto renderer = methodNamed("circular").make(small->world, {});
-        renderer->start(planFrame(small->world, small->view, settingsFor(4)));
+        renderer->start(planFrame(small->world, small->view, fullDetailFor(4)));
         while (renderer->advance()) {
         }
         return renderer->image();
@@ -150,7 +146,7 @@ TEST_F(Motion, segmentsFollowARotation) {
         square.world.shutter.perSample = perSample;
         for (std::size_t i = 0; i < shares.size(); ++i)
             square.world.shutter.poses[i].objects[0].worldFromObject = turnedBy(shares[i]);
-        return rendered(square.world, square.view, settingsFor(samples));
+        return renderedInFloat(square.world, square.view, fullDetailFor(samples));
     };
     std::vector<double> exactShares, sixteenShares;
     for (std::uint32_t i = 0; i < samples; ++i) exactShares.push_back(timeOf(square.view, i));
@@ -176,9 +172,9 @@ Image meanOfMoments(const World& world, const View& view, std::uint32_t samples)
         View from = view;
         from.worldFromCamera = view.shutterCameras[i];
         from.shutterCameras.clear();
-        RenderSettings settings = settingsFor(1);
+        RenderSettings settings = fullDetailFor(1);
         settings.firstSample = i;
-        const Image one = rendered(still, from, settings);
+        const Image one = renderedInFloat(still, from, settings);
         if (sum.empty()) sum = Image(one.width, one.height, one.channels);
         for (std::size_t p = 0; p < sum.pixels.size(); ++p)
             sum.pixels[p] += one.pixels[p] / static_cast<float>(samples);
@@ -205,12 +201,12 @@ TEST_F(Motion, aRunningFoxBeforeAMovingCameraIsTheMeanOfItsMoments) {
         small->world.shutter.poses.push_back(unmeasuredPoseAt(small->scene, 0.3 + 0.1 * (time - 0.5), 2));
         view.shutterCameras.push_back(glm::rotate(view.worldFromCamera, 0.1 * (time - 0.5), glm::dvec3(0, 1, 0.5)));
     }
-    const Image blurred = rendered(small->world, view, settingsFor(samples));
+    const Image blurred = renderedInFloat(small->world, view, fullDetailFor(samples));
     const Image mean = meanOfMoments(small->world, view, samples);
     EXPECT_GT(compareImages(mean, blurred).psnr, 60);
     small->world.shutter = {};
     view.shutterCameras.clear();
-    EXPECT_LT(compareImages(mean, rendered(small->world, view, settingsFor(samples))).psnr, 35);
+    EXPECT_LT(compareImages(mean, renderedInFloat(small->world, view, fullDetailFor(samples))).psnr, 35);
 }
 
 // Five spheres with a morph target, all of them on straight ways, before a camera that moves too.
@@ -253,7 +249,7 @@ TEST_F(Motion, oneSegmentIsExactForTranslationAndMorphs) {
         std::vector<double> times;
         for (std::uint32_t i = 0; i < samples; ++i) times.push_back(timeOf(small->view, i));
         openShutter(*small, {0, 1});
-        const Image linear = rendered(small->world, small->view, settingsFor(samples));
+        const Image linear = renderedInFloat(small->world, small->view, fullDetailFor(samples));
         openShutter(*small, times);
         const Image mean = meanOfMoments(small->world, small->view, samples);
         EXPECT_GT(compareImages(mean, linear).psnr, 55) << controlled;

@@ -20,7 +20,7 @@ protected:
 };
 std::unique_ptr<GlContext> Posing::context_;
 
-Image rendered(const SmallWorld& small, const RenderSettings& settings, const char* method = "accumulation") {
+Image renderedInHalf(const SmallWorld& small, const RenderSettings& settings, const char* method = "accumulation") {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba16f;
     const auto renderer = methodNamed(method).make(small.world, options);
@@ -49,8 +49,8 @@ TEST_F(Posing, modelsEqualTheirBakedMeshes) {
         DEFOCUS_MODEL_OR_SKIP(path, file);
         for (const double time : {0.0, 0.4, 1.1}) {
             const auto posed = posedWorld(path, time, clip);
-            expectSamePicture(rendered(*posed, fullDetailSettings()),
-                              rendered(*bakedWorld(*posed, 0), fullDetailSettings()),
+            expectSamePicture(renderedInHalf(*posed, fullDetailSettings()),
+                              renderedInHalf(*bakedWorld(*posed, 0), fullDetailSettings()),
                               std::string(file) + " at " + std::to_string(time));
         }
     }
@@ -68,9 +68,9 @@ TEST_F(Posing, coarseLevelsArePosedToo) {
         coarse.thresholds = {0, 1e6};
         const FramePlan plan = planFrame(posed->world, posed->view, coarse);
         ASSERT_EQ(plan.objects.at(0).fine.level, posed->world.pyramids[0].levels.size() - 1);
-        const Image image = rendered(*posed, coarse);
-        expectSamePicture(image, rendered(*bakedWorld(*posed, 99), fullDetailSettings()), file);
-        EXPECT_LT(compareImages(rendered(*posed, fullDetailSettings()), image).psnr, 50) << file;
+        const Image image = renderedInHalf(*posed, coarse);
+        expectSamePicture(image, renderedInHalf(*bakedWorld(*posed, 99), fullDetailSettings()), file);
+        EXPECT_LT(compareImages(renderedInHalf(*posed, fullDetailSettings()), image).psnr, 50) << file;
     }
 }
 
@@ -112,12 +112,12 @@ TEST_F(Posing, eightInfluencesAndMorphsTogether) {
     small.view.lens.focusDistance = 4;
     finish(small);
     const auto baked = bakedWorld(small, 0);
-    const Image image = rendered(small, fullDetailSettings());
-    expectSamePicture(image, rendered(*baked, fullDetailSettings()), "accumulation");
-    expectSamePicture(rendered(small, fullDetailSettings(), "circular"),
-                      rendered(*baked, fullDetailSettings(), "circular"), "circular");
+    const Image image = renderedInHalf(small, fullDetailSettings());
+    expectSamePicture(image, renderedInHalf(*baked, fullDetailSettings()), "accumulation");
+    expectSamePicture(renderedInHalf(small, fullDetailSettings(), "circular"),
+                      renderedInHalf(*baked, fullDetailSettings(), "circular"), "circular");
     object.morphWeights = {0, 0, 0};
-    EXPECT_LT(compareImages(rendered(small, fullDetailSettings()), image).psnr, 40);
+    EXPECT_LT(compareImages(renderedInHalf(small, fullDetailSettings()), image).psnr, 40);
 }
 
 TEST_F(Posing, depthsAreThoseOfThePosedSurface) {
@@ -168,7 +168,7 @@ TEST_F(Posing, tangentsTurnToo) {
     auto placed = wall();
     place(*placed, 0, inFront * turn);
     finish(*placed);
-    const Image expected = rendered(*placed, fullDetailSettings());
+    const Image expected = renderedInHalf(*placed, fullDetailSettings());
 
     auto skinned = wall();
     skinned->scene.meshes[0].vertices.joints.assign(4, {1, 0, 0, 0});
@@ -176,7 +176,7 @@ TEST_F(Posing, tangentsTurnToo) {
     place(*skinned, 0, glm::dmat4(1));
     skinned->world.pose.objects[0].worldFromJoint = {glm::dmat4(1), inFront * turn};
     finish(*skinned);
-    expectSamePicture(rendered(*skinned, fullDetailSettings()), expected, "skin");
+    expectSamePicture(renderedInHalf(*skinned, fullDetailSettings()), expected, "skin");
 
     auto morphed = wall();
     Mesh& mesh = morphed->scene.meshes[0];
@@ -192,9 +192,9 @@ TEST_F(Posing, tangentsTurnToo) {
     place(*morphed, 0, inFront);
     morphed->world.pose.objects[0].morphWeights = {1};
     finish(*morphed);
-    expectSamePicture(rendered(*morphed, fullDetailSettings()), expected, "morph");
+    expectSamePicture(renderedInHalf(*morphed, fullDetailSettings()), expected, "morph");
     morphed->scene.meshes[0].morphTargets[0].tangents.clear();
-    EXPECT_LT(compareImages(expected, rendered(*morphed, fullDetailSettings())).psnr, 45);
+    EXPECT_LT(compareImages(expected, renderedInHalf(*morphed, fullDetailSettings())).psnr, 45);
 }
 
 }  // namespace

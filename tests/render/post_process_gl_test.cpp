@@ -41,7 +41,8 @@ Image rendered(const SmallWorld& small, const char* method, const RendererOption
     return renderer->image();
 }
 
-double largestDifference(const Image& a, const Image& b, int left = 0, int right = std::numeric_limits<int>::max()) {
+double largestDifferenceInColumns(const Image& a, const Image& b, int left = 0,
+                                  int right = std::numeric_limits<int>::max()) {
     double largest = 0;
     for (int y = 0; y < a.height; ++y)
         for (int x = left; x < std::min(right, a.width); ++x)
@@ -88,7 +89,7 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     // The same pinholes through the other method's passes.
     small->view.lens.dofEnabled = false;
     const std::string pinholes = std::string(GetParam()).starts_with("circular") ? "scheuermann" : "circular";
-    EXPECT_LT(largestDifference(image, rendered(*small, pinholes.c_str())), 2e-3);
+    EXPECT_LT(largestDifferenceInColumns(image, rendered(*small, pinholes.c_str())), 2e-3);
 
     // One pinhole is the accumulation's single sample.
     RenderSettings one = settingsOf();
@@ -98,7 +99,8 @@ TEST_P(PostProcesses, apertureZeroIsThePinhole) {
     accumulation->advance();
     const std::string single =
         std::string(GetParam()) + (std::string(GetParam()).find(':') == std::string::npos ? ":" : ",");
-    EXPECT_LT(largestDifference(accumulation->image(), rendered(*small, (single + "pinholes=1").c_str())), 2e-3);
+    EXPECT_LT(largestDifferenceInColumns(accumulation->image(), rendered(*small, (single + "pinholes=1").c_str())),
+              2e-3);
 }
 
 TEST_P(PostProcesses, aConstantSceneStaysConstant) {
@@ -111,7 +113,7 @@ TEST_P(PostProcesses, aConstantSceneStaysConstant) {
     const Image image = rendered(*small, GetParam());
     small->view.lens.dofEnabled = false;  // the same constant as half floats hold it
     const bool tenBits = std::string(GetParam()).find("r10g10b10a2") != std::string::npos;
-    EXPECT_LT(largestDifference(image, rendered(*small, GetParam())), tenBits ? 6e-3 : 1e-3);
+    EXPECT_LT(largestDifferenceInColumns(image, rendered(*small, GetParam())), tenBits ? 6e-3 : 1e-3);
 }
 
 TEST_P(PostProcesses, aHighlightKeepsItsEnergyWhereTheBlurIsTheSame) {
@@ -161,7 +163,7 @@ TEST_P(PostProcesses, whatIsInFocusStaysWhenOnlyTheBackgroundBlurs) {
     small->view.lens.dofEnabled = false;
     const Image sharp = rendered(*small, GetParam());
     const int edge = 48;  // the board ends in the middle
-    EXPECT_LT(largestDifference(image, sharp, 0, edge - 1), 2e-3);
+    EXPECT_LT(largestDifferenceInColumns(image, sharp, 0, edge - 1), 2e-3);
 }
 
 TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
@@ -173,8 +175,8 @@ TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
     const Image image = rendered(*small, GetParam());
     small->view.lens.dofEnabled = false;
     const Image sharp = rendered(*small, GetParam());
-    EXPECT_LT(largestDifference(image, sharp, 12, 46), 2e-3);
-    EXPECT_GT(largestDifference(image, sharp, 52, 90), 0.02);
+    EXPECT_LT(largestDifferenceInColumns(image, sharp, 12, 46), 2e-3);
+    EXPECT_GT(largestDifferenceInColumns(image, sharp, 52, 90), 0.02);
 }
 
 TEST_P(PostProcesses, brightPixelsLeaveNoHoles) {

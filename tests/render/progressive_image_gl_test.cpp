@@ -9,6 +9,7 @@
 #include "gl/read_back.h"
 #include "image/metrics.h"
 #include "image/tone_map.h"
+#include "likeness.h"
 #include "render/display_pass.h"
 #include "render/progressive_image.h"
 #include "small_world.h"
@@ -63,11 +64,6 @@ protected:
     static std::unique_ptr<GlContext> context_;
 };
 std::unique_ptr<GlContext> Growing::context_;
-
-bool sameBits(const Image& a, const Image& b) {
-    return a.pixels.size() == b.pixels.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
-}
 
 TEST_F(Growing, blocksAddUpToTheFrameRenderedAtOnce) {
     ProgressiveImage image = progressive();

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "gl/context.h"
+#include "likeness.h"
 #include "render/methods.h"
 #include "small_world.h"
 
@@ -20,7 +21,7 @@ protected:
 };
 std::unique_ptr<GlContext> ScreenDoor::context_;
 
-RenderSettings settingsFor(std::uint32_t samples) {
+RenderSettings continuousFor(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::continuous;
@@ -62,21 +63,9 @@ std::unique_ptr<SmallWorld> oneSphere() {
     return small;
 }
 
-bool sameBits(const Image& a, const Image& b) {
-    return a.pixels.size() == b.pixels.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
-}
-
-double largestDifference(const Image& a, const Image& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        largest = std::max(largest, std::abs(double(a.pixels[i]) - double(b.pixels[i])));
-    return largest;
-}
-
 TEST_F(ScreenDoor, waveSizeChangesNoBit) {
     const auto small = fiveSpheres();
-    const FramePlan plan = planFrame(small->world, small->view, settingsFor(100));
+    const FramePlan plan = planFrame(small->world, small->view, continuousFor(100));
     ASSERT_GE(sharingObjects(plan), 2);
     for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5}) {
         RendererOptions options;
@@ -95,7 +84,7 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 8;
     const auto split = [&](std::uint32_t coarseCount) {
-        FramePlan plan = planFrame(small->world, small->view, settingsFor(samples));
+        FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
         setSplit(plan, small->world, 2, coarseCount, 0);
         return renderedPlan(*small, plan);
     };
@@ -103,7 +92,7 @@ TEST_F(ScreenDoor, pixelsAreThoseOfOneSplitOrTheOther) {
     const Image more = split(4);
     std::vector<bool> coarseBefore(n.pixels.size() / 4, false);
     for (const double share : {0.1, 0.25, 0.5, 0.75, 0.9}) {
-        FramePlan plan = planFrame(small->world, small->view, settingsFor(samples));
+        FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
         setSplit(plan, small->world, 2, 3, share);
         const Image image = renderedPlan(*small, plan);
         int differing = 0;
@@ -133,7 +122,7 @@ TEST_F(ScreenDoor, costsNoMoreThanASampleOfCoverage) {
     finish(*small);
     small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
     for (const std::uint32_t samples : {1u, 8u, 32u}) {
-        FramePlan plan = planFrame(small->world, small->view, settingsFor(samples));
+        FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
         const auto last = static_cast<std::uint32_t>(small->world.pyramids[0].levels.size() - 2);  // coarse outlines
         setSplit(plan, small->world, last, samples / 2, 0);
         const Image whole = renderedPlan(*small, plan);
@@ -149,7 +138,7 @@ TEST_F(ScreenDoor, changesLittleWithLambda) {
     const auto small = oneSphere();
     constexpr std::uint32_t samples = 16;
     const auto at = [&](double lambda) {
-        FramePlan plan = planFrame(small->world, small->view, settingsFor(samples));
+        FramePlan plan = planFrame(small->world, small->view, continuousFor(samples));
         const SampleSplit split = splitSamples(lambda, samples, LodMode::continuous);
         setSplit(plan, small->world, split.level, split.coarseCount, split.boundaryShare);
         return renderedPlan(*small, plan);
@@ -173,7 +162,7 @@ TEST_F(ScreenDoor, ofBlendedSurfacesLeavesNoHole) {
     small->scene.meshes[0].vertices.colors.clear();
     finish(*small);
     small->world.environment = {EnvironmentType::uniform, {1, 0, 0}, {}, {}, nullptr, 1};
-    FramePlan plan = planFrame(small->world, small->view, settingsFor(1));
+    FramePlan plan = planFrame(small->world, small->view, continuousFor(1));
     setSplit(plan, small->world, 1, 0, 0.4);
     const Image image = renderedPlan(*small, plan);
     EXPECT_NEAR(image.at(80, 60)[0], 0.6, 2e-3);  // half of the sphere's, half of the background's, at each pixel

@@ -16,8 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-const std::vector<float> unitTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-
 json attributesOf(GltfBuilder& builder) {
     return {{"POSITION", builder.positions(unitTriangle)}};
 }

@@ -15,6 +15,8 @@
 
 namespace defocus {
 
+inline const std::vector<float> unitTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};  // positions
+
 // glTF's component types.
 inline constexpr int gltfByte = 5120, gltfUnsignedByte = 5121, gltfShort = 5122, gltfUnsignedShort = 5123,
                      gltfUnsignedInt = 5125, gltfFloat = 5126;

@@ -12,8 +12,6 @@
 namespace defocus {
 namespace {
 
-const std::vector<float> unitTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-
 using IndexList = std::vector<std::uint32_t>;
 
 // The positions of the first mesh's triangles, in order.

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "near.h"
 #include "scene/animation.h"
 
 namespace defocus {
@@ -37,11 +38,6 @@ Scene parentAndChild() {
     scene.nodes[1].translation = {1, 0, 0};
     scene.roots = {0};
     return scene;
-}
-
-void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-12) {
-    EXPECT_LT(glm::length(a - b), tolerance)
-        << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
 }
 
 TEST(Pose, childrenFollowTheirParents) {

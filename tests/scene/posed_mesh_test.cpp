@@ -9,17 +9,17 @@
 #include <limits>
 #include <numbers>
 
+#include "near.h"
 #include "scene/pick.h"
 
 namespace defocus {
 namespace {
 
-constexpr double quarter = std::numbers::pi / 2;
-
-void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-6) {
-    EXPECT_LT(glm::length(a - b), tolerance)
-        << a.x << " " << a.y << " " << a.z << " is not " << b.x << " " << b.y << " " << b.z;
+void expectNearInFloat(const glm::dvec3& a, const glm::dvec3& b) {
+    expectNear(a, b, 1e-6);
 }
+
+constexpr double quarter = std::numbers::pi / 2;
 
 // One triangle; each vertex follows joint 0 but where a test says otherwise.
 Mesh skinnedTriangle() {
@@ -44,9 +44,9 @@ TEST(PosedMesh, jointsMoveByTheirWeights) {
     Mesh mesh = skinnedTriangle();
     mesh.vertices.weights = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0.25f, 0.75f, 0, 0}};
     const std::vector<glm::dvec3> positions = posedPositions(mesh, twoJoints());
-    expectNear(positions[0], {11, 0, 0});
-    expectNear(positions[1], {0, 2, 0});  // (2, 0, 0) a quarter turn on
-    expectNear(positions[2], 0.25 * glm::dvec3(10, 1, 0) + 0.75 * glm::dvec3(-1, 0, 0));
+    expectNearInFloat(positions[0], {11, 0, 0});
+    expectNearInFloat(positions[1], {0, 2, 0});  // (2, 0, 0) a quarter turn on
+    expectNearInFloat(positions[2], 0.25 * glm::dvec3(10, 1, 0) + 0.75 * glm::dvec3(-1, 0, 0));
 }
 
 TEST(PosedMesh, eightInfluencesAddUp) {
@@ -61,7 +61,7 @@ TEST(PosedMesh, eightInfluencesAddUp) {
         object.worldFromJoint.push_back(glm::translate(glm::dmat4(1), glm::dvec3(j, j * j, 1)));
         sum += glm::dvec3(j, j * j, 1) / 8.0;
     }
-    expectNear(posedPositions(mesh, object)[0], glm::dvec3(1, 0, 0) + sum);
+    expectNearInFloat(posedPositions(mesh, object)[0], glm::dvec3(1, 0, 0) + sum);
 }
 
 TEST(PosedMesh, weightsThatAreNoneAndJointsThatAreMissing) {
@@ -69,9 +69,9 @@ TEST(PosedMesh, weightsThatAreNoneAndJointsThatAreMissing) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     mesh.vertices.weights = {{nan, 0.5f, -1, 0}, {0, 0, 0, 0}, {0, 0, 0, 3}};
     const std::vector<glm::dvec3> positions = posedPositions(mesh, twoJoints());
-    expectNear(positions[0], {0, 1, 0});   // only joint 1 counts, and counts wholly
-    expectNear(positions[1], {12, 0, 0});  // no weight: the first joint
-    expectNear(positions[2], {10, 1, 0});  // joint 3 doesn't exist: the first
+    expectNearInFloat(positions[0], {0, 1, 0});   // only joint 1 counts, and counts wholly
+    expectNearInFloat(positions[1], {12, 0, 0});  // no weight: the first joint
+    expectNearInFloat(positions[2], {10, 1, 0});  // joint 3 doesn't exist: the first
 }
 
 TEST(PosedMesh, morphTargetsComeBeforeTheSkin) {
@@ -80,9 +80,9 @@ TEST(PosedMesh, morphTargetsComeBeforeTheSkin) {
     mesh.morphTargets = {{{{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, {}, {}}, {{{0, 0, 2}, {0, 0, 2}, {0, 0, 2}}, {}, {}}, {}};
     Object object = twoJoints();
     object.morphWeights = {0.5, -1, 7};
-    expectNear(posedPositions(mesh, object)[0], {0, 1.5, -2});
+    expectNearInFloat(posedPositions(mesh, object)[0], {0, 1.5, -2});
     object.morphWeights = {std::numeric_limits<double>::quiet_NaN(), 0};  // no number, and fewer than targets
-    expectNear(posedPositions(mesh, object)[0], {0, 1, 0});
+    expectNearInFloat(posedPositions(mesh, object)[0], {0, 1, 0});
 }
 
 // A plane's normal stays perpendicular to it however its space is stretched, and keeps its length.
@@ -108,8 +108,8 @@ TEST(PosedMesh, plainObjectsAreOnlyPlaced) {
     object.worldFromObject = glm::translate(glm::dmat4(1), glm::dvec3(0, 5, 0));
     object.morphWeights = {0, 0};
     EXPECT_FALSE(deformed(object));
-    expectNear(posedPositions(mesh, object)[1], {2, 5, 0});
-    expectNear(posedBounds(mesh, object).maximum, {2, 6, 0});
+    expectNearInFloat(posedPositions(mesh, object)[1], {2, 5, 0});
+    expectNearInFloat(posedBounds(mesh, object).maximum, {2, 6, 0});
 }
 
 // A triangle whose joint carries it in front of the ray.
@@ -128,7 +128,7 @@ TEST(PosedMesh, raysMeetThePosedTriangle) {
     const auto hit = firstHit(scene, pose, {50, 0, 10}, {0, 0, -1});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->distance, 14, 1e-9);
-    expectNear(nodeCentre(scene, pose, 0), {50, 0, -4});
+    expectNearInFloat(nodeCentre(scene, pose, 0), {50, 0, -4});
 }
 
 }  // namespace

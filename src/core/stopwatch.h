@@ -1,0 +1,14 @@
+#pragma once
+// Wall-clock time that passed, for figures that people read.
+
+#include <chrono>
+
+namespace defocus {
+
+using Clock = std::chrono::steady_clock;
+
+inline double millisecondsSince(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+}  // namespace defocus

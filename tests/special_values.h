@@ -1,0 +1,11 @@
+#pragma once
+// Values that arithmetic meets at its ends, for tests.
+
+#include <limits>
+
+namespace defocus {
+
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+inline constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace defocus
