@@ -5,7 +5,10 @@ include(CheckIPOSupported)
 
 add_library(defocus_options INTERFACE)
 target_compile_features(defocus_options INTERFACE cxx_std_20)
-target_compile_options(defocus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+target_compile_options(defocus_options INTERFACE -Wall -Wextra -Wpedantic -Wnon-virtual-dtor)
+if(NOT CMAKE_UNITY_BUILD)  # there, a local name may be that of another file's helper
+    target_compile_options(defocus_options INTERFACE -Wshadow)
+endif()
 if(DEFOCUS_WARNINGS_AS_ERRORS)
     target_compile_options(defocus_options INTERFACE -Werror)
 endif()
