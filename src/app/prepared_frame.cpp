@@ -189,7 +189,7 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     // The scene, at its time.
     const Stopwatch loading;
     PreparedFrame frame;
-    frame.scene = std::make_unique<Scene>(loadScene(options, progress));
+    frame.scene = std::make_shared<Scene>(loadScene(options, progress));
     frame.sceneName = options.path.empty() ? "fish school" : options.path.filename().string();
     for (const auto& [name, scale] : options.nodeBlur)
         frame.scene->nodes[static_cast<std::size_t>(nodeNamed(*frame.scene, name))].cocScale = scale;

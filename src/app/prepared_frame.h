@@ -13,7 +13,7 @@
 namespace defocus {
 
 struct PreparedFrame {
-    std::unique_ptr<Scene> scene;  // world points to it
+    std::shared_ptr<Scene> scene;  // world points to it
     World world;
     View view;
     RenderSettings settings;

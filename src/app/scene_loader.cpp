@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
+#include "lod/draft.h"
 
 namespace defocus {
 
 namespace {
 
 constexpr std::size_t mostPreviewBoxes = 400;
+constexpr std::uint64_t draftTriangles = 60'000;  // of all meshes; a scene of no more has its pyramids soon enough
 
 std::shared_ptr<const ScenePreview> previewOf(const PreparedFrame& frame) {
     auto preview = std::make_shared<ScenePreview>();
@@ -27,6 +31,22 @@ std::shared_ptr<const ScenePreview> previewOf(const PreparedFrame& frame) {
     return preview;
 }
 
+// Null where it isn't worth while.
+std::unique_ptr<PreparedFrame> draftOf(const PreparedFrame& frame) {
+    const std::vector<Mesh>& meshes = frame.scene->meshes;
+    std::uint64_t total = 0;
+    for (const Mesh& mesh : meshes) total += mesh.triangleCount();
+    if (total <= draftTriangles) return nullptr;
+    auto draft = std::make_unique<PreparedFrame>(frame);
+    draft->world.pyramids.resize(meshes.size());
+    parallelFor(meshes.size(), [&](std::size_t i) {
+        const double share = static_cast<double>(meshes[i].triangleCount()) / static_cast<double>(total);
+        draft->world.pyramids[i] =
+            draftPyramid(meshes[i], std::max(256u, static_cast<std::uint32_t>(share * draftTriangles)));
+    });
+    return draft;
+}
+
 }  // namespace
 
 SceneLoader::~SceneLoader() {
@@ -34,7 +54,8 @@ SceneLoader::~SceneLoader() {
 }
 
 void SceneLoader::open(const SceneOptions& options) {
-    for (const std::unique_ptr<Job>& job : jobs_) job->cancelled = true;
+    for (const std::unique_ptr<Job>& job : jobs_)
+        if (!job->draftTaken) job->cancelled = true;
     Job& job = *jobs_.emplace_back(std::make_unique<Job>());
     job.options = options;
     job.thread = std::jthread([&job] { run(job); });
@@ -55,6 +76,10 @@ void SceneLoader::run(Job& job) {
             const std::scoped_lock lock(job.mutex);
             job.preview = std::move(preview);
         }
+        if (auto draft = draftOf(*frame)) {
+            const std::scoped_lock lock(job.mutex);
+            job.draft = LoadedScene{job.options, std::move(draft), {}, true};
+        }
         // The levels of every mode: a window switches between them at any time.
         frame->settings.lod = job.options.lod == LodMode::off ? LodMode::fractional : job.options.lod;
         addPyramids(*frame, progress);
@@ -72,8 +97,19 @@ void SceneLoader::run(Job& job) {
 
 std::optional<LoadedScene> SceneLoader::take() {
     std::optional<LoadedScene> result;
-    for (const std::unique_ptr<Job>& job : jobs_)
-        if (job->done && !job->cancelled) result = std::move(job->result);
+    for (auto job = jobs_.rbegin(); job != jobs_.rend() && !result; ++job) {
+        if ((*job)->cancelled) continue;
+        if ((*job)->done) {
+            result = std::move((*job)->result);
+        } else {
+            const std::scoped_lock lock((*job)->mutex);
+            if (!(*job)->draft) continue;
+            result = std::exchange((*job)->draft, std::nullopt);
+            (*job)->draftTaken = true;
+        }
+        if (!result->frame) break;
+        for (auto older = std::next(job); older != jobs_.rend(); ++older) (*older)->cancelled = true;
+    }
     std::erase_if(jobs_, [](const std::unique_ptr<Job>& job) { return job->done.load(); });
     return result;
 }

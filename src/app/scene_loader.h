@@ -25,6 +25,7 @@ struct LoadedScene {
     SceneOptions options;
     std::unique_ptr<PreparedFrame> frame;  // null: it failed
     std::string fault;                     // why
+    bool draft = false;                    // with coarse stand-ins for its pyramids: they follow, with the same scene
 };
 
 class SceneLoader {
@@ -35,9 +36,9 @@ public:
     SceneLoader(const SceneLoader&) = delete;
     SceneLoader& operator=(const SceneLoader&) = delete;
 
-    // Starts on a scene; one that is still being opened is given up.
+    // Starts on a scene; one that is still being opened is given up, unless its draft is being shown.
     void open(const SceneOptions& options);
-    // The scene once it is there, or why it isn't; each is handed over once.
+    // The scene once it is there, or its draft, or why it isn't; each is handed over once.
     std::optional<LoadedScene> take();
 
     [[nodiscard]] bool busy() const { return !jobs_.empty() && !jobs_.back()->cancelled; }
@@ -51,10 +52,12 @@ private:
         SceneOptions options;
         std::atomic<bool> cancelled = false;
         std::atomic<bool> done = false;
+        bool draftTaken = false;
         mutable std::mutex mutex;  // of what follows
         std::string stage = "opening";
         double share = 0;
         std::shared_ptr<const ScenePreview> preview;
+        std::optional<LoadedScene> draft;
         LoadedScene result;
         std::jthread thread;
     };

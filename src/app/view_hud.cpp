@@ -176,8 +176,9 @@ void drawLoading(const HudContext& context) {
         }
     }
     const float s = context.scale;
-    const ImVec2 centre = corner(context, 0.5, 0.5);
     const ImVec2 half(150 * s, 34 * s);
+    ImVec2 centre = corner(context, 0.5, context.frame == nullptr ? 0.5 : 1);
+    if (context.frame != nullptr) centre.y -= half.y + 56 * s;  // something is shown already: not in its way
     list.AddRectFilled({centre.x - half.x, centre.y - half.y}, {centre.x + half.x, centre.y + half.y}, plate, 6 * s);
     const std::string text = fmt::format("Opening {}: {}", context.loader->name(), context.loader->stage());
     list.PushClipRect({centre.x - half.x + 8 * s, centre.y - half.y}, {centre.x + half.x - 8 * s, centre.y + half.y},

@@ -107,13 +107,13 @@ void ViewSession::frame() {
     window_.beginFrame(windowColor(state_.dark));
     drawInterface();
     interface_.endFrame();
-    const bool last = options_.frames > 0 && picture_ && framesWithScene_ + 1 == options_.frames;
+    const bool last = options_.frames > 0 && picture_ && !draft_ && framesWithScene_ + 1 == options_.frames;
     if (last && !options_.screenshot.empty()) takeScreenshot(options_.screenshot);
     if (actions_.screenshot) takeScreenshot({});
     window_.endFrame();
     interfaceMilliseconds_ = millisecondsSince(interfaceBegin);
     act();
-    if (picture_) ++framesWithScene_;
+    if (picture_ && !draft_) ++framesWithScene_;
     frameMilliseconds_ = millisecondsSince(begin);
     frameTimes_.push_back(static_cast<float>(frameMilliseconds_));
     if (frameTimes_.size() > shownFrameTimes) frameTimes_.erase(frameTimes_.begin());
@@ -122,11 +122,11 @@ void ViewSession::frame() {
 
 // Nothing moves and nothing grows: sleep until something happens.
 double ViewSession::waitingTime() const {
-    if (loader_.busy()) return 0.03;
-    if (!picture_) return 0.1;
+    if (!picture_) return loader_.busy() ? 0.03 : 0.1;
     if (export_ || state_.animation.playing || state_.pull || state_.poppingSince || !picture_->finished() ||
         options_.frames > 0)
         return 0;
+    if (loader_.busy()) return 0.03;
     return state_.messages.empty() ? 0.25 : 0.1;
 }
 

@@ -39,6 +39,7 @@ private:
     void frame();
     void takeScene();
     void adoptScene(LoadedScene scene);
+    void refineScene(PreparedFrame& frame);
     void handleEvents(const std::vector<WindowEvent>& events);
     void moveThings(double seconds);
     void poseScene();
@@ -78,6 +79,7 @@ private:
     ViewActions actions_;
     SceneLoader loader_;
     std::unique_ptr<PreparedFrame> frame_;
+    bool draft_ = false;  // its pyramids are yet to come
     std::optional<ViewPicture> picture_;
     std::optional<StillExport> export_;
     std::uint64_t poseVersion_ = 0;

@@ -94,6 +94,10 @@ WriteOptions ViewSession::writeOptions() const {
 }
 
 void ViewSession::beginExport() {
+    if (draft_) {
+        say("A still waits for the simplified meshes: try again in a moment", true);
+        return;
+    }
     state_.animation.playing = false;
     StillRequest still;
     still.options = state_.options;
@@ -148,6 +152,7 @@ void ViewSession::writeStats() {
     nlohmann::ordered_json json = {
         {"scene", frame_ ? frame_->sceneName : ""},
         {"loading", loader_.busy()},
+        {"draft", draft_},
         {"fault", fault_},
         {"samples", picture_ ? picture_->samples() : 0},
         {"moving", picture_ && picture_->moving()},

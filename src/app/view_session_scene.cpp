@@ -14,17 +14,29 @@ namespace defocus {
 void ViewSession::takeScene() {
     std::optional<LoadedScene> loaded = loader_.take();
     if (!loaded) return;
-    if (loaded->frame) {
+    if (!loaded->frame) {
+        say(loaded->fault, true);
+    } else if (frame_ && frame_->scene == loaded->frame->scene) {
+        refineScene(*loaded->frame);
+    } else {
         adoptScene(std::move(*loaded));
-        return;
     }
-    say(loaded->fault, true);
+}
+
+// The draft that is shown gets its pyramids; whatever has been done meanwhile stays.
+void ViewSession::refineScene(PreparedFrame& frame) {
+    picture_.reset();
+    frame_->world.pyramids = std::move(frame.world.pyramids);
+    draft_ = false;
+    if (!frame.cacheFailure.empty()) say("simplified meshes are not kept: " + frame.cacheFailure, true);
+    makePicture();
 }
 
 void ViewSession::adoptScene(LoadedScene scene) {
     export_.reset();
     picture_.reset();
     frame_ = std::move(scene.frame);
+    draft_ = scene.draft;
     state_.options = scene.options;
     const int clip = scene.options.clip.empty() ? 0 : clipNamed(*frame_->scene, scene.options.clip);
     state_.animation = {.clip = clip, .time = scene.options.time, .speed = state_.animation.speed, .playing = false};

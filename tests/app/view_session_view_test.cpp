@@ -165,6 +165,22 @@ TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     EXPECT_EQ(ended(), 0);
 }
 
+TEST_F(View, coarseShapesAppearFirstAndWhatWasDoneWithThemStays) {
+    start({"--fish", "4", "--fish-triangles", "90000", "--size", "320x240"});
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("draft") == true && s.at("samples") > 0; })) << state();
+    EXPECT_EQ(state().at("loading"), true);
+    key("bracketright");  // the next stop
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("draft") == false && s.at("samples") > 0; })) << state();
+    const double stop = number("fStop");
+    EXPECT_EQ(state().at("loading"), false);
+    key("ctrl+q");
+    EXPECT_EQ(ended(), 0);
+    fs::remove(folder() / "state.json");
+    start({"--fish", "4", "--fish-triangles", "90000", "--size", "320x240"});
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("draft") == false && s.at("samples") > 0; })) << state();
+    EXPECT_GT(stop, number("fStop"));  // as it was changed
+}
+
 TEST_F(View, screenshotShowsPictureAndPanel) {
     writeTwoQuads(folder() / "quads.gltf");
     start({"quads.gltf", "--size", "400x300", "--screenshot", "window.png", "--frames", "12"});
