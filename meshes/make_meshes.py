@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, fish.glb and artefact-*.gltf. Python's standard
-library only.
+"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, fish.glb, artefact-*.gltf and swimmers.glb.
+Python's standard library only.
 
     make_meshes.py            write them beside this file
     make_meshes.py --check    compare them with what would be written; exit code 1 when one differs
@@ -8,134 +8,15 @@ library only.
 Output is deterministic: coordinates are rounded to 10 micrometres before they are stored.
 """
 
-import base64
-import json
 import math
 import pathlib
-import struct
 import sys
 
-FLOAT, UBYTE, USHORT = 5126, 5121, 5123
+sys.dont_write_bytecode = True  # no __pycache__ beside the scenes
+from gltf_document import Document, Surface, add_tube, linear, quaternion, smooth_normals
+from swimmers import swimmers
+
 HERE = pathlib.Path(__file__).resolve().parent
-
-
-class Document:
-    """A glTF document under construction, with one binary buffer."""
-
-    def __init__(self):
-        self.json = {"asset": {"version": "2.0", "generator": "defocus make_meshes.py"}, "scene": 0,
-                     "scenes": [{"nodes": []}], "nodes": [], "meshes": [], "materials": [], "accessors": [],
-                     "bufferViews": [], "cameras": []}
-        self.binary = bytearray()
-
-    def accessor(self, rows, component, kind, target, normalized=False, bounds=False):
-        code = {FLOAT: "f", UBYTE: "B", USHORT: "H"}[component]
-        values = [value for row in rows for value in row]
-        data = struct.pack(f"<{len(values)}{code}", *values)
-        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data),
-                                         "target": target})
-        self.binary += data + b"\0" * (-len(data) % 4)
-        accessor = {"bufferView": len(self.json["bufferViews"]) - 1, "componentType": component, "count": len(rows),
-                    "type": kind}
-        if normalized:
-            accessor["normalized"] = True
-        if bounds:
-            accessor["min"] = [min(column) for column in zip(*rows)]
-            accessor["max"] = [max(column) for column in zip(*rows)]
-        self.json["accessors"].append(accessor)
-        return len(self.json["accessors"]) - 1
-
-    def material(self, name, **fields):
-        self.json["materials"].append({"name": name, **fields})
-        for extension in fields.get("extensions", {}):
-            used = self.json.setdefault("extensionsUsed", [])
-            if extension not in used:
-                used.append(extension)
-        return len(self.json["materials"]) - 1
-
-    def mesh(self, name, surface, material):
-        positions = [tuple(as_float32(round(value, 5)) for value in p) for p in surface.positions]
-        attributes = {"POSITION": self.accessor(positions, FLOAT, "VEC3", 34962, bounds=True)}
-        if surface.normals:
-            attributes["NORMAL"] = self.accessor(unit_rows(surface.normals), FLOAT, "VEC3", 34962)
-        if surface.colors:
-            attributes["COLOR_0"] = self.accessor(surface.colors, UBYTE, "VEC4", 34962, normalized=True)
-        indices = self.accessor([(index,) for index in surface.indices], USHORT, "SCALAR", 34963)
-        self.json["meshes"].append({"name": name, "primitives": [{"attributes": attributes, "indices": indices,
-                                                                  "material": material}]})
-        return len(self.json["meshes"]) - 1
-
-    def node(self, name, **fields):
-        self.json["nodes"].append({"name": name, **fields})
-        self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
-
-    def camera(self, yfov, aspect, lens, **placement):
-        """`lens`: fStop, focusDistance (m) and horizontalAperture (mm) as the camera's extras."""
-        self.json["cameras"].append({"name": "Camera", "type": "perspective", "extras": lens,
-                                     "perspective": {"yfov": round(yfov, 7), "aspectRatio": aspect, "znear": 0.01}})
-        self.node("Camera", camera=len(self.json["cameras"]) - 1, **placement)
-
-    def sun(self, color, lux, rotation):
-        lights = self.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
-        lights.append({"name": "Sun", "type": "directional", "color": color, "intensity": lux})
-        self.json.setdefault("extensionsUsed", []).append("KHR_lights_punctual")
-        self.node("Sun", rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
-
-    def finished(self):
-        return {key: value for key, value in self.json.items() if value != []}
-
-    def gltf(self):
-        document = self.finished()
-        uri = "data:application/octet-stream;base64," + base64.b64encode(self.binary).decode()
-        document["buffers"] = [{"byteLength": len(self.binary), "uri": uri}]
-        return (json.dumps(document, indent=1) + "\n").encode()
-
-    def glb(self):
-        document = self.finished()
-        document["buffers"] = [{"byteLength": len(self.binary)}]
-        text = json.dumps(document, separators=(",", ":")).encode()
-        text += b" " * (-len(text) % 4)
-        total = 12 + 8 + len(text) + 8 + len(self.binary)
-        return (struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(text), b"JSON") + text +
-                struct.pack("<I4s", len(self.binary), b"BIN\0") + bytes(self.binary))
-
-
-class Surface:
-    def __init__(self):
-        self.positions, self.normals, self.colors, self.indices = [], [], [], []
-
-    def quad(self, corners, normal=None, color=None):
-        """Four corners, counter-clockwise seen from the front."""
-        first = len(self.positions)
-        self.positions += corners
-        self.normals += [normal] * 4 if normal else []
-        self.colors += [color] * 4 if color else []
-        self.indices += [first, first + 1, first + 2, first, first + 2, first + 3]
-
-
-def as_float32(value):
-    return struct.unpack("<f", struct.pack("<f", value))[0]
-
-
-def linear(red, green, blue):
-    """sRGB bytes to linear RGBA bytes, as COLOR_0 holds them."""
-    def decoded(byte):
-        value = byte / 255
-        return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
-    return tuple(round(255 * decoded(byte)) for byte in (red, green, blue)) + (255,)
-
-
-def unit_rows(rows):
-    result = []
-    for row in rows:
-        length = math.sqrt(sum(value * value for value in row)) or 1.0
-        result.append(tuple(round(value / length, 6) for value in row))
-    return result
-
-
-def quaternion(axis, degrees):
-    half = math.radians(degrees) / 2
-    return [round(value * math.sin(half), 7) for value in axis] + [round(math.cos(half), 7)]
 
 
 # ---- bokeh.gltf -----------------------------------------------------------------------------------------------------
@@ -321,40 +202,6 @@ def resolution_loss():
 # ---- fish.glb -------------------------------------------------------------------------------------------------------
 
 
-def smooth_normals(surface):
-    normals = [[0.0, 0.0, 0.0] for _ in surface.positions]
-    for i in range(0, len(surface.indices), 3):
-        corners = surface.indices[i:i + 3]
-        p, q, r = (surface.positions[k] for k in corners)
-        u, v = [b - a for a, b in zip(p, q)], [b - a for a, b in zip(p, r)]
-        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-        for k in corners:
-            for axis in range(3):
-                normals[k][axis] += normal[axis]
-    return normals
-
-
-def add_tube(surface, rings, color):
-    """A closed surface of rings (lists of points, head to tail, from the back over the left flank) and two end points."""
-    first = len(surface.positions)
-    around = len(rings[1])
-    surface.positions.append(rings[0][0])
-    for ring in rings[1:-1]:
-        surface.positions += ring
-    surface.positions.append(rings[-1][0])
-    last = len(surface.positions) - 1
-    surface.colors += [color(p) for p in surface.positions[first:]]
-    rows = len(rings) - 2
-    for i in range(around):
-        j = (i + 1) % around
-        surface.indices += [first, first + 1 + i, first + 1 + j]
-        for row in range(rows - 1):
-            a, b = first + 1 + row * around, first + 1 + (row + 1) * around
-            surface.indices += [a + i, b + i, a + j, a + j, b + i, b + j]
-        end = first + 1 + (rows - 1) * around
-        surface.indices += [end + i, last, end + j]
-
-
 def add_fin(surface, outline, thickness, color):
     """A flat fin in the plane z = 0 (outline counter-clockwise seen from +z), swollen in the middle, closed."""
     first = len(surface.positions)
@@ -428,7 +275,7 @@ def main():
     for name, make in (("bokeh.gltf", bokeh), ("staircase.gltf", staircase), ("fish.glb", fish),
                        ("artefact-leaking.gltf", leaking), ("artefact-lost-background.gltf", lost_background),
                        ("artefact-half-discs.gltf", half_discs), ("artefact-ghosting.gltf", ghosting),
-                       ("artefact-resolution-loss.gltf", resolution_loss)):
+                       ("artefact-resolution-loss.gltf", resolution_loss), ("swimmers.glb", swimmers)):
         path, data = HERE / name, make()
         if not check:
             path.write_bytes(data)

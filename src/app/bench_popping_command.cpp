@@ -16,6 +16,7 @@
 #include "core/file.h"
 #include "eval/popping_text.h"
 #include "gl/context.h"
+#include "scene/animation.h"
 
 namespace defocus {
 
@@ -42,6 +43,10 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
 
     PoppingOptions options = arguments.options;
     options.plan = frame.settings;
+    if (!frame.scene->clips.empty()) {
+        options.movements.push_back(Movement::clip);
+        if (!arguments.scene.clip.empty()) options.clip = clipNamed(*frame.scene, arguments.scene.clip);
+    }
     options.renderer.layerFormat = arguments.scene.layerFormat;
     options.renderer.wave = arguments.scene.wave;
     options.renderer.shaderFolder = global.shaderDir;
@@ -85,7 +90,8 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     arguments->scene.width = 320;
     arguments->scene.height = 240;
     CLI::App* command = bench.add_subcommand(
-        "popping", "A focus pull, a dolly and a turntable: what levels add to the change from frame to frame");
+        "popping",
+        "A focus pull, a dolly, a turntable and the scene's clip: what levels add to the change from frame to frame");
     addSceneOptions(*command, arguments->scene);
     // What the bench goes through by itself.
     for (const char* name : {"--samples", "--lod", "--blur-threshold", "--size-threshold", "--method"})
@@ -103,7 +109,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
         ->group(group);
     addWhole(*command, "--path-frames", options.pathFrames, 2, 100'000,
              "Frames that a whole movement takes (focus from the nearest to the farthest object, dolly over half the "
-             "focus distance, once around): its speed")
+             "focus distance, once around, the clip once): its speed")
         ->group(group);
     command->add_option("-o,--output", arguments->folder, "Folder for popping.csv and popping.json")
         ->type_name("FOLDER")

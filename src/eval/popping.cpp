@@ -136,11 +136,12 @@ Image carriedOn(const Image& before, const Image& reference, const Image& refere
 
 // ---- movements ------------------------------------------------------------------------------------------------------
 
-std::vector<Image> masksOf(const World& world, const std::vector<View>& views, const PoppingOptions& options) {
+std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movement, const PoppingOptions& options) {
     std::vector<Image> masks;
-    for (const View& view : views) {
+    for (const MovementFrame& frame : movement) {
+        poseWorld(world, frame);
         const AovImages aovs =
-            renderAovs(world, planOf(world, view, options, 64, LodMode::off), options.renderer.shaderFolder);
+            renderAovs(world, planOf(world, frame.view, options, 64, LodMode::off), options.renderer.shaderFolder);
         masks.push_back(objectPixels(aovs.level, aovs.coc));
     }
     for (std::size_t i = masks.size() - 1; i > 0; --i)
@@ -164,18 +165,19 @@ PoppingFrame frameOf(Renderer& renderer, const ModeState& before, const ModeStat
     return frame;
 }
 
-std::vector<PoppingFrame> measureMovement(const World& world, Renderer& renderer, const std::vector<View>& views,
+std::vector<PoppingFrame> measureMovement(World& world, Renderer& renderer, const std::vector<MovementFrame>& movement,
                                           const std::vector<Image>& masks, const PoppingOptions& options,
                                           std::uint32_t samples, const std::function<void()>& step) {
     std::vector<PoppingFrame> frames;
     std::array<ModeState, poppingModes.size()> before;
     Image referenceBefore;
-    for (std::size_t t = 0; t < views.size(); ++t) {
-        const Image reference =
-            displayColours(rendered(renderer, planOf(world, views[t], options, samples, LodMode::off)));
+    for (std::size_t t = 0; t < movement.size(); ++t) {
+        const View& view = movement[t].view;
+        poseWorld(world, movement[t]);
+        const Image reference = displayColours(rendered(renderer, planOf(world, view, options, samples, LodMode::off)));
         for (std::size_t m = 0; m < poppingModes.size(); ++m) {
             ModeState now;
-            now.plan = planOf(world, views[t], options, samples, poppingModes[m]);
+            now.plan = planOf(world, view, options, samples, poppingModes[m]);
             now.image = displayColours(rendered(renderer, now.plan));
             if (t > 0) {
                 const Image expected = carriedOn(before[m].image, reference, referenceBefore);
@@ -287,16 +289,19 @@ Image objectPixels(const Image& level, const Image& coc) {
     return mask;
 }
 
-void measurePopping(const World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
+void measurePopping(World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
                     const Progress& progress) {
     RendererOptions precise = options.renderer;
     if (precise.layerFormat == LayerFormat::automatic) precise.layerFormat = LayerFormat::rgba32f;
     const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, precise);
-    std::vector<std::vector<View>> views;  // first of all: they know what is impossible
-    for (const Movement movement : options.movements)
-        views.push_back(busiestStretch(viewsAlong(movement, world, view, options.pathFrames), world,
-                                       settingsOf(options, std::ranges::max(options.sampleCounts), LodMode::nearest),
-                                       options.frames));
+    const MovementFrame own{view, world.pose};
+    std::vector<std::vector<MovementFrame>> movements;  // first of all: they know what is impossible
+    for (const Movement movement : options.movements) {
+        movements.push_back(busiestStretch(
+            framesAlong(movement, world, view, options.pathFrames, options.clip), world,
+            settingsOf(options, std::ranges::max(options.sampleCounts), LodMode::nearest), options.frames));
+        poseWorld(world, own);
+    }
     const std::uint64_t total =
         options.movements.size() * options.sampleCounts.size() * static_cast<std::size_t>(options.frames);
     std::uint64_t done = 0;
@@ -306,15 +311,16 @@ void measurePopping(const World& world, const View& view, const PoppingOptions& 
         if (const auto step = measureSampleStep(world, *renderer, view, options, samples)) visitor.sampleStep(*step);
 
     // Movements.
-    for (std::size_t m = 0; m < views.size(); ++m) {
-        const std::vector<Image> masks = masksOf(world, views[m], options);
+    for (std::size_t m = 0; m < movements.size(); ++m) {
+        const std::vector<Image> masks = masksOf(world, movements[m], options);
         for (const std::uint32_t samples : options.sampleCounts) {
-            std::vector<PoppingFrame> frames = measureMovement(world, *renderer, views[m], masks, options, samples,
+            std::vector<PoppingFrame> frames = measureMovement(world, *renderer, movements[m], masks, options, samples,
                                                                [&] { report(progress, "frames", ++done, total); });
             for (PoppingFrame& frame : frames) frame.movement = options.movements[m];
             visitor.frames(frames);
         }
     }
+    poseWorld(world, own);
 }
 
 }  // namespace defocus

@@ -1,14 +1,14 @@
 #pragma once
-// How much levels of detail pop: what they add to the change from frame to frame while camera or focus move, for the
-// nearest level, samples split between two levels (fractional), and that with the sample at the boundary split over its
-// pixels (continuous).
+// How much levels of detail pop: what they add to the change from frame to frame while camera, focus or scene move, for
+// the nearest level, samples split between two levels (fractional), and that with the sample at the boundary split over
+// its pixels (continuous).
 //
 // The truth is full detail at the SAME lens samples: their noise cancels, and full detail's own difference is 0 by
 // construction. With I a frame of the method and R one at full detail, all display-encoded:
 //   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). Its RMSE; and the FLIP between I_t and what it should have become,
 //           I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. Holds whatever the levels get wrong that moves with the
 //           camera, pops or not.
-//   step:   I_t − the same view at the levels and splits of the frame before: the pop alone.
+//   step:   I_t − the same view and pose at the levels and splits of the frame before: the pop alone.
 // What to expect of the step: a whole level's pop is a difference that N samples share, blurred by c px; one sample's
 // difference is sharp, w px wide, so that one sample's change is √(c/w)/N of the pop. While fewer samples than one
 // change a frame (Δλ·N < 1), fractional levels do all of that in some frames and nothing in the others; continuous
@@ -36,6 +36,7 @@ inline constexpr std::array poppingModes = {LodMode::nearest, LodMode::fractiona
 struct PoppingOptions {
     std::vector<Movement> movements = {Movement::focusPull, Movement::dolly, Movement::turntable};
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32};
+    int clip = 0;          // of the scene, for Movement::clip
     int pathFrames = 240;  // that a whole movement takes: how fast it is
     int frames = 48;       // of each movement: the stretch with the most changes of level
     RenderSettings plan;   // what the bench doesn't go through: seed, metric, where the blur is taken, keepAll
@@ -78,8 +79,9 @@ struct PoppingVisitor {
     std::function<void(const SampleStep&)> sampleStep;
 };
 
-// Needs a current GL context. Throws Error as planning, rendering and viewsAlong do.
-void measurePopping(const World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
+// Needs a current GL context. `world` takes each frame's pose, and has its own again in the end. Throws Error as
+// planning, rendering and framesAlong do.
+void measurePopping(World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
                     const Progress& progress = {});
 
 // 1 where an object is, or within half of its circle of confusion of it; `level` (−1: nothing) and `coc` (px) are those

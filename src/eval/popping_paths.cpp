@@ -66,43 +66,58 @@ const char* movementName(Movement movement) {
             return "dolly";
         case Movement::turntable:
             return "turntable";
+        case Movement::clip:
+            return "clip";
     }
     return "";
 }
 
-std::vector<View> viewsAlong(Movement movement, const World& world, const View& view, int frames) {
+std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames, int clip) {
     if (frames < 2) fail("{} frames: a change needs 2 or more", frames);
+    const Scene& scene = *world.scene;
+    if (movement == Movement::clip && (clip < 0 || static_cast<std::size_t>(clip) >= scene.clips.size()))
+        fail("the scene has no animation clip {}", clip);
     const Depths depths = depthsOf(world, view);
     const glm::dvec3 centre = world.pose.bounds.centre();
     const double focusDistance = std::min(view.lens.focusDistance, depths.farthest);  // it may be at infinity
-    std::vector<View> views;
+    std::vector<MovementFrame> result;
     for (int i = 0; i < frames; ++i) {
         const double place = static_cast<double>(i) / (frames - 1);
         switch (movement) {
             case Movement::focusPull:
-                views.push_back(pulled(view, depths, place));
+                result.push_back({pulled(view, depths, place), world.pose});
                 break;
             case Movement::dolly:
-                views.push_back(dolliedToPlace(view, focusDistance, place));
+                result.push_back({dolliedToPlace(view, focusDistance, place), world.pose});
                 break;
             case Movement::turntable:
-                views.push_back(carriedAround(view, centre, 2 * std::numbers::pi * (place - 0.5)));
+                result.push_back({carriedAround(view, centre, 2 * std::numbers::pi * (place - 0.5)), world.pose});
+                break;
+            case Movement::clip:
+                result.push_back(
+                    {view, poseAt(scene, place * scene.clips[static_cast<std::size_t>(clip)].duration, clip)});
                 break;
         }
     }
-    return views;
+    return result;
 }
 
-std::vector<View> busiestStretch(const std::vector<View>& views, const World& world, const RenderSettings& settings,
-                                 int frames) {
-    if (frames < 1 || static_cast<std::size_t>(frames) > views.size())
-        fail("{} frames: the movement has {}", frames, views.size());
+void poseWorld(World& world, const MovementFrame& frame) {
+    world.pose = frame.pose;
+    if (!frame.pose.lights.empty()) world.lights = frame.pose.lights;
+}
 
-    // Changes up to each view.
+std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
+                                          const RenderSettings& settings, int length) {
+    if (length < 1 || static_cast<std::size_t>(length) > frames.size())
+        fail("{} frames: the movement has {}", length, frames.size());
+
+    // Changes up to each frame.
     std::vector<int> changes;
     std::map<int, std::uint32_t> levels;
-    for (const View& view : views) {
-        const std::map<int, std::uint32_t> before = std::exchange(levels, nearestLevels(world, view, settings));
+    for (const MovementFrame& frame : frames) {
+        poseWorld(world, frame);
+        const std::map<int, std::uint32_t> before = std::exchange(levels, nearestLevels(world, frame.view, settings));
         int changed = 0;
         for (const auto& [object, level] : levels) {
             const auto earlier = before.find(object);
@@ -111,17 +126,17 @@ std::vector<View> busiestStretch(const std::vector<View>& views, const World& wo
         changes.push_back((changes.empty() ? 0 : changes.back()) + changed);
     }
 
-    const auto length = static_cast<std::size_t>(frames);
+    const auto count = static_cast<std::size_t>(length);
     std::size_t best = 0;
     int most = -1;
-    for (std::size_t first = 0; first + length <= views.size(); ++first) {
-        const int within = changes[first + length - 1] - changes[first];
+    for (std::size_t first = 0; first + count <= frames.size(); ++first) {
+        const int within = changes[first + count - 1] - changes[first];
         if (within <= most) continue;
         most = within;
         best = first;
     }
-    const auto begin = views.begin() + static_cast<std::ptrdiff_t>(best);
-    return {begin, begin + frames};
+    const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(best);
+    return {begin, begin + length};
 }
 
 }  // namespace defocus

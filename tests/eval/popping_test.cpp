@@ -25,51 +25,77 @@ std::unique_ptr<SmallWorld> spheres() {
 
 TEST(PoppingPaths, aWholeFocusPullGoesEvenlyInDioptresFromNearToFar) {
     const auto small = spheres();
-    const std::vector<View> views = viewsAlong(Movement::focusPull, small->world, small->view, 11);
-    ASSERT_EQ(views.size(), 11u);
-    const double step = 1 / views[1].lens.focusDistance - 1 / views[0].lens.focusDistance;
-    for (std::size_t i = 1; i < views.size(); ++i) {
-        EXPECT_NEAR(1 / views[i].lens.focusDistance - 1 / views[i - 1].lens.focusDistance, step, 1e-12);
-        EXPECT_EQ(views[i].worldFromCamera, small->view.worldFromCamera);
+    const std::vector<MovementFrame> frames = framesAlong(Movement::focusPull, small->world, small->view, 11);
+    ASSERT_EQ(frames.size(), 11u);
+    const double step = 1 / frames[1].view.lens.focusDistance - 1 / frames[0].view.lens.focusDistance;
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+        EXPECT_NEAR(1 / frames[i].view.lens.focusDistance - 1 / frames[i - 1].view.lens.focusDistance, step, 1e-12);
+        EXPECT_EQ(frames[i].view.worldFromCamera, small->view.worldFromCamera);
     }
-    EXPECT_NEAR(views.front().lens.focusDistance, 1.2 - 0.15, 0.01);  // the nearest sphere's near side
-    EXPECT_NEAR(views.back().lens.focusDistance, 9 + 1, 0.05);        // the farthest one's far side
+    EXPECT_NEAR(frames.front().view.lens.focusDistance, 1.2 - 0.15, 0.01);  // the nearest sphere's near side
+    EXPECT_NEAR(frames.back().view.lens.focusDistance, 9 + 1, 0.05);        // the farthest one's far side
 }
 
 TEST(PoppingPaths, aDollyKeepsTheFocusOnItsPlane) {
     const auto small = spheres();
-    const std::vector<View> views = viewsAlong(Movement::dolly, small->world, small->view, 5);
-    for (const View& view : views) EXPECT_NEAR(view.lens.focusDistance + -view.worldFromCamera[3].z, 3, 1e-12);
-    EXPECT_NEAR(views.back().worldFromCamera[3].z - views.front().worldFromCamera[3].z, -1.5, 1e-12);
-    EXPECT_NEAR(views[2].worldFromCamera[3].z, 0, 1e-12);
+    const std::vector<MovementFrame> frames = framesAlong(Movement::dolly, small->world, small->view, 5);
+    for (const MovementFrame& frame : frames)
+        EXPECT_NEAR(frame.view.lens.focusDistance + -frame.view.worldFromCamera[3].z, 3, 1e-12);
+    EXPECT_NEAR(frames.back().view.worldFromCamera[3].z - frames.front().view.worldFromCamera[3].z, -1.5, 1e-12);
+    EXPECT_NEAR(frames[2].view.worldFromCamera[3].z, 0, 1e-12);
 }
 
 TEST(PoppingPaths, aTurntableKeepsTheDistanceFromTheMiddle) {
     const auto small = spheres();
     const glm::dvec3 centre = small->world.pose.bounds.centre();
-    const std::vector<View> views = viewsAlong(Movement::turntable, small->world, small->view, 9);
-    for (const View& view : views) {
+    const std::vector<MovementFrame> frames = framesAlong(Movement::turntable, small->world, small->view, 9);
+    for (const auto& [view, pose] : frames) {
         const glm::dvec3 eye = view.worldFromCamera[3];
         EXPECT_NEAR(glm::length(eye - centre), glm::length(centre), 1e-9);
         // The middle stays where it is in the picture.
         const glm::dvec4 seen = glm::inverse(view.worldFromCamera) * glm::dvec4(centre, 1);
         EXPECT_NEAR(glm::length(glm::dvec3(seen) - centre), 0, 1e-9);
     }
-    EXPECT_NEAR(glm::length(glm::dvec3(views[4].worldFromCamera[3])), 0, 1e-9);
-    EXPECT_NEAR(glm::length(glm::dvec3(views[0].worldFromCamera[3] - views[8].worldFromCamera[3])), 0, 1e-9);
+    EXPECT_NEAR(glm::length(glm::dvec3(frames[4].view.worldFromCamera[3])), 0, 1e-9);
+    EXPECT_NEAR(glm::length(glm::dvec3(frames[0].view.worldFromCamera[3] - frames[8].view.worldFromCamera[3])), 0,
+                1e-9);
+}
+
+// A clip of 2 s in which the first sphere climbs 1 m a second.
+TEST(PoppingPaths, aClipPlaysOnceBeforeACameraThatStandsStill) {
+    const auto small = spheres();
+    Node climber;
+    climber.mesh = 0;
+    climber.translation = {0, 0, -2};
+    small->scene.nodes = {climber};
+    small->scene.roots = {0};
+    AnimationChannel climb;
+    climb.target = 0;
+    climb.times = {0, 2};
+    climb.values = {0, 0, -2, 0, 2, -2};
+    small->scene.clips = {{"Stand", {}, 1}, {"Climb", {climb}, 2}};
+    const std::vector<MovementFrame> frames = framesAlong(Movement::clip, small->world, small->view, 9, 1);
+    ASSERT_EQ(frames.size(), 9u);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        EXPECT_EQ(frames[i].view.worldFromCamera, small->view.worldFromCamera);
+        ASSERT_EQ(frames[i].pose.objects.size(), 1u);
+        EXPECT_NEAR(frames[i].pose.objects[0].worldFromObject[3].y, 0.25 * static_cast<double>(i), 1e-6);
+    }
+    EXPECT_THROW(framesAlong(Movement::clip, small->world, small->view, 9, 2), Error);
+    EXPECT_THROW(framesAlong(Movement::clip, small->world, small->view, 9, -1), Error);
 }
 
 TEST(PoppingPaths, impossibleMovementsAreErrors) {
     const auto small = spheres();
-    EXPECT_THROW(viewsAlong(Movement::dolly, small->world, small->view, 1), Error);
+    EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 1), Error);
     small->view.worldFromCamera = glm::rotate(glm::dmat4(1), 3.14, glm::dvec3(0, 1, 0));
-    EXPECT_THROW(viewsAlong(Movement::dolly, small->world, small->view, 2), Error) << "nothing to be seen";
+    EXPECT_THROW(framesAlong(Movement::dolly, small->world, small->view, 2), Error) << "nothing to be seen";
 }
 
-// Of a stretch's views the nearest levels change as often as in any other of its length.
+// Of a stretch's frames the nearest levels change as often as in any other of its length.
 TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
     const auto small = spheres();
-    const std::vector<View> views = viewsAlong(Movement::focusPull, small->world, small->view, 40);
+    const std::vector<MovementFrame> frames = framesAlong(Movement::focusPull, small->world, small->view, 40);
     RenderSettings settings;
     settings.lod = LodMode::nearest;
     settings.thresholds = {0.5, 2};
@@ -81,19 +107,19 @@ TEST(PoppingPaths, theBusiestStretchHasTheMostChangesOfLevel) {
         return changed;
     };
     int most = 0;
-    for (std::size_t first = 0; first + 5 <= views.size(); ++first) {
+    for (std::size_t first = 0; first + 5 <= frames.size(); ++first) {
         int within = 0;
-        for (std::size_t i = first; i < first + 4; ++i) within += changes(views[i], views[i + 1]);
+        for (std::size_t i = first; i < first + 4; ++i) within += changes(frames[i].view, frames[i + 1].view);
         most = std::max(most, within);
     }
     ASSERT_GT(most, 0);
-    const std::vector<View> stretch = busiestStretch(views, small->world, settings, 5);
+    const std::vector<MovementFrame> stretch = busiestStretch(frames, small->world, settings, 5);
     ASSERT_EQ(stretch.size(), 5u);
     int within = 0;
-    for (std::size_t i = 0; i < 4; ++i) within += changes(stretch[i], stretch[i + 1]);
+    for (std::size_t i = 0; i < 4; ++i) within += changes(stretch[i].view, stretch[i + 1].view);
     EXPECT_EQ(within, most);
-    EXPECT_EQ(busiestStretch(views, small->world, settings, 40).size(), 40u);
-    EXPECT_THROW(busiestStretch(views, small->world, settings, 41), Error);
+    EXPECT_EQ(busiestStretch(frames, small->world, settings, 40).size(), 40u);
+    EXPECT_THROW(busiestStretch(frames, small->world, settings, 41), Error);
 }
 
 // ---- the objects' pixels --------------------------------------------------------------------------------------------
