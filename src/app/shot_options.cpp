@@ -1,5 +1,8 @@
 #include "app/shot_options.h"
 
+#include <optional>
+#include <utility>
+
 namespace defocus {
 
 namespace {
@@ -7,6 +10,32 @@ namespace {
 template <typename Value>
 void take(const std::optional<Value>& given, Value& target) {
     if (given) target = *given;
+}
+
+bool cameraPlaced(const SceneOptions& options) {
+    return options.cameraPosition || options.cameraTarget || options.cameraUp;
+}
+
+// Where the options ask for a focus that each frame finds anew, it becomes the shot's: frames may show what the first
+// pose doesn't.
+std::optional<FocusTarget> takeFocusTarget(SceneOptions& options) {
+    std::optional<FocusTarget> target;
+    if (!options.focusNode.empty()) target = std::exchange(options.focusNode, {});
+    if (options.focusPixel) target = FocusPixel{options.focusPixel->x, options.focusPixel->y};
+    if (options.focusAuto) target = FocusAuto{};
+    options.focusPixel.reset();
+    options.focusAuto = false;
+    return target;
+}
+
+// A shot names pixels of its own size; the same place of an image of another.
+void scaleFocusPixels(Shot& shot, const SceneOptions& options) {
+    if (!shot.focus || !shot.width) return;
+    for (auto& key : shot.focus->keys)
+        if (auto* pixel = std::get_if<FocusPixel>(&key.value)) {
+            pixel->column = static_cast<int>((pixel->column + 0.5) * options.width / *shot.width);
+            pixel->row = static_cast<int>((pixel->row + 0.5) * options.height / *shot.height);
+        }
 }
 
 }  // namespace
@@ -41,11 +70,12 @@ void applyShot(const Shot& shot, SceneOptions& options) {
 }
 
 void settleShot(Shot& shot, SceneOptions& options, const GivenOptions& given) {
-    if (given.camera) shot.camera.movement = {};
+    if (given.camera || cameraPlaced(options)) shot.camera.movement = {};
     shot.animation.start = options.time;
     shot.animation.clip = options.clip;
     shot.animation.loop = options.loop;
     if (shot.shutterAngle && !given.shutter) options.exposure.seconds = *shot.shutterAngle / 360 / shot.frameRate;
+    scaleFocusPixels(shot, options);
     const bool focusGiven = options.lens.contains("focusDistance") || !options.focusNode.empty() ||
                             options.focusPixel || options.focusPoints || options.focusAuto;
     if (focusGiven) {
@@ -56,7 +86,7 @@ void settleShot(Shot& shot, SceneOptions& options, const GivenOptions& given) {
         shot.lens.erase("focusTilt");
         shot.lens.erase("focusSwing");
     }
-    if (!options.focusNode.empty()) shot.focus = FocusTrack{.keys = {{0, options.focusNode}}};
+    if (std::optional<FocusTarget> target = takeFocusTarget(options)) shot.focus = FocusTrack{.keys = {{0, *target}}};
     std::erase_if(shot.lens, [&](const auto& entry) { return options.lens.contains(entry.first); });
     for (const auto& [name, track] : shot.lens) options.lens[name] = track.keys.front().value;
 }
@@ -68,10 +98,10 @@ SequenceBase sequenceBase(const PreparedFrame& frame, const SceneOptions& option
     base.settings = frame.settings;
     base.lights = frame.world.lights;
     base.camera = options.camera;
+    base.cameraStands = cameraPlaced(options);
     base.exposure = options.exposure;
     for (const auto& [name, value] : options.lens) base.fixedLens.insert(name);
-    if (options.focusPixel || options.focusPoints || options.focusAuto) base.fixedLens.insert("focusDistance");
-    if (options.focusPoints) base.fixedLens.insert({"focusTilt", "focusSwing"});
+    if (options.focusPoints) base.fixedLens.insert({"focusDistance", "focusTilt", "focusSwing"});
     base.centre = frame.world.pose.bounds.centre();
     return base;
 }

@@ -21,8 +21,8 @@ struct GivenOptions {
 };
 
 // After the command line has been read. Takes from the shot what `options` replaces: lens fields and focus that have a
-// value, and with a camera given its movement. Puts the first values of the shot's lens into `options`, so that
-// the scene can be placed.
+// value, and with a camera given, or its place, its movement. Puts the first values of the shot's lens into `options`,
+// so that the scene can be placed.
 void settleShot(Shot& shot, SceneOptions& options, const GivenOptions& given);
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const SceneOptions& options);

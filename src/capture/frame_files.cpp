@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "image/image_io.h"
 
 namespace defocus {
@@ -62,8 +63,7 @@ void removeUnfinished(const std::vector<fs::path>& paths) {
             const std::size_t dot = name.rfind('.');
             if (name.front() != '.' || dot == 0 || dot == std::string::npos) continue;
             const bool numbered = name.find_first_not_of("0123456789-", dot + 1) == std::string::npos;
-            std::error_code ignored;
-            if (numbered && names.contains(name.substr(1, dot - 1))) fs::remove(entry->path(), ignored);
+            if (numbered && names.contains(name.substr(1, dot - 1))) removeAbandoned(entry->path());
         }
     }
 }

@@ -18,7 +18,8 @@ inline constexpr const char* settingsAttribute = "defocus:settings";
 // Is `path` a whole image of this size whose metadata carries these settings? A missing, damaged or foreign file isn't.
 bool isFinishedFrame(const std::filesystem::path& path, int width, int height, const std::string& settings);
 
-// Removes what a process that was killed left beside the frame: files with temporary names of `path`.
+// Removes what a process that was killed left beside these files: temporary ones of their names. What another process
+// is writing just now stays.
 void removeUnfinished(const std::vector<std::filesystem::path>& paths);
 
 }  // namespace defocus

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "lens/lens_fields.h"
 #include "plan/camera_path.h"
+#include "plan/focus_depth.h"
 #include "scene/animation.h"
 
 namespace defocus {
@@ -63,7 +64,8 @@ std::optional<PlacedCamera> cameraOfFile(const SequenceBase& base, const Pose& p
 View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, double frame) {
     View view = base.view;
     const Scene& scene = *base.scene;
-    if (const auto placed = cameraOfFile(base, pose)) view.worldFromCamera = placed->worldFromCamera;
+    if (const auto placed = cameraOfFile(base, pose); placed && !base.cameraStands)
+        view.worldFromCamera = placed->worldFromCamera;
     if (const auto* keys = std::get_if<CameraKeys>(&shot.camera.movement))
         view.worldFromCamera = lookingAt(valueAt(pointsOf(keys->positions, scene, pose), keys->easing, frame),
                                          valueAt(pointsOf(keys->targets, scene, pose), keys->easing, frame));
@@ -82,23 +84,27 @@ View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, dou
 // ---- lens
 // ------------------------------------------------------------------------------------------------------------
 
-double focusDistanceOf(const FocusTarget& target, const SequenceBase& base, const SequenceFrame& frame) {
-    if (const auto* distance = std::get_if<double>(&target)) return *distance;
-    const std::string& name = std::get<std::string>(target);
-    const glm::dvec3 centre = nodeCentre(*base.scene, frame.pose, nodeNamed(*base.scene, name));
-    const double depth = -(glm::inverse(frame.view.worldFromCamera) * glm::dvec4(centre, 1)).z;
-    if (!(depth > 0)) fail("the focus follows '{}', whose centre lies behind the camera", name);
-    return depth;
+// `view` has the frame's lens but for its focus distance.
+double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose& pose, const View& view) {
+    constexpr const char* who = "focus";
+    if (const auto* name = std::get_if<std::string>(&target)) return depthOfNode(scene, pose, view, *name, who);
+    if (const auto* pixel = std::get_if<FocusPixel>(&target))
+        return depthAtPixel(scene, pose, view, {pixel->column, pixel->row}, who);
+    if (std::holds_alternative<FocusAuto>(target)) return depthOfMiddle(scene, pose, view, who);
+    return std::get<double>(target);
 }
 
-double focusAt(const FocusTrack& focus, const SequenceBase& base, const SequenceFrame& frame) {
+double focusAt(const FocusTrack& focus, const Scene& scene, const SequenceFrame& frame, const Lens& lens) {
+    View view = frame.view;
+    view.lens = lens;
     // Only the keys that have a say at this frame: a node far from its turn may be anywhere.
     std::vector<Key<double>> dioptres;
     for (std::size_t i = 0; i < focus.keys.size(); ++i) {
         const bool early = i + 2 < focus.keys.size() && focus.keys[i + 2].frame <= frame.frame;
         const bool late = i >= 2 && focus.keys[i - 2].frame > frame.frame;
         if (!early && !late)
-            dioptres.push_back({focus.keys[i].frame, 1 / focusDistanceOf(focus.keys[i].value, base, frame)});
+            dioptres.push_back(
+                {focus.keys[i].frame, 1 / focusDistanceOf(focus.keys[i].value, scene, frame.pose, view)});
     }
     return 1 / valueAt(dioptres, focus.easing, frame.frame);
 }
@@ -151,7 +157,7 @@ Lens lensAt(const Shot& shot, const SequenceBase& base, const SequenceFrame& fra
         const double value = lensValueAt(track, field, frame.frame);
         setLensField(lens, field, std::clamp(value, field.least, field.most));  // rounding beyond an end
     }
-    if (shot.focus) lens.focusDistance = focusAt(*shot.focus, base, frame);
+    if (shot.focus) lens.focusDistance = focusAt(*shot.focus, *base.scene, frame, lens);
     checkLens(lens);
     return lens;
 }

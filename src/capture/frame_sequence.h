@@ -18,6 +18,7 @@ struct SequenceBase {
     RenderSettings settings;
     std::vector<PlacedLight> lights;               // where the scene has none of its own
     std::string camera;                            // as chooseCamera takes it
+    bool cameraStands = false;                     // at view's place, wherever the scene's own goes
     std::set<std::string, std::less<>> fixedLens;  // fields that don't follow the camera's own values
     glm::dvec3 centre{0.0};                        // the middle of the scene at its start, around which turntables turn
     Exposure exposure;  // of each frame; the shot's camera moves while the shutter is open, too
@@ -34,7 +35,7 @@ struct SequenceFrame {
 };
 
 // Throws Error naming the shot's file and the frame for what can't be filmed: nodes and clips that don't exist, a focus
-// behind the camera, an impossible lens.
+// behind the camera or on nothing, an impossible lens.
 SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame);
 
 // Frames of `range` that shard `shard` of `shards` renders: every shards-th, so that each has its part of whatever

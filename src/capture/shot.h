@@ -37,8 +37,16 @@ struct LensTrack {
     Easing easing = Easing::smooth;
 };
 
-// A distance in m, or a node that is followed: the depth of its centre.
-using FocusTarget = std::variant<double, std::string>;
+// px from the left and from the top, of an image of the shot's size.
+struct FocusPixel {
+    int column = 0;
+    int row = 0;
+};
+struct FocusAuto {};
+
+// At each frame anew: a distance in m, a node that is followed (the depth of its centre), what a pixel shows, or the
+// median depth of what the image's middle shows.
+using FocusTarget = std::variant<double, std::string, FocusPixel, FocusAuto>;
 
 struct FocusTrack {
     std::vector<Key<FocusTarget>> keys;

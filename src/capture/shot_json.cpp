@@ -120,23 +120,42 @@ ShotCamera cameraOf(const JsonReader& reader) {
     return camera;
 }
 
+const std::vector<std::string> focusTargets = {"node", "distance", "pixel", "auto"};
+
+bool namesFocusTarget(const JsonReader& reader) {
+    return std::ranges::any_of(focusTargets, [&](const std::string& name) { return reader.has(name.c_str()); });
+}
+
 FocusTarget focusTargetOf(const JsonReader& reader) {
-    if (reader.has("node") == reader.has("distance")) reader.failWith("give either 'node' or 'distance'");
+    if (std::ranges::count_if(focusTargets, [&](const std::string& name) { return reader.has(name.c_str()); }) != 1)
+        reader.failWith("give one of 'node', 'distance', 'pixel' and 'auto'");
     if (const auto node = reader.find("node")) return node->text();
+    if (const auto pixel = reader.find("pixel")) {
+        const char* what = "a column and a row in pixels";
+        const std::vector<JsonReader> places = pixel->elements(2, what);
+        if (places.size() != 2) pixel->failExpecting(what);
+        return FocusPixel{static_cast<int>(places[0].whole(0, mostPixels - 1)),
+                          static_cast<int>(places[1].whole(0, mostPixels - 1))};
+    }
+    if (const auto automatic = reader.find("auto")) {
+        if (!automatic->truth()) automatic->failExpecting("true");
+        return FocusAuto{};
+    }
     const LensField& field = *lensFieldNamed("focusDistance");
     return reader.at("distance").number(field.least, field.most);
 }
 
 FocusTrack focusOf(const JsonReader& reader) {
-    reader.requireObject({"node", "distance", "keys", "interpolation"});
+    reader.requireObject({"node", "distance", "pixel", "auto", "keys", "interpolation"});
     FocusTrack focus;
     if (!reader.has("keys")) {
         focus.keys = {{0, focusTargetOf(reader)}};
         if (const auto easing = reader.find("interpolation")) easing->failWith("only keys are interpolated");
         return focus;
     }
-    if (reader.has("node") || reader.has("distance")) reader.failWith("give either 'keys', 'node' or 'distance'");
-    for (const auto& [frame, key] : keysOf(reader.at("keys"), {"frame", "node", "distance"}))
+    if (namesFocusTarget(reader))
+        reader.failWith("give either 'keys' or one of 'node', 'distance', 'pixel' and 'auto'");
+    for (const auto& [frame, key] : keysOf(reader.at("keys"), {"frame", "node", "distance", "pixel", "auto"}))
         focus.keys.push_back({frame, focusTargetOf(key)});
     focus.easing = easingOf(reader);
     return focus;

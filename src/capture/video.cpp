@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "capture/frame_files.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "image/tone_map.h"
@@ -164,8 +165,10 @@ void writeVideo(const fs::path& path, const std::vector<fs::path>& frames, const
                 const Progress& progress) {
     if (frames.empty()) fail("{}: a film needs a frame", path.string());
     const Image first = readImage(frames.front());
+    const fs::path log = path.string() + ".log";
+    removeUnfinished({path, log});
     PendingFile film(path);
-    PendingFile messages(path.string() + ".log");  // never kept
+    PendingFile messages(log);  // never kept
 
     std::vector<std::string> arguments = {"ffmpeg",      "-y",
                                           "-v",          "error",

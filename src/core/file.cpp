@@ -1,6 +1,8 @@
 #include "core/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -9,6 +11,7 @@
 #include <cstring>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include "core/error.h"
 
@@ -26,6 +29,14 @@ using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 FileHandle openFile(const fs::path& path, const char* mode) {
     return {std::fopen(path.c_str(), mode), &std::fclose};
+}
+
+// Locks a new temporary file for as long as it is open: the sign that its writer lives. False when it was taken for
+// abandoned and removed before. File systems without locks keep theirs.
+bool isKept(int descriptor) {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
+    struct stat status {};
+    return ::fstat(descriptor, &status) != 0 || status.st_nlink > 0;
 }
 
 }  // namespace
@@ -58,15 +69,21 @@ void writeFile(const fs::path& path, std::string_view text) {
 
 PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
     static std::atomic<unsigned> counter = 0;
-    temporary_ = target_;
-    temporary_.replace_filename(
-        fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++, target_.extension().string()));
+    while (descriptor_ < 0) {
+        temporary_ = target_;
+        temporary_.replace_filename(
+            fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++, target_.extension().string()));
+        // A process of the same number on another machine may have made that file: only a new one is ours.
+        descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+        if (descriptor_ < 0 && errno != EEXIST) fail("{}: cannot be written: {}", target_.string(), reason(errno));
+        if (descriptor_ >= 0 && !isKept(descriptor_)) ::close(std::exchange(descriptor_, -1));
+    }
 }
 
 PendingFile::~PendingFile() {
-    if (committed_) return;
     std::error_code ignored;
-    fs::remove(temporary_, ignored);
+    if (!committed_) fs::remove(temporary_, ignored);
+    ::close(descriptor_);
 }
 
 void PendingFile::commit() {
@@ -76,13 +93,18 @@ void PendingFile::commit() {
     committed_ = true;
 }
 
+void removeAbandoned(const fs::path& temporary) {
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor < 0) return;
+    std::error_code ignored;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) fs::remove(temporary, ignored);
+    ::close(descriptor);
+}
+
 void checkWritable(const fs::path& path) {
     std::error_code status;
     if (fs::is_directory(path, status)) fail("{}: is a directory; give a file name", path.string());
     const PendingFile probe(path);
-    const int descriptor = ::open(probe.temporaryPath().c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (descriptor < 0) fail("{}: cannot be written: {}", path.string(), reason(errno));
-    ::close(descriptor);
 }
 
 }  // namespace defocus

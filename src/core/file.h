@@ -1,6 +1,7 @@
 #pragma once
 // Whole-file reads and writes that never leave half a file: data goes to a temporary name beside the target and is
-// renamed over it once complete, so a crash or a full disk destroys nothing.
+// renamed over it once complete, so a crash or a full disk destroys nothing. Of several processes that write the same
+// file, each has a temporary file of its own, and the last to rename wins with a whole one.
 
 #include <cstddef>
 #include <filesystem>
@@ -17,10 +18,11 @@ std::vector<std::byte> readFile(const std::filesystem::path& path);
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFile(const std::filesystem::path& path, std::string_view text);
 
-// A temporary name beside `target` with the same extension, for writers (image libraries) that need a path of their
-// own. The temporary file is removed on destruction unless `commit()` has renamed it over the target.
+// A new, empty temporary file beside `target` with the same extension, for writers (ffmpeg) that need a path of their
+// own. It is removed on destruction unless `commit()` has renamed it over the target.
 class PendingFile {
 public:
+    // Throws Error naming the target when no file can be made there.
     explicit PendingFile(std::filesystem::path target);
     ~PendingFile();
     PendingFile(const PendingFile&) = delete;
@@ -33,8 +35,12 @@ public:
 private:
     std::filesystem::path target_;
     std::filesystem::path temporary_;
+    int descriptor_ = -1;  // locked while the file is pending
     bool committed_ = false;
 };
+
+// Removes a temporary file that a killed process left; one that is still being written, by whatever process, stays.
+void removeAbandoned(const std::filesystem::path& temporary);
 
 // Throws Error now if a file cannot be created at `path` (no folder, no permission, a directory), so that long work
 // doesn't end in a write failure.

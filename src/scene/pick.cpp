@@ -83,31 +83,61 @@ double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4&
                            [&](std::uint32_t vertex) { return glm::dvec3(mesh.vertices.positions[vertex]); });
 }
 
-double nearestPosedCrossing(const Mesh& mesh, const Object& object, const Ray& world, double nearest) {
-    const std::vector<glm::dvec3> positions = posedPositions(mesh, object);
-    return nearestCrossing(mesh, world, nearest, [&](std::uint32_t vertex) { return positions[vertex]; });
-}
+// An object's triangles, ready for any number of rays.
+class Target {
+public:
+    Target(const Mesh& mesh, const Bounds& meshBounds, const Object& object)
+        : mesh_(mesh), bounds_(meshBounds), object_(object), deformed_(deformed(object)) {
+        if (!deformed_) return;
+        positions_ = posedPositions(mesh, object);
+        bounds_ = {};
+        for (const glm::dvec3& position : positions_) bounds_.extend(position);
+    }
+
+    [[nodiscard]] double nearestCrossing(const Ray& world, double nearest) const {
+        if (!deformed_) return defocus::nearestCrossing(mesh_, bounds_, object_.worldFromObject, world, nearest);
+        if (!reaches(world, bounds_, nearest)) return nearest;
+        return defocus::nearestCrossing(mesh_, world, nearest,
+                                        [&](std::uint32_t vertex) { return positions_[vertex]; });
+    }
+
+private:
+    const Mesh& mesh_;
+    Bounds bounds_;  // of the mesh; of a deformed object, in the world
+    const Object& object_;
+    bool deformed_;
+    std::vector<glm::dvec3> positions_;  // of a deformed object, in the world
+};
 
 }  // namespace
 
-std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
-                            const glm::dvec3& direction) {
-    const Ray ray{origin, glm::normalize(direction)};
+std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
+                                          const std::vector<glm::dvec3>& directions) {
+    std::vector<Ray> rays;
+    for (const glm::dvec3& direction : directions) rays.push_back({origin, glm::normalize(direction)});
+    std::vector<Hit> nearest(rays.size(), {std::numeric_limits<double>::infinity(), -1});
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
-    Hit nearest{std::numeric_limits<double>::infinity(), -1};
     for (std::size_t i = 0; i < pose.objects.size(); ++i) {
         const Object& object = pose.objects[i];
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
         std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
         if (!bounds) bounds = mesh.bounds();
         if (bounds->empty()) continue;
-        const double distance = deformed(object)
-                                    ? nearestPosedCrossing(mesh, object, ray, nearest.distance)
-                                    : nearestCrossing(mesh, *bounds, object.worldFromObject, ray, nearest.distance);
-        if (distance < nearest.distance) nearest = {distance, static_cast<int>(i)};
+        const Target target(mesh, *bounds, object);
+        for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+            const double distance = target.nearestCrossing(rays[ray], nearest[ray].distance);
+            if (distance < nearest[ray].distance) nearest[ray] = {distance, static_cast<int>(i)};
+        }
     }
-    if (nearest.object < 0) return std::nullopt;
-    return nearest;
+    std::vector<std::optional<Hit>> hits(rays.size());
+    for (std::size_t ray = 0; ray < rays.size(); ++ray)
+        if (nearest[ray].object >= 0) hits[ray] = nearest[ray];
+    return hits;
+}
+
+std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
+                            const glm::dvec3& direction) {
+    return firstHits(scene, pose, origin, {direction}).front();
 }
 
 }  // namespace defocus

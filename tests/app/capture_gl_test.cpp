@@ -107,6 +107,44 @@ TEST_F(Capture, optionsReplaceWhatTheShotSays) {
     EXPECT_EQ(std::get<double>(metadata.at("defocus:bladeCount")), 7);
 }
 
+// The camera goes 0.6 m nearer to the square in the image's middle: its focus is that of each frame's moment, whichever
+// frames are rendered with it.
+TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
+    json dolly = shot();
+    dolly.erase("focus");
+    dolly["camera"] = json::parse(R"({"dolly": {"distance": 0.6, "interpolation": "linear"}})");
+    writeShot(dolly);
+    const auto focusOf = [&](const std::string& file) {
+        Metadata metadata;
+        readImage(folder() / file, &metadata);
+        return std::get<double>(metadata.at("focus"));
+    };
+    ASSERT_EQ(capture({"--focus-pixel", "32,14", "-o", "p#.exr"}).exitCode, 0);
+    ASSERT_EQ(capture({"--focus-auto", "-o", "a#.exr"}).exitCode, 0);
+    for (int frame = 0; frame < 8; ++frame) {
+        EXPECT_NEAR(focusOf("p" + std::to_string(frame) + ".exr"), 2 - 0.6 * frame / 7, 1e-5) << frame;
+        EXPECT_NEAR(focusOf("a" + std::to_string(frame) + ".exr"), 2 - 0.6 * frame / 7, 1e-5) << frame;
+    }
+    dolly["focus"] = json::parse(R"({"pixel": [32, 14]})");
+    writeShot(dolly);
+    ASSERT_EQ(capture({"--range", "5", "-o", "alone#.exr"}).exitCode, 0);
+    EXPECT_TRUE(bytesOf("alone5.exr") == bytesOf("p5.exr"));
+    ASSERT_EQ(capture({"--shard", "1/3", "-o", "shard#.exr", "--focus-auto"}).exitCode, 0);
+    EXPECT_TRUE(bytesOf("shard4.exr") == bytesOf("a4.exr"));
+    // A shot's pixel is one of its own size.
+    ASSERT_EQ(capture({"--range", "5", "-o", "small#.exr", "--size", "32x24"}).exitCode, 0);
+    EXPECT_NEAR(focusOf("small5.exr"), 2 - 0.6 * 5 / 7, 1e-5);
+    expectOneLine(capture({"--range", "0", "--focus-pixel", "0,0"}), 1);
+}
+
+TEST_F(Capture, aCameraPlacedByHandStandsThere) {
+    ASSERT_EQ(capture({"--range", "3", "--camera-position", "0,0,2", "--focus-node", "Near", "-o", "x#.exr"}).exitCode,
+              0);
+    Metadata metadata;
+    readImage(folder() / "x3.exr", &metadata);
+    EXPECT_NEAR(std::get<double>(metadata.at("focus")), 4, 1e-5);
+}
+
 TEST_F(Capture, sampleSeedIsTheSameInEachFrameUnlessAskedFor) {
     json still = shot();
     still.erase("camera");

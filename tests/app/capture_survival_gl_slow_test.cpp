@@ -78,6 +78,24 @@ TEST_F(Survival, killedTwentyTimesAndResumed) {
         EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
 }
 
+// Each has temporary files of its own, leaves those of the other alone, and renames whole frames of the same bits.
+TEST_F(Survival, severalAtOnceOnTheSameFrames) {
+    ASSERT_EQ(capture({"--range", "0:23", "-o", "whole/####.exr"}).exitCode, 0);
+    for (int round = 0; round < 3; ++round) {
+        fs::remove_all(folder() / "frames");
+        std::vector<pid_t> children;
+        for (int i = 0; i < 4; ++i) {
+            children.push_back(start());
+            std::this_thread::sleep_for(std::chrono::milliseconds(120 * round));
+        }
+        for (const pid_t child : children) EXPECT_EQ(waitFor(child), 0) << bytesOf("said");
+        for (int number = 0; number < frames; ++number)
+            EXPECT_TRUE(bytesOf(frame("frames", number)) == bytesOf(frame("whole", number))) << number;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "frames"))
+            EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+    }
+}
+
 TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
     const pid_t child = start();
     for (int i = 0; i < 500 && !fs::exists(folder() / frame("frames", 0)); ++i) std::this_thread::sleep_for(20ms);

@@ -61,6 +61,30 @@ TEST_F(Merge, partsOfACaptureGiveItsFilesByteForByte) {
     EXPECT_NE(resumed.err.find("1 of them there before"), std::string::npos) << resumed.err;
 }
 
+// The camera turns while the shutter is open: each sample has its own moment, in whichever part it is.
+TEST_F(Merge, partsOfAFrameWithMotionBlurGiveItsFileByteForByte) {
+    nlohmann::json document = shot();
+    document["samples"] = 150;
+    writeShot(document);
+    ASSERT_EQ(capture({"--range", "2", "-o", "still#.exr"}).exitCode, 0);
+    for (const std::string segments : {"1", "4", "exact"}) {
+        const auto film = [&](std::vector<std::string> more) {
+            more.insert(more.end(),
+                        {"--range", "2", "-o", "f#.exr", "--shutter", "1/24", "--motion-segments", segments});
+            return capture(more).exitCode;
+        };
+        ASSERT_EQ(film({}), 0);
+        const std::string whole = bytesOf("f2.exr");
+        for (const char* range : {"0:64", "64:128", "128:150"}) ASSERT_EQ(film({"--sample-range", range}), 0);
+        ASSERT_EQ(run({"merge", "--quiet", "f2.part00128-00150.exr", "f2.part00000-00064.exr", "f2.part00064-00128.exr",
+                       "-o", "merged.exr"})
+                      .exitCode,
+                  0);
+        EXPECT_TRUE(bytesOf("merged.exr") == whole) << segments;
+        EXPECT_NE(pixelsOf("merged.exr"), pixelsOf("still2.exr")) << "nothing moves";
+    }
+}
+
 TEST_F(Merge, aFrameThatNeedsFewerSamplesHasEmptyParts) {
     ASSERT_EQ(part("0:64", "a.exr", {"--no-dof", "--background", "none"}).exitCode, 0);
     ASSERT_EQ(part("64:150", "b.exr", {"--no-dof", "--background", "none"}).exitCode, 0);

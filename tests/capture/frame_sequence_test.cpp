@@ -136,6 +136,52 @@ TEST_F(FrameSequence, focusAsksOnlyForNodesNearTheirTurn) {
     EXPECT_NEAR(frame(shot, 60).view.lens.focusDistance, 1, 1e-9);
 }
 
+// A wall that goes from 4 m to 8 m in 2 s, and before its left part a post that stands still at 2 m.
+TEST_F(FrameSequence, focusFindsWhatThePictureShowsInEachFrame) {
+    Mesh square;
+    square.vertices.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    square.primitives = {{-1, {0, 1, 2, 0, 2, 3}}};
+    scene_.meshes = {square};
+    Node wall;
+    wall.name = "Wall";
+    wall.mesh = 0;
+    wall.scale = {9, 9, 1};
+    Node post;
+    post.name = "Post";
+    post.mesh = 0;
+    post.translation = {-1.2, 0, -2};
+    scene_.nodes.insert(scene_.nodes.end(), {wall, post});
+    scene_.roots.insert(scene_.roots.end(), {3, 4});
+    AnimationChannel away;
+    away.target = 3;
+    away.times = {0, 2};
+    away.values = {0, 0, -4, 0, 0, -8};
+    scene_.clips[0].channels.push_back(away);
+
+    const auto focus = [&](const std::string& how, int number) {
+        return frame((R"({"frameRate": 10, "focus": )" + how + "}").c_str(), number).view.lens.focusDistance;
+    };
+    for (const int number : {0, 5, 20}) {
+        const double depth = 4 + 0.2 * number;
+        EXPECT_NEAR(focus(R"({"pixel": [700, 384]})", number), depth, 1e-6);
+        EXPECT_NEAR(focus(R"({"auto": true})", number), depth, 1e-6);
+        EXPECT_NEAR(focus(R"({"pixel": [100, 384]})", number), 2, 1e-6);
+    }
+    const char* pull = R"({"interpolation": "linear", "keys": [{"frame": 0, "pixel": [100, 384]},
+                                                              {"frame": 10, "auto": true}]})";
+    EXPECT_NEAR(focus(pull, 5), 1 / (0.5 / 2 + 0.5 / 5), 1e-6);
+    try {
+        focus(R"({"pixel": [1024, 384]})", 3);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "x.json: frame 3: focus: pixel 1024,384 lies outside the image of 1024x768");
+    }
+    const char* turned =
+        R"({"camera": {"keys": [{"frame": 0, "position": [0, 0, 0], "target": [0, 0, 1]}]}, "focus": )";
+    EXPECT_THROW(frame((turned + std::string(R"({"auto": true}})")).c_str(), 0), Error);
+    EXPECT_THROW(frame((turned + std::string(R"({"pixel": [5, 5]}})")).c_str(), 0), Error);
+}
+
 TEST_F(FrameSequence, lensValuesGoTheirOwnWay) {
     const char* shot = R"({"lens": {
         "fStop": {"keys": [{"frame": 0, "value": 1}, {"frame": 10, "value": 4}], "interpolation": "linear"},

@@ -156,6 +156,12 @@ std::vector<json> shots() {
     other["focus"] = json::parse(R"({"distance": 4})");
     other["output"] = "####.jpg";
     result.push_back(other);
+    other["focus"] = json::parse(R"({"pixel": [160, 16383]})");
+    result.push_back(other);
+    other["focus"] = json::parse(R"({"auto": true})");
+    result.push_back(other);
+    other["focus"] = json::parse(R"({"keys": [{"frame": 0, "pixel": [0, 9]}, {"frame": 3, "auto": true}]})");
+    result.push_back(other);
     return result;
 }
 
@@ -171,7 +177,7 @@ TEST(ShotSchema, agreesWithTheParserAboutEachChange) {
     const Schema schema = publishedSchema();
     const std::vector<json> values = json::parse(
         R"([null, true, 0, 1, 2, -1, 0.5, 1e13, 17000, "", "a", "none", "linear", [], [1], [1, 2], [0, 0, 0], [1, 2, 3, 4],
-            [[1, 2]], ["a", "b", "c"], {}, {"keys": []}, {"node": "A", "distance": 1}, {"keys": [{"frame": 1, "value": 1}]}])");
+            [[1, 2]], ["a", "b", "c"], {}, {"keys": []}, {"node": "A", "distance": 1}, {"auto": true, "node": "A"}, {"pixel": [3, 4]}, {"keys": [{"frame": 1, "value": 1}]}])");
     std::size_t refused = 0;
     for (const json& shot : shots())
         for (const json::json_pointer& place : placesIn(shot)) {
@@ -202,7 +208,8 @@ TEST(ShotSchema, forbidsWhatDoesNotGoTogether) {
          {R"({"scene": "a.glb", "fish": {}})", R"({"focus": {"node": "A"}, "lens": {"focusDistance": 2}})",
           R"({"camera": {"turntable": {}, "dolly": {"distance": 1}}})", R"({"camera": {"interpolation": "linear"}})",
           R"({"focus": {"node": "A", "keys": [{"frame": 0, "distance": 1}]}})",
-          R"({"focus": {"node": "A", "interpolation": "linear"}})", R"({"unknown": 1})"}) {
+          R"({"focus": {"node": "A", "interpolation": "linear"}})", R"({"focus": {"auto": true, "pixel": [1, 2]}})",
+          R"({"focus": {"auto": false}})", R"({"focus": {"pixel": [1, 16384]}})", R"({"unknown": 1})"}) {
         EXPECT_FALSE(schema.accepts(json::parse(text))) << text;
         EXPECT_NE(parserFault(json::parse(text)), "") << text;
     }

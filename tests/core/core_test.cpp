@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 #include <string>
@@ -55,6 +59,54 @@ TEST_F(Files, uncommittedFileLeavesTheTargetAndNothingElse) {
     }
     EXPECT_EQ(readFile(path).size(), 4u);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+// What another process writes stays; what a process left that was killed goes.
+TEST_F(Files, onlyAbandonedTemporaryFilesAreRemoved) {
+    const fs::path path = folder_ / "frame.exr";
+    fs::path left;
+    {
+        PendingFile pending(path);
+        removeAbandoned(pending.temporaryPath());
+        EXPECT_TRUE(fs::exists(pending.temporaryPath()));
+        const PendingFile other(path);
+        EXPECT_NE(other.temporaryPath(), pending.temporaryPath());
+        pending.commit();
+        EXPECT_TRUE(fs::exists(path));
+        EXPECT_TRUE(fs::exists(other.temporaryPath()));
+    }
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const PendingFile killed(path);
+        ::kill(::getpid(), SIGKILL);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
+        if (entry.path() != path) left = entry.path();
+    EXPECT_EQ(left.filename().string().substr(0, 7), ".frame.");
+    removeAbandoned(left);
+    EXPECT_FALSE(fs::exists(left));
+    EXPECT_TRUE(fs::exists(path));
+    removeAbandoned(folder_ / "missing");
+}
+
+// As if a process of this number, on another machine that shares the folder, wrote the same file.
+TEST_F(Files, temporaryNamesThatAreTakenAreLeftAlone) {
+    const fs::path path = folder_ / "frame.exr";
+    const auto numberOf = [&](const fs::path& temporary) {
+        const std::string name = temporary.stem().string();
+        return std::stoul(name.substr(name.rfind('-') + 1));
+    };
+    const auto number = numberOf(PendingFile(path).temporaryPath());
+    const auto nameOf = [&](unsigned long each) {
+        return folder_ / (".frame." + std::to_string(::getpid()) + "-" + std::to_string(each) + ".exr");
+    };
+    for (const unsigned long taken : {number + 1, number + 2}) std::ofstream(nameOf(taken)) << "theirs";
+    writeFile(path, std::string_view("ours"));
+    EXPECT_EQ(readFile(path).size(), 4u);
+    for (const unsigned long taken : {number + 1, number + 2}) EXPECT_EQ(readFile(nameOf(taken)).size(), 6u);
 }
 
 TEST_F(Files, errorsNameThePathAndTheReason) {
