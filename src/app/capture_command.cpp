@@ -139,7 +139,7 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
 void printFigures(const FilmFigures& figures, std::size_t frames) {
     const double render = figures.renderMilliseconds / 1000;
     const double total = figures.totalMilliseconds / 1000;
-    std::string text = fmt::format("{} frames", frames);
+    std::string text = fmt::format("{} frame{}", frames, frames == 1 ? "" : "s");
     if (figures.finishedBefore > 0) text += fmt::format(", {} of them there before", figures.finishedBefore);
     if (figures.rendered > 0)
         text += fmt::format(

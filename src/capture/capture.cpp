@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -164,27 +165,32 @@ fs::path timingsPath(const std::string& pattern, int shard, int shards) {
 std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, const std::vector<int>& frames,
                                   const FilmOptions& options, const Progress& progress) {
     std::vector<FilmFrame> film(frames.size());
+    std::vector<std::exception_ptr> faults(frames.size());  // the first one is told, not the earliest
     std::mutex reporting;
     std::uint64_t done = 0;
-    parallelFor(frames.size(), [&](std::size_t i) {
-        const SequenceFrame frame = frameAt(shot, base, frames[i]);
-        film[i].frame = frames[i];
-        film[i].finished = options.resume;
-        for (const std::string& pattern : options.outputs) {
-            FilmSettings settings = options.settings;
-            settings.encoding = encodingOf(pattern, options);
-            film[i].settings.push_back(frameSettings(settings, frame));
-            fs::path path = framePath(pattern, frames[i]);
-            if (options.samples) path = partPath(path, *options.samples);
-            film[i].finished =
-                film[i].finished &&
-                (options.samples ? isFinishedPart(path, film[i].settings.back())
-                                 : isFinishedFrame(path, frame.view.width, frame.view.height, film[i].settings.back()));
-            film[i].files.push_back(std::move(path));
-        }
-        const std::lock_guard lock(reporting);
-        report(progress, "frames checked", ++done, frames.size());
-    });
+    parallelFor(
+        frames.size(),
+        [&](std::size_t i) try {
+            const SequenceFrame frame = frameAt(shot, base, frames[i]);
+            film[i].frame = frames[i];
+            film[i].finished = options.resume;
+            for (const std::string& pattern : options.outputs) {
+                FilmSettings settings = options.settings;
+                settings.encoding = encodingOf(pattern, options);
+                film[i].settings.push_back(frameSettings(settings, frame));
+                fs::path path = framePath(pattern, frames[i]);
+                if (options.samples) path = partPath(path, *options.samples);
+                film[i].finished =
+                    film[i].finished && (options.samples ? isFinishedPart(path, film[i].settings.back())
+                                                         : isFinishedFrame(path, frame.view.width, frame.view.height,
+                                                                           film[i].settings.back()));
+                film[i].files.push_back(std::move(path));
+            }
+            const std::lock_guard lock(reporting);
+            report(progress, "frames checked", ++done, frames.size());
+        } catch (const Error&) { faults[i] = std::current_exception(); });
+    for (const std::exception_ptr& fault : faults)
+        if (fault) std::rethrow_exception(fault);
     return film;
 }
 

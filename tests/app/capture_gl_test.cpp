@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "app/shots.h"
+#include "capture/frame_files.h"
 #include "image/image_io.h"
 
 namespace defocus {
@@ -114,16 +115,16 @@ TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     dolly.erase("focus");
     dolly["camera"] = json::parse(R"({"dolly": {"distance": 0.6, "interpolation": "linear"}})");
     writeShot(dolly);
-    const auto focusOf = [&](const std::string& file) {
+    const auto focusOf = [&](const char* output, int frame) {
         Metadata metadata;
-        readImage(folder() / file, &metadata);
+        readImage(folder() / framePath(output, frame), &metadata);
         return std::get<double>(metadata.at("focus"));
     };
     ASSERT_EQ(capture({"--focus-pixel", "32,14", "-o", "p#.exr"}).exitCode, 0);
     ASSERT_EQ(capture({"--focus-auto", "-o", "a#.exr"}).exitCode, 0);
     for (int frame = 0; frame < 8; ++frame) {
-        EXPECT_NEAR(focusOf("p" + std::to_string(frame) + ".exr"), 2 - 0.6 * frame / 7, 1e-5) << frame;
-        EXPECT_NEAR(focusOf("a" + std::to_string(frame) + ".exr"), 2 - 0.6 * frame / 7, 1e-5) << frame;
+        EXPECT_NEAR(focusOf("p#.exr", frame), 2 - 0.6 * frame / 7, 1e-5) << frame;
+        EXPECT_NEAR(focusOf("a#.exr", frame), 2 - 0.6 * frame / 7, 1e-5) << frame;
     }
     dolly["focus"] = json::parse(R"({"pixel": [32, 14]})");
     writeShot(dolly);
@@ -133,7 +134,7 @@ TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     EXPECT_TRUE(bytesOf("shard4.exr") == bytesOf("a4.exr"));
     // A shot's pixel is one of its own size.
     ASSERT_EQ(capture({"--range", "5", "-o", "small#.exr", "--size", "32x24"}).exitCode, 0);
-    EXPECT_NEAR(focusOf("small5.exr"), 2 - 0.6 * 5 / 7, 1e-5);
+    EXPECT_NEAR(focusOf("small#.exr", 5), 2 - 0.6 * 5 / 7, 1e-5);
     expectOneLine(capture({"--range", "0", "--focus-pixel", "0,0"}), 1);
 }
 

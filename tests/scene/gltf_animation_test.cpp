@@ -83,6 +83,23 @@ TEST(GltfMorph, flatNormalsFollowTheirTarget) {
     EXPECT_LT(glm::length(lifted - glm::normalize(glm::vec3(-1, 0, 1))), 1e-6f);
 }
 
+// Three numbers a tangent: the handedness stays.
+TEST(GltfMorph, tangentsAndNormalsAreRead) {
+    GltfBuilder builder;
+    json attributes = attributesOf(builder);
+    attributes["NORMAL"] = builder.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
+    attributes["TANGENT"] = builder.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4", 3);
+    const json target = {{"TANGENT", builder.floats({0, 1, 0, 0, 2, 0, 0, 3, 0}, "VEC3", 3)},
+                         {"NORMAL", builder.floats({4, 0, 0, 5, 0, 0, 6, 0, 0}, "VEC3", 3)}};
+    builder.mesh({{{"attributes", attributes}, {"targets", {target}}}});
+    const Scene scene = builder.load();
+    ASSERT_EQ(scene.meshes[0].morphTargets.size(), 1u);
+    const MorphTarget& morph = scene.meshes[0].morphTargets[0];
+    EXPECT_EQ(morph.tangents, (std::vector<glm::vec3>{{0, 1, 0}, {0, 2, 0}, {0, 3, 0}}));
+    EXPECT_EQ(morph.normals, (std::vector<glm::vec3>{{4, 0, 0}, {5, 0, 0}, {6, 0, 0}}));
+    EXPECT_TRUE(scene.ignored.empty());
+}
+
 TEST(GltfMorph, animatedWeightsReachTheObject) {
     GltfBuilder builder;
     const int target = builder.positions({0, 0, 1, 0, 0, 1, 0, 0, 1});
