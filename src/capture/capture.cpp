@@ -152,6 +152,28 @@ std::string stageText(int frame, const FilmFigures& figures, double milliseconds
                        static_cast<double>(figures.triangles) * 1e-6 / figures.rendered, duration(each * left / 1000));
 }
 
+// ---- what is there
+// ---------------------------------------------------------------------------------------------------
+
+FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, const FilmOptions& options) {
+    const SequenceFrame frame = frameAt(shot, base, number);
+    FilmFrame film;
+    film.frame = number;
+    film.finished = options.resume;
+    for (const std::string& pattern : options.outputs) {
+        FilmSettings settings = options.settings;
+        settings.encoding = encodingOf(pattern, options);
+        film.settings.push_back(frameSettings(settings, frame));
+        fs::path path = framePath(pattern, number);
+        if (options.samples) path = partPath(path, *options.samples);
+        film.finished = film.finished && (options.samples ? isFinishedPart(path, film.settings.back())
+                                                          : isFinishedFrame(path, frame.view.width, frame.view.height,
+                                                                            film.settings.back()));
+        film.files.push_back(std::move(path));
+    }
+    return film;
+}
+
 }  // namespace
 
 fs::path timingsPath(const std::string& pattern, int shard, int shards) {
@@ -165,30 +187,19 @@ fs::path timingsPath(const std::string& pattern, int shard, int shards) {
 std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, const std::vector<int>& frames,
                                   const FilmOptions& options, const Progress& progress) {
     std::vector<FilmFrame> film(frames.size());
-    std::vector<std::exception_ptr> faults(frames.size());  // the first one is told, not the earliest
+    std::vector<std::exception_ptr> faults(frames.size());
     std::mutex reporting;
     std::uint64_t done = 0;
-    parallelFor(
-        frames.size(),
-        [&](std::size_t i) try {
-            const SequenceFrame frame = frameAt(shot, base, frames[i]);
-            film[i].frame = frames[i];
-            film[i].finished = options.resume;
-            for (const std::string& pattern : options.outputs) {
-                FilmSettings settings = options.settings;
-                settings.encoding = encodingOf(pattern, options);
-                film[i].settings.push_back(frameSettings(settings, frame));
-                fs::path path = framePath(pattern, frames[i]);
-                if (options.samples) path = partPath(path, *options.samples);
-                film[i].finished =
-                    film[i].finished && (options.samples ? isFinishedPart(path, film[i].settings.back())
-                                                         : isFinishedFrame(path, frame.view.width, frame.view.height,
-                                                                           film[i].settings.back()));
-                film[i].files.push_back(std::move(path));
-            }
-            const std::lock_guard lock(reporting);
-            report(progress, "frames checked", ++done, frames.size());
-        } catch (const Error&) { faults[i] = std::current_exception(); });
+    parallelFor(frames.size(), [&](std::size_t i) {
+        try {
+            film[i] = filmFrame(shot, base, frames[i], options);
+        } catch (const Error&) {
+            faults[i] = std::current_exception();
+        }
+        const std::lock_guard lock(reporting);
+        report(progress, "frames checked", ++done, frames.size());
+    });
+    // Of several faulty frames the first is told, whichever was looked at first.
     for (const std::exception_ptr& fault : faults)
         if (fault) std::rethrow_exception(fault);
     return film;
