@@ -5,6 +5,7 @@ import base64
 import json
 import math
 import struct
+import zlib
 
 FLOAT, UBYTE, USHORT = 5126, 5121, 5123
 
@@ -52,6 +53,9 @@ class Document:
             attributes["NORMAL"] = self.accessor(unit_rows(surface.normals), FLOAT, "VEC3", 34962)
         if surface.colors:
             attributes["COLOR_0"] = self.accessor(surface.colors, UBYTE, "VEC4", 34962, normalized=True)
+        if surface.coordinates:
+            attributes["TEXCOORD_0"] = self.accessor([tuple(map(as_float32, uv)) for uv in surface.coordinates], FLOAT,
+                                                     "VEC2", 34962)
         return attributes
 
     def indices(self, surface):
@@ -64,6 +68,28 @@ class Document:
     def mesh_of(self, name, primitive, **fields):
         self.json["meshes"].append({"name": name, "primitives": [primitive], **fields})
         return len(self.json["meshes"]) - 1
+
+    def checks(self, light, dark):
+        """A texture of 2 x 2 checks (sRGB bytes) that repeats without smoothing."""
+        rows = b"".join(b"\0" + bytes(first) + bytes(second) for first, second in ((light, dark), (dark, light)))
+        image = png(2, 2, rows)
+        self.json["bufferViews"].append({"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(image)})
+        self.binary += image + b"\0" * (-len(image) % 4)
+        self.json["images"] = [{"mimeType": "image/png", "bufferView": len(self.json["bufferViews"]) - 1}]
+        self.json["samplers"] = [{"magFilter": 9728, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}]
+        self.json["textures"] = [{"source": 0, "sampler": 0}]
+        return 0
+
+    def slide(self, name, moves):
+        """A clip of one second in which each node of `moves` goes by so much, evenly."""
+        times = self.accessor([(0.0,), (1.0,)], FLOAT, "SCALAR", bounds=True)
+        samplers, channels = [], []
+        for node, move in moves.items():
+            begin = self.json["nodes"][node]["translation"]
+            ends = [tuple(as_float32(b + share * m) for b, m in zip(begin, move)) for share in (0, 1)]
+            samplers.append({"input": times, "output": self.accessor(ends, FLOAT, "VEC3")})
+            channels.append({"sampler": len(samplers) - 1, "target": {"node": node, "path": "translation"}})
+        self.json.setdefault("animations", []).append({"name": name, "samplers": samplers, "channels": channels})
 
     def node(self, name, parent=None, **fields):
         self.json["nodes"].append({"name": name, **fields})
@@ -82,7 +108,9 @@ class Document:
     def sun(self, color, lux, rotation):
         lights = self.json.setdefault("extensions", {}).setdefault("KHR_lights_punctual", {"lights": []})["lights"]
         lights.append({"name": "Sun", "type": "directional", "color": color, "intensity": lux})
-        self.json.setdefault("extensionsUsed", []).append("KHR_lights_punctual")
+        used = self.json.setdefault("extensionsUsed", [])
+        if "KHR_lights_punctual" not in used:
+            used.append("KHR_lights_punctual")
         self.node("Sun", rotation=rotation, extensions={"KHR_lights_punctual": {"light": len(lights) - 1}})
 
     def finished(self):
@@ -104,9 +132,19 @@ class Document:
                 struct.pack("<I4s", len(self.binary), b"BIN\0") + bytes(self.binary))
 
 
+def png(width, height, rows):
+    """A PNG of 8-bit RGB; `rows` begin with a filter byte each. Not compressed: the same bytes from every zlib."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    block = struct.pack("<BHH", 1, len(rows), len(rows) ^ 0xffff) + rows
+    stream = b"\x78\x01" + block + struct.pack(">I", zlib.adler32(rows))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
+            chunk(b"IDAT", stream) + chunk(b"IEND", b""))
+
+
 class Surface:
     def __init__(self):
-        self.positions, self.normals, self.colors, self.indices = [], [], [], []
+        self.positions, self.normals, self.colors, self.coordinates, self.indices = [], [], [], [], []
 
     def quad(self, corners, normal=None, color=None):
         """Four corners, counter-clockwise seen from the front."""

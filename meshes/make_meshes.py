@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, fish.glb, artefact-*.gltf and swimmers.glb.
-Python's standard library only.
+"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, fish.glb, chess.glb, artefact-*.gltf and
+swimmers.glb. Python's standard library only.
 
     make_meshes.py            write them beside this file
     make_meshes.py --check    compare them with what would be written; exit code 1 when one differs
@@ -267,12 +267,133 @@ def fish():
     return document.glb()
 
 
+# ---- chess.glb ------------------------------------------------------------------------------------------------------
+
+# Radius and height (cm) of turned pieces, from the foot to the tip; a piece is closed at both ends.
+FOOT = [(0, 0), (2.0, 0), (2.1, 0.15), (2.1, 0.5), (1.95, 0.7), (1.6, 0.85), (1.55, 1.1), (1.65, 1.25), (1.6, 1.4),
+        (1.2, 1.7), (0.98, 2.2)]
+PAWN = FOOT + [(0.8, 3.0), (0.74, 3.6), (0.9, 3.75), (1.2, 3.85), (1.22, 4.0), (1.0, 4.12), (0.78, 4.2), (1.05, 4.5),
+               (1.2, 4.9), (1.22, 5.2), (1.12, 5.6), (0.85, 5.95), (0.45, 6.15), (0, 6.22)]
+BISHOP = FOOT + [(0.82, 3.4), (0.74, 4.8), (0.95, 5.0), (1.3, 5.12), (1.32, 5.3), (1.0, 5.45), (0.9, 5.6), (0.8, 5.75),
+                 (1.05, 6.2), (1.18, 6.8), (1.08, 7.4), (0.75, 8.0), (0.35, 8.4), (0.28, 8.5), (0.36, 8.65), (0.32, 8.85),
+                 (0.16, 9.0), (0, 9.03)]
+QUEEN = FOOT + [(0.9, 3.6), (0.78, 5.8), (1.0, 6.0), (1.45, 6.12), (1.47, 6.32), (1.1, 6.5), (0.95, 6.7), (1.0, 7.2),
+                (1.2, 8.0), (1.5, 8.7), (1.52, 8.8), (1.3, 8.85), (0.9, 8.95), (0.5, 9.2), (0.42, 9.35), (0.5, 9.6),
+                (0.42, 9.85), (0.2, 10.0), (0, 10.03)]
+
+
+def turned(profile, size, around=40):
+    """A lathe's surface of revolution about the vertical: the profile as a smooth curve (Catmull and Rom 1974)."""
+    curve = []
+    for i in range(len(profile) - 1):
+        p = [profile[max(0, min(len(profile) - 1, i + k))] for k in (-1, 0, 1, 2)]
+        for step in range(2):
+            t = step / 2
+            curve.append([max(0.0, 0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t * t
+                                          + (3 * b - a - 3 * c + d) * t ** 3)) for a, b, c, d in zip(*p)])
+    curve.append(list(profile[-1]))
+    rings = []
+    for radius, height in curve:
+        points = around if radius > 0 else 1
+        rings.append([(size * radius * math.cos(2 * math.pi * k / around), size * height,
+                       size * radius * math.sin(2 * math.pi * k / around)) for k in range(points)])
+    surface = Surface()
+    add_tube(surface, [rings[0]] + rings[1:-1] + [rings[-1]], lambda p: (255, 255, 255, 255))
+    surface.colors = []
+    surface.normals = smooth_normals(surface)
+    return surface
+
+
+def chess(cells=1):
+    """A game by evening light: pieces on a board of two triangles from 0.2 m to 1.4 m, small lamps far behind; a
+    queen close to the camera, which moves while the clip plays, as does the bishop behind it. `cells` along each side of
+    the board have two triangles each."""
+    document = Document()
+    cm = 0.01
+    ivory = document.material("Ivory", pbrMetallicRoughness={"baseColorFactor": [0.78, 0.66, 0.47, 1], "metallicFactor": 0,
+                                                             "roughnessFactor": 0.32})
+    rosewood = document.material("Rosewood", pbrMetallicRoughness={"baseColorFactor": [0.2, 0.028, 0.02, 1],
+                                                                   "metallicFactor": 0, "roughnessFactor": 0.25})
+    board = document.material("Board", pbrMetallicRoughness={
+        "baseColorTexture": {"index": document.checks((206, 184, 148), (70, 42, 30))}, "metallicFactor": 0,
+        "roughnessFactor": 0.55})
+    shade = document.material("Shade", alphaMode="BLEND", extensions={"KHR_materials_unlit": {}})
+
+    plane = Surface()
+    side, back = 6 * cm * 10, -6 * cm * 24
+    tiles = (back - 0.24) / (-12 * cm)
+    for y in range(cells + 1):
+        for x in range(cells + 1):
+            plane.positions.append((side * (2 * x / cells - 1), 0, 0.24 + (back - 0.24) * y / cells))
+            plane.normals.append((0, 1, 0))
+            plane.coordinates.append((10 * x / cells, tiles * (1 - y / cells)))
+            if x < cells and y < cells:
+                a, b = y * (cells + 1) + x, (y + 1) * (cells + 1) + x
+                plane.indices += [a, a + 1, b + 1, a, b + 1, b]
+    document.node("Board", mesh=document.mesh("Board", plane, board))
+
+    # A soft shadow under each piece: dark in the middle, clear at its rim.
+    blot = Surface()
+    ring = [(math.cos(math.pi * k / 16), 0, math.sin(math.pi * k / 16)) for k in range(32)]
+    blot.positions = [(0, 0, 0)] + [(0.6 * x, 0, 0.6 * z) for x, _, z in ring] + ring
+    blot.normals = [(0, 1, 0)] * 65
+    blot.colors = [(8, 4, 3, 240)] + [(8, 4, 3, 190)] * 32 + [(8, 4, 3, 0)] * 32
+    for k, n in ((k, (k + 1) % 32) for k in range(32)):
+        blot.indices += [0, 1 + n, 1 + k, 1 + k, 1 + n, 33 + n, 1 + k, 33 + n, 33 + k]
+    shadow = document.mesh("Shade", blot, shade)
+
+    meshes = {(name, tone): document.mesh(f"{tone} {name}", turned(profile, cm), material)
+              for name, profile in (("Pawn", PAWN), ("Bishop", BISHOP), ("Queen", QUEEN))
+              for tone, material in (("Ivory", ivory), ("Rosewood", rosewood))}
+
+    def piece(label, name, tone, column, row):
+        x, z = round((column + 0.5) * 6 * cm, 5), round(0.24 - (row + 0.5) * 6 * cm, 5)
+        document.node(label, mesh=meshes[name, tone], translation=[x, 0, z])
+        document.node(f"{label}'s shade", mesh=shadow, translation=[round(x - 0.006, 5), 0.0006, round(z - 0.004, 5)],
+                      scale=[0.037, 1, 0.032])
+        return len(document.json["nodes"]) - 2
+
+    near = piece("Near queen", "Queen", "Rosewood", -1.55, 0.2)
+    moving = piece("Bishop", "Bishop", "Rosewood", 1.2, 6)
+    piece("Queen", "Queen", "Ivory", -0.5, 5)
+    for index, (name, tone, column, row) in enumerate((
+            ("Pawn", "Ivory", 0.6, 3.2), ("Pawn", "Ivory", -2.2, 6), ("Pawn", "Ivory", 2.6, 8),
+            ("Bishop", "Ivory", -3.2, 9), ("Pawn", "Rosewood", -1.2, 10), ("Queen", "Rosewood", 1.2, 12),
+            ("Pawn", "Rosewood", 3.4, 12), ("Pawn", "Rosewood", -4.0, 13), ("Bishop", "Rosewood", -1.4, 15),
+            ("Pawn", "Ivory", 4.6, 17), ("Pawn", "Rosewood", 0.8, 18), ("Pawn", "Ivory", -5.0, 19))):
+        piece(f"{name} {index + 1}", name, tone, column, row)
+
+    lamps = [document.material(name, emissiveFactor=color,
+                               pbrMetallicRoughness={"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+                               extensions={"KHR_materials_emissive_strength": {"emissiveStrength": 90}})
+             for name, color in (("Amber", [1.0, 0.52, 0.16]), ("Rose", [1.0, 0.26, 0.3]), ("Sky", [0.3, 0.55, 1.0]),
+                                 ("White", [1.0, 0.86, 0.66]))]
+    glows = []
+    for material in lamps:
+        square = Surface()
+        square.quad([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)], normal=(0, 0, 1))
+        glows.append(document.mesh("Lamp", square, material))
+    for k in range(22):
+        depth = 2.6 + 1.6 * math.sin(5.1 * k) ** 2
+        document.node(f"Lamp {k + 1}", mesh=glows[(3 * k + k // 4) % 4],
+                      translation=[round((-1.05 + 0.1 * k + 0.06 * math.sin(9.0 * k)) * depth / 2.4, 5),
+                                   round(0.16 * depth / 2.4 + 0.28 * math.sin(2.3 * k + 0.5) ** 2, 5), round(-depth, 5)],
+                      scale=[round(0.004 * depth, 5)] * 3)
+
+    document.slide("Move", {near: (0.5, 0, -0.2), moving: (-0.45, 0, 0)})
+    document.sun([1.0, 0.86, 0.68], 3.4, quaternion((-0.7882, 0.6154, 0), 52))
+    document.sun([0.55, 0.68, 1.0], 0.9, quaternion((-0.4472, -0.8944, 0), 48))
+    document.camera(2 * math.atan(0.27), 4 / 3, {"fStop": 1.4, "focusDistance": 0.58, "horizontalAperture": 36.0},
+                    translation=[0.0, 0.14, 0.46], rotation=quaternion((-1, 0, 0), 7))
+    return document.glb()
+
+
 def main():
     check = sys.argv[1:] == ["--check"]
     if sys.argv[1:] and not check:
         sys.exit(__doc__)
     differing = []
-    for name, make in (("bokeh.gltf", bokeh), ("staircase.gltf", staircase), ("fish.glb", fish),
+    for name, make in (("bokeh.gltf", bokeh), ("staircase.gltf", staircase), ("fish.glb", fish), ("chess.glb", chess),
                        ("artefact-leaking.gltf", leaking), ("artefact-lost-background.gltf", lost_background),
                        ("artefact-half-discs.gltf", half_discs), ("artefact-ghosting.gltf", ghosting),
                        ("artefact-resolution-loss.gltf", resolution_loss), ("swimmers.glb", swimmers)):

@@ -13,6 +13,7 @@
 #include "embree/lens_rays.h"
 #include "embree/traced_scene.h"
 #include "embree/traced_shading.h"
+#include "lens/circle_of_confusion.h"
 #include "render/methods.h"
 
 namespace defocus {
@@ -25,6 +26,31 @@ using Clock = std::chrono::steady_clock;
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+RTCRayHit rayOf(const LensRay& ray, double nearest, double farthest) {
+    RTCRayHit traced{};
+    traced.ray.org_x = ray.origin.x;
+    traced.ray.org_y = ray.origin.y;
+    traced.ray.org_z = ray.origin.z;
+    traced.ray.dir_x = ray.direction.x;
+    traced.ray.dir_y = ray.direction.y;
+    traced.ray.dir_z = ray.direction.z;
+    traced.ray.tnear = static_cast<float>(nearest);
+    traced.ray.tfar = static_cast<float>(farthest);
+    traced.ray.mask = ~0u;
+    traced.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    return traced;
+}
+
+// Of what bends the blur to an artist's will, only the limit of the foreground has a lens that does the same.
+void checkTraceable(const Lens& lens) {
+    Lens plain = lens;
+    plain.foregroundLimit = std::numeric_limits<double>::infinity();
+    if (!clipCircleOfConfusion(plain, 1, 1).thinLens())
+        fail("method embree: of the controls of the blur, only --foreground-limit is traced");
+    if (lens.foregroundLimit == 0)
+        fail("method embree: a foreground limit of 0 px would put the lens into the focus plane; trace a small one");
 }
 
 class EmbreeRenderer final : public Renderer {
@@ -47,7 +73,9 @@ private:
 
     [[nodiscard]] std::uint32_t sampleCount() const;
     [[nodiscard]] SamplePoints samplePoints(int x, int y, std::uint32_t sample) const;
-    [[nodiscard]] RTCRayHit cameraRay(int x, int y, std::uint32_t sample) const;
+    [[nodiscard]] RTCRayHit cameraRay(const SamplePoints& points) const;
+    [[nodiscard]] RTCRayHit rayBehindLens(const SamplePoints& points) const;
+    void traceBehindLens(std::span<const SamplePoints> points, std::span<RTCRayHit> rays) const;
     [[nodiscard]] glm::vec4 radiance(const RTCRayHit& ray) const;
     void traceTile(int tile, std::uint32_t sample);
 
@@ -69,6 +97,7 @@ private:
 
 void EmbreeRenderer::start(const FramePlan& plan) {
     if (world_.environment.type == EnvironmentType::map) fail("method embree: environment maps are not traced");
+    checkTraceable(plan.view.lens);
     view_ = plan.view;
     settings_ = plan.settings;
     if (sampling_ == EmbreeSampling::planned) planned_ = plan.samples;
@@ -112,22 +141,17 @@ EmbreeRenderer::SamplePoints EmbreeRenderer::samplePoints(int x, int y, std::uin
     return points;
 }
 
-RTCRayHit EmbreeRenderer::cameraRay(int x, int y, std::uint32_t sample) const {
-    const SamplePoints points = samplePoints(x, y, sample);
-    const LensRay ray = lensRay(camera_, points.image, points.lens);
+RTCRayHit EmbreeRenderer::cameraRay(const SamplePoints& points) const {
+    if (camera_.lensDepth == 0)
+        return rayOf(lensRay(camera_, points.image, points.lens), view_.nearPlane,
+                     std::numeric_limits<double>::infinity());
+    return rayOf(eyeRay(camera_, points.image, points.lens), view_.nearPlane, camera_.lensDepth);
+}
 
-    RTCRayHit traced{};
-    traced.ray.org_x = ray.origin.x;
-    traced.ray.org_y = ray.origin.y;
-    traced.ray.org_z = ray.origin.z;
-    traced.ray.dir_x = ray.direction.x;
-    traced.ray.dir_y = ray.direction.y;
-    traced.ray.dir_z = ray.direction.z;
-    traced.ray.tnear = static_cast<float>(view_.nearPlane);
-    traced.ray.tfar = std::numeric_limits<float>::infinity();
-    traced.ray.mask = ~0u;
-    traced.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    return traced;
+RTCRayHit EmbreeRenderer::rayBehindLens(const SamplePoints& points) const {
+    const LensRay eye = eyeRay(camera_, points.image, points.lens);
+    return rayOf(refractedRay(camera_, points.image, eye), std::max(0.0, view_.nearPlane - camera_.lensDepth),
+                 std::numeric_limits<double>::infinity());
 }
 
 glm::vec4 EmbreeRenderer::radiance(const RTCRayHit& ray) const {
@@ -137,6 +161,20 @@ glm::vec4 EmbreeRenderer::radiance(const RTCRayHit& ray) const {
     return {backgroundRadiance(world_.environment, worldFromCamera_ * direction), 1};
 }
 
+// Goes on with those rays that met nothing before the lens.
+void EmbreeRenderer::traceBehindLens(std::span<const SamplePoints> points, std::span<RTCRayHit> rays) const {
+    std::array<RTCRayHit, tileSize * tileSize> behind;
+    std::array<std::size_t, tileSize * tileSize> places{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (rays[i].hit.geomID != RTC_INVALID_GEOMETRY_ID) continue;
+        places[count] = i;
+        behind[count++] = rayBehindLens(points[i]);
+    }
+    if (count > 0) scene_->trace(std::span(behind).first(count));
+    for (std::size_t i = 0; i < count; ++i) rays[places[i]] = behind[i];
+}
+
 void EmbreeRenderer::traceTile(int tile, std::uint32_t sample) {
     const int columns = (view_.width + tileSize - 1) / tileSize;
     const int left = tile % columns * tileSize;
@@ -144,12 +182,18 @@ void EmbreeRenderer::traceTile(int tile, std::uint32_t sample) {
     const int right = std::min(left + tileSize, view_.width);
     const int bottom = std::min(top + tileSize, view_.height);
 
+    std::array<SamplePoints, tileSize * tileSize> points;
     std::array<RTCRayHit, tileSize * tileSize> rays;
     std::size_t count = 0;
     for (int y = top; y < bottom; ++y) {
-        for (int x = left; x < right; ++x) rays[count++] = cameraRay(x, y, sample);
+        for (int x = left; x < right; ++x) {
+            points[count] = samplePoints(x, y, sample);
+            rays[count] = cameraRay(points[count]);
+            ++count;
+        }
     }
     scene_->trace(std::span(rays).first(count));
+    if (camera_.lensDepth > 0) traceBehindLens(std::span(points).first(count), std::span(rays).first(count));
     const RTCRayHit* ray = rays.data();
     for (int y = top; y < bottom; ++y) {
         glm::dvec4* row = sum_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(view_.width);

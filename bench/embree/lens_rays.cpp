@@ -57,7 +57,25 @@ LensCamera lensCamera(const View& view) {
     if (lens.focusBreathing) camera.tanHalfHorizontal *= 1 - focal * camera.reciprocalFocus;
     camera.tanHalfVertical = camera.tanHalfHorizontal * view.height / view.width;
     if (lens.dofEnabled) camera.lensRadius = 0.5 * lens.blurScale * focal / lens.fStop;
+    if (std::isfinite(lens.foregroundLimit) && camera.lensRadius > 0) {
+        camera.cone = lens.foregroundLimit * camera.tanHalfHorizontal / view.width;
+        camera.lensDepth = 1 / (camera.reciprocalFocus + camera.cone / camera.lensRadius);
+    }
     return camera;
+}
+
+LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens) {
+    const glm::dvec2 axis(image.x * camera.tanHalfHorizontal, image.y * camera.tanHalfVertical);
+    return {glm::vec3(0), glm::vec3(axis + camera.cone * lens, -1)};
+}
+
+LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye) {
+    const glm::dvec2 axis(image.x * camera.tanHalfHorizontal, image.y * camera.tanHalfVertical);
+    const glm::dvec2 slope(eye.direction.x, eye.direction.y);
+    const double alpha = camera.lensDepth;
+    const double reciprocalFocal = 1 / (alpha * (1 - alpha * camera.reciprocalFocus));  // s/(α(s − α))
+    const glm::dvec2 height = alpha * (slope - axis);
+    return {glm::vec3(alpha * slope, -alpha), glm::vec3(slope - height * reciprocalFocal, -1)};
 }
 
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens) {

@@ -8,6 +8,16 @@
 //   L + t·(X·tan(θx/2) − L.x/s, Y·tan(θy/2) − L.y/s, −1)
 // so t is the depth in metres, and a lens focused at infinity (1/s = 0) needs no special case.
 //
+// A limit c₀ (px, of an image W px wide) of the blur in front of the focus: for a pixel, the lens of radius A/2 at the
+// eye is replaced by one at a depth α, in the middle of the pixel's own axis, that images the eye to the plane of
+// focus. Rays leave the eye as through a pinhole, inside the cone around the axis that covers c₀ px: whatever lies
+// before the lens is blurred to that cone's c₀ px at any depth. Behind it nothing may change, so that α is where the
+// old bundle of rays is as wide as the cone: 2·(A/2)·(1/α − 1/s)·W/(2 tan(θx/2)) = c₀. An object distance α in front of
+// the lens and an image distance s − α behind it make the thin lens's relation
+//   1/f = 1/α + 1/(s − α) = s/(α(s − α))
+// (Munkberg, Toth and Akenine-Möller 2012, whose print has f for the right-hand side), by which a ray that arrives at a
+// distance h from the middle of the lens is bent by −h/f: eyeRay and refractedRay.
+//
 // Sampling: Owen-scrambled (0, 2)-sequences, one pair of dimensions for the lens and one for the pixel, after
 //   Sobol' 1967; Kollig and Keller 2002, Efficient Multidimensional Sampling; Laine and Karras 2011, Stratified
 //   Sampling for Stochastic Transparency; Burley 2020, Practical Hash-based Owen Scrambling.
@@ -25,6 +35,10 @@ struct LensCamera {
     double tanHalfVertical = 0;
     double lensRadius = 0;       // m; 0 is a pinhole
     double reciprocalFocus = 0;  // 1/m; 0 is infinity
+
+    // Of the limited foreground.
+    double lensDepth = 0;  // α, m; 0: the lens is at the eye
+    double cone = 0;       // tangent of the cone's half angle
 };
 
 LensCamera lensCamera(const View& view);
@@ -36,6 +50,10 @@ struct LensRay {
 
 // The ray from lens point `lens` (unit disk) for image point `image` ([-1, 1]², right and up).
 LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
+
+// With a limited foreground: the ray from the eye to the lens at lensDepth, and from there on.
+LensRay eyeRay(const LensCamera& camera, const glm::dvec2& image, const glm::dvec2& lens);
+LensRay refractedRay(const LensCamera& camera, const glm::dvec2& image, const LensRay& eye);
 
 // Which of the padded two-dimensional sequences.
 enum class SamplePair : std::uint32_t { lens, pixel };

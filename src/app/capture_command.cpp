@@ -96,7 +96,8 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     FilmOptions options;
     options.outputs = shot.outputs;
     options.samples = arguments.samples;
-    options.write = {shot.toneMap, shot.exposure};
+    options.toneMap = shot.toneMap;
+    options.exposure = shot.exposure;
     options.settings = settings;
     options.timings = timingsPath(shot.outputs.front(), arguments.shard.index, arguments.shard.count);
     options.resume = arguments.resume;
@@ -200,9 +201,9 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
              *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());
 
     // The film.
-    std::vector<fs::path> files;
-    for (const FilmFrame& frame : film) files.push_back(frame.files.front());
-    if (!shot.video.empty()) writeVideo(shot.video, files, {shot.frameRate, options.write}, progress);
+    std::vector<VideoFrame> pictures;
+    for (const FilmFrame& frame : film) pictures.push_back({frame.files.front(), frame.write});
+    if (!shot.video.empty()) writeVideo(shot.video, pictures, shot.frameRate, progress);
     progress = {};
     if (!global.quiet) printFigures(figures, film.size());
 }
@@ -277,7 +278,9 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
         .add_option("--video", arguments.shot.video, "Also make a film with ffmpeg: .mp4, .mov, .mkv, .webm or .gif")
         ->type_name("FILE")
         ->group(group);
-    addNumber(command, "--exposure", arguments.shot.exposure, {-60, 60}, "EV", "Of .png, .jpg and film")->group(group);
+    addNumber(command, "--exposure", arguments.shot.exposure, {-60, 60}, "EV",
+              "Of .png, .jpg and film; without it, the shot's, or what exposure time, ISO and f-number make")
+        ->group(group);
     addChoice<ToneMap>(command, "--tonemap", arguments.shot.toneMap,
                        {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
                        "Film curve of .png, .jpg and film")
@@ -302,6 +305,7 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     addShot(*command, *arguments);
     addOutputs(*command, *arguments);
     addSceneOptions(*command, arguments->scene);
+    excludeExposure(*command);
     command->remove_option(command->get_option("SCENE"));
     command->add_option("--scene", arguments->scene.path, "glTF file, instead of the shot's")
         ->type_name("FILE")

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/camera_report.h"
 #include "app/command.h"
 #include "app/number_text.h"
 #include "app/option_text.h"
@@ -27,9 +28,13 @@ struct InfoOptions {
     std::string scene;         // empty: the built-in fish school
     FishSchoolOptions school;  // without a scene
     bool json = false;
+    std::string camera;  // empty: what the file holds; else what its camera does ("true" or a name)
+    SceneOptions seen;   // for --camera
+    CameraQuestion question;
 };
 
 constexpr std::size_t meshesListed = 12;  // for people; --json lists all
+const std::string flagOnly = "true";      // CLI11's value of a flag without one
 constexpr double degrees = 57.295779513082321;
 
 // "1234567" → "1,234,567".
@@ -258,7 +263,20 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     printMeshes(scene, objects);
 }
 
+void runCameraInfo(const InfoOptions& options, const GlobalOptions& global) {
+    SceneOptions seen = options.seen;
+    seen.path = options.scene;
+    seen.fishCount = options.school.fishCount;
+    seen.trianglesPerFish = options.school.trianglesPerFish;
+    if (options.camera != flagOnly) seen.camera = options.camera;
+    const PreparedFrame frame = placeFrame(seen, terminalProgress(global));
+    printWarnings(frame, global);
+    fmt::print("{}", options.json ? cameraJson(frame, options.question) : cameraTable(frame, options.question));
+    std::fflush(stdout);
+}
+
 void runInfo(const InfoOptions& options, const GlobalOptions& global) {
+    if (!options.camera.empty()) return runCameraInfo(options, global);
     const Progress progress = terminalProgress(global);
     const Scene scene =
         options.scene.empty() ? fishSchool(options.school, progress) : loadGltf(options.scene, progress);
@@ -268,6 +286,29 @@ void runInfo(const InfoOptions& options, const GlobalOptions& global) {
     else
         printScene(options, scene, pose);
     std::fflush(stdout);
+}
+
+void addCameraQuestion(CLI::App& command, InfoOptions& options) {
+    const char* group = "Camera";
+    const std::vector<CLI::Option*> before = command.get_options();
+    CLI::Option* camera =
+        command
+            .add_flag("--camera", options.camera,
+                      "What the camera does instead: field of view, depth of field, hyperfocal distance, exposure, "
+                      "and the blur at chosen depths; --camera=NAME for one of several, or 'auto'")
+            ->group(group);
+    addParsed(command, "--depths", "M,M,…", "Depths to say the blur at, 'inf' among them; without it, around the focus",
+              [&options](const std::string& text) { options.question.depths = parseDepths(text); })
+        ->group(group);
+    addNumber(command, "--acceptable-coc", options.question.acceptableCoc, {0, 1e3, true}, "MM",
+              "Blur on the sensor that passes for sharp; without it, the sensor's diagonal over 1500 (0.03 mm for a "
+              "sensor of 36 x 27 mm)")
+        ->group(group);
+    addCameraOptions(command, options.seen);
+    for (CLI::Option* option : command.get_options([&](const CLI::Option* each) {
+             return each != camera && std::find(before.begin(), before.end(), each) == before.end();
+         }))
+        option->needs(camera);
 }
 
 }  // namespace
@@ -284,7 +325,12 @@ void addInfoCommand(CLI::App& program, const GlobalOptions& global) {
     addWhole(*command, "--fish-triangles", options->school.trianglesPerFish, 200, 10'000'000, "Triangles a fish, about")
         ->excludes(scene);
     command->add_flag("--json", options->json, "JSON for programs, with every mesh, instead of text");
-    command->footer("Example:\n  defocus info scene.glb --json");
+    addCameraQuestion(*command, *options);
+    command->footer(
+        "Examples:\n"
+        "  defocus info scene.glb --json\n"
+        "  defocus info --camera scene.glb --fstop 2 --focus-auto --depths 1,2,4,inf\n"
+        "  defocus info --camera=Left scene.glb --exposure-time 1/125 --iso 400");
     command->callback([options, &global] { runInfo(*options, global); });
 }
 

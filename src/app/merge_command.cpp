@@ -21,8 +21,16 @@ namespace {
 struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
-    WriteOptions write;
+    ToneMap toneMap = ToneMap::none;
+    std::optional<double> exposure;  // EV; none: the parts'
 };
+
+// That of the lens, where it has one.
+double ownExposure(const Metadata& metadata) {
+    const auto found = metadata.find("defocus:exposure");
+    const double* value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    return value != nullptr ? *value : 0;
+}
 
 void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
     for (const std::filesystem::path& path : arguments.outputs) {
@@ -31,9 +39,10 @@ void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
     }
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const MergedFrame merged = mergeParts(arguments.parts);
+    const WriteOptions write{arguments.toneMap, arguments.exposure.value_or(ownExposure(merged.metadata))};
     std::string names;
     for (const std::filesystem::path& path : arguments.outputs) {
-        writeImage(path, merged.image, merged.metadata, arguments.write);
+        writeImage(path, merged.image, merged.metadata, write);
         names += (names.empty() ? "" : ", ") + path.string();
     }
     if (!global.quiet)
@@ -54,8 +63,9 @@ void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->default_str("out.exr");
-    addNumber(*command, "--exposure", arguments->write.exposure, {-60, 60}, "EV", "Of .png and .jpg");
-    addChoice<ToneMap>(*command, "--tonemap", arguments->write.toneMap,
+    addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
+              "Of .png and .jpg; without it, what the lens's exposure time makes, else 0");
+    addChoice<ToneMap>(*command, "--tonemap", arguments->toneMap,
                        {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
                        "Film curve of .png and .jpg");
     command->footer(

@@ -49,6 +49,13 @@ double parseNumber(const std::string& text, const Range& range) {
     return *number;
 }
 
+double parseSeconds(const std::string& text) {
+    constexpr double longest = 1e6;
+    const std::size_t slash = text.find('/');
+    if (slash == std::string::npos) return parseNumber(text, {0, longest});
+    return parseNumber(text.substr(0, slash), {0, longest}) / parseNumber(text.substr(slash + 1), {1e-6, longest});
+}
+
 std::uint64_t parseWhole(const std::string& text, std::uint64_t least, std::uint64_t most) {
     const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(text);
     if (!number || *number < least || *number > most)

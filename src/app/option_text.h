@@ -23,6 +23,8 @@ struct Range {
 // The whole text as a finite number in `range`. Throws Error saying what is allowed.
 double parseNumber(const std::string& text, const Range& range);
 std::uint64_t parseWhole(const std::string& text, std::uint64_t least, std::uint64_t most);
+// Seconds, as 0.02 or as photographers have them: 1/48.
+double parseSeconds(const std::string& text);
 // Exactly `count` finite numbers in `range`, parted by commas.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range);
 // The place of `text` in `choices`. Throws Error listing them.

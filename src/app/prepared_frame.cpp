@@ -16,6 +16,7 @@
 #include "core/parallel.h"
 #include "image/image_io.h"
 #include "lens/aperture.h"
+#include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid_cache.h"
 #include "scene/fish_school.h"
@@ -88,9 +89,8 @@ Lens chosenLens(const SceneOptions& options, const Camera& camera, std::vector<s
     Lens lens;
     refused = setLensFields(lens, camera.lens);
     setLensFields(lens, options.lens);
-    const double aspect = static_cast<double>(options.width) / options.height;
-    if (!options.lens.contains("focalLength") && !camera.lens.contains("focalLength"))
-        lens.focalLength = focalLengthFromFov(aspect * std::tan(camera.yfov / 2), lens.horizontalAperture);
+    fitToCamera(lens, camera, static_cast<double>(options.width) / options.height,
+                [&](std::string_view name) { return options.lens.contains(name) || camera.lens.contains(name); });
     if (!options.apertureImage.empty()) {
         lens.apertureImage = loadApertureImage(options.apertureImage);
     } else if (!camera.apertureImage.empty()) {
@@ -155,6 +155,8 @@ PlacedCamera place(PreparedFrame& frame, const SceneOptions& options) {
     frame.view.lens = chosenLens(options, placed.camera, frame.refusedLensValues);
     chooseFocus(options, placed.camera, *frame.scene, frame.world.pose, frame.view);
     checkLens(frame.view.lens);
+    if (options.lens.contains("iso") && frame.view.lens.exposureTime == 0)
+        fail("--iso says nothing without an exposure time: give --exposure-time too");
     return placed;
 }
 
@@ -234,6 +236,12 @@ void printWarnings(const PreparedFrame& frame, const GlobalOptions& global) {
     if (!global.quiet)
         for (const std::string& line : frame.refusedLensValues)
             fmt::print(stderr, "warning: camera '{}': {}; not used\n", frame.cameraName, line);
+    const Lens& lens = frame.view.lens;
+    if (!global.quiet && lens.dofEnabled && lens.focusDistance * 1000 <= lens.focalLength)
+        fmt::print(stderr,
+                   "warning: a focus at {:g} m lies inside the focal length of {:g} mm, where no real lens can be "
+                   "focused; are the scene's units metres?\n",
+                   lens.focusDistance, lens.focalLength);
     if (!global.quiet && !frame.cacheFailure.empty())
         fmt::print(stderr, "warning: simplified meshes are not kept for the next run: {}\n", frame.cacheFailure);
 }

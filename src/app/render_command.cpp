@@ -22,6 +22,7 @@
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "image/tone_map.h"
+#include "lens/photographic_exposure.h"
 #include "render/aov.h"
 #include "render/methods.h"
 
@@ -43,7 +44,8 @@ struct RenderArguments {
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path stats;
     AovRequest aovs;
-    WriteOptions write;
+    ToneMap toneMap = ToneMap::none;
+    std::optional<double> exposure;      // EV, of .png and .jpg; none: the lens's
     std::optional<SampleRange> samples;  // only these, for `merge`
 };
 
@@ -171,11 +173,13 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     const bool software = context == nullptr || context->software();
     const RenderReport report{arguments.scene, use.text(), frame, plan, renderer->stats(), software, milliseconds};
+    const double exposure = arguments.exposure.value_or(photographicExposure(frame.view.lens));
     const Metadata metadata = renderMetadata(report);
     if (arguments.samples)
         writeSums(arguments, std::move(part), frame, use, global.shaderDir, metadata);
     else
-        for (const std::filesystem::path& path : arguments.outputs) writeImage(path, image, metadata, arguments.write);
+        for (const std::filesystem::path& path : arguments.outputs)
+            writeImage(path, image, metadata, {arguments.toneMap, exposure});
     if (arguments.aovs.any()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
     if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
     printWarnings(frame, global);
@@ -194,8 +198,10 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         ->type_name("FILE")
         ->default_str("out.exr")
         ->group(group);
-    addNumber(command, "--exposure", arguments.write.exposure, {-60, 60}, "EV", "Of .png and .jpg")->group(group);
-    addChoice<ToneMap>(command, "--tonemap", arguments.write.toneMap,
+    addNumber(command, "--exposure", arguments.exposure, {-60, 60}, "EV",
+              "Of .png and .jpg; without it, what --exposure-time, --iso and the f-number make, else 0")
+        ->group(group);
+    addChoice<ToneMap>(command, "--tonemap", arguments.toneMap,
                        {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
                        "Film curve of .png and .jpg")
         ->group(group);
@@ -220,6 +226,7 @@ void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* command = program.add_subcommand("render", "Render a glTF scene with the depth of field of a real lens");
     addOutputs(*command, *arguments);
     addSceneOptions(*command, arguments->scene);
+    excludeExposure(*command);
     addMethodSettings(*command, arguments->scene);
     command->footer(
         "Examples:\n"

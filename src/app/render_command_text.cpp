@@ -84,7 +84,8 @@ void addSettings(std::string& command, const RenderCommandText& text) {
     if (options.sizeThreshold) add(command, "--size-threshold", fmt::format("{}", *options.sizeThreshold));
     const MethodUse use = chosenMethod(options);
     if (use.text() != standard.method) add(command, "--method", use.text());
-    if (text.write.exposure != 0) command += fmt::format(" --exposure={}", text.write.exposure);
+    const bool ofLens = text.view.lens.exposureTime > 0;
+    if (text.write.exposure != 0 && !ofLens) command += fmt::format(" --exposure={}", text.write.exposure);
     if (text.write.toneMap != ToneMap::none)
         add(command, "--tonemap", text.write.toneMap == ToneMap::aces ? "aces" : "agx");
 }

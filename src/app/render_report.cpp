@@ -13,6 +13,7 @@
 
 #include "app/command.h"
 #include "lens/lens_fields.h"
+#include "lens/photographic_exposure.h"
 
 namespace defocus {
 
@@ -77,6 +78,11 @@ Metadata renderMetadata(const RenderReport& report) {
         {"defocus:layerFormat", report.stats.layerFormat},
         {"defocus:device", report.stats.device},
     };
+    if (lens.exposureTime > 0) {
+        metadata["expTime"] = lens.exposureTime;
+        metadata["isoSpeed"] = lens.iso;
+        metadata["defocus:exposure"] = photographicExposure(lens);
+    }
     for (const LensField& field : lensFields()) {
         const double value = lensFieldValue(lens, field);
         if (std::isfinite(value)) metadata[std::string("defocus:") + field.name] = value;

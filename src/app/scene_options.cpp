@@ -61,14 +61,6 @@ void parseBackground(const std::string& text, SceneOptions& options) {
     options.background = choice == 0 ? Background::environment : Background::none;
 }
 
-// A number, or two with a slash as photographers have it: 1/48.
-double parseSeconds(const std::string& text) {
-    constexpr double longest = 1e6;
-    const std::size_t slash = text.find('/');
-    if (slash == std::string::npos) return parseNumber(text, {0, longest});
-    return parseNumber(text.substr(0, slash), {0, longest}) / parseNumber(text.substr(slash + 1), {1e-6, longest});
-}
-
 void parseSegments(const std::string& text, SceneOptions& options) {
     constexpr std::uint64_t mostSegments = 64;
     options.exposure.exactMotion = text == "exact";
@@ -96,6 +88,20 @@ void addShutter(CLI::App& command, SceneOptions& options) {
         ->group(group);
 }
 
+void addMoment(CLI::App& command, SceneOptions& options) {
+    const char* group = "Scene";
+    addNumber(command, "--time", options.time, {-1e9, 1e9}, "S",
+              "Seconds into the animation; before and after it, its ends")
+        ->group(group);
+    command
+        .add_option("--clip", options.clip,
+                    "Which of the file's animations plays: its name or number (see 'defocus info'); without it, the "
+                    "first")
+        ->type_name("NAME|N")
+        ->group(group);
+    command.add_flag("--loop", options.loop, "Repeat the animation instead of holding its ends")->group(group);
+}
+
 void addScene(CLI::App& command, SceneOptions& options) {
     const char* group = "Scene";
     CLI::Option* scene =
@@ -107,17 +113,11 @@ void addScene(CLI::App& command, SceneOptions& options) {
     addWhole(command, "--fish-triangles", options.trianglesPerFish, 200, 10'000'000, "Triangles a fish, about")
         ->excludes(scene)
         ->group(group);
-    addNumber(command, "--time", options.time, {-1e9, 1e9}, "S",
-              "Seconds into the animation; before and after it, its ends")
-        ->group(group);
-    command
-        .add_option("--clip", options.clip,
-                    "Which of the file's animations plays: its name or number (see 'defocus info'); without it, the "
-                    "first")
-        ->type_name("NAME|N")
-        ->group(group);
-    command.add_flag("--loop", options.loop, "Repeat the animation instead of holding its ends")->group(group);
-    addShutter(command, options);
+    addMoment(command, options);
+}
+
+void addSurroundings(CLI::App& command, SceneOptions& options) {
+    const char* group = "Scene";
     command
         .add_option("--environment", options.environment,
                     "Equirectangular image that lies behind the scene and lights it (.hdr or .exr)")
@@ -130,13 +130,16 @@ void addScene(CLI::App& command, SceneOptions& options) {
         ->group(group);
 }
 
-void addCamera(CLI::App& command, SceneOptions& options) {
-    const char* group = "Camera";
+void addCameraName(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--camera", options.camera,
                     "Name of a camera of the file, or 'auto' for one that frames the scene; without it, the first")
         ->type_name("NAME")
-        ->group(group);
+        ->group("Camera");
+}
+
+void addCameraPlace(CLI::App& command, SceneOptions& options) {
+    const char* group = "Camera";
     const auto addPoint = [&](const char* name, std::optional<glm::dvec3>& target, const char* description) {
         addParsed(command, name, "X,Y,Z", description, [&target](const std::string& text) {
             const std::vector<double> xyz = parseNumbers(text, 3, {-1e12, 1e12});
@@ -168,6 +171,7 @@ CLI::Option* addLensField(CLI::App& command, SceneOptions& options, const LensFi
     const bool whole = std::holds_alternative<int Lens::*>(field.member);
     return addParsed(command, field.option, field.unit, field.description,
                      [set, whole, &field](const std::string& text) {
+                         if (field.unit == std::string_view("S")) return set(parseSeconds(text));
                          set(whole ? static_cast<double>(parseWhole(text, static_cast<std::uint64_t>(field.least),
                                                                     static_cast<std::uint64_t>(field.most)))
                                    : parseNumber(text, {field.least, field.most}));
@@ -302,6 +306,11 @@ MethodUse chosenMethod(const SceneOptions& options) try {
     throw CLI::ValidationError(error.what());  // a fault of the command line
 }
 
+void excludeExposure(CLI::App& command) {
+    for (const char* name : {"--exposure-time", "--iso"})
+        command.get_option(name)->excludes(command.get_option("--exposure"));
+}
+
 void addMethodSettings(CLI::App& command, SceneOptions& options) {
     std::map<std::string, std::string> owners;
     for (const Method& method : methods())
@@ -329,9 +338,18 @@ CLI::Option* addCacheFolder(CLI::App& command, std::filesystem::path& folder) {
         ->type_name("FOLDER");
 }
 
+void addCameraOptions(CLI::App& command, SceneOptions& options) {
+    addMoment(command, options);
+    addCameraPlace(command, options);
+    addLens(command, options);
+}
+
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     addScene(command, options);
-    addCamera(command, options);
+    addShutter(command, options);
+    addSurroundings(command, options);
+    addCameraName(command, options);
+    addCameraPlace(command, options);
     addLens(command, options);
     addLevels(command, options);
     addMethod(command, options);

@@ -87,6 +87,7 @@ void settleShot(Shot& shot, SceneOptions& options, const GivenOptions& given) {
         shot.lens.erase("focusSwing");
     }
     if (std::optional<FocusTarget> target = takeFocusTarget(options)) shot.focus = FocusTrack{.keys = {{0, *target}}};
+    if (options.lens.contains("exposureTime")) shot.exposure.reset();
     std::erase_if(shot.lens, [&](const auto& entry) { return options.lens.contains(entry.first); });
     for (const auto& [name, track] : shot.lens) options.lens[name] = track.keys.front().value;
 }

@@ -127,7 +127,12 @@ void imageSection(ViewState& state) {
     rowLabel("Exposure");
     const double darkest = -8;
     const double brightest = 8;
-    ImGui::SliderScalar("##exposure", ImGuiDataType_Double, &state.display.exposure, &darkest, &brightest, "%+.2f EV");
+    const bool ofLens = state.lens.exposureTime > 0;
+    double exposure = shownExposure(state);
+    ImGui::BeginDisabled(ofLens);  // by time, ISO and f-number
+    if (ImGui::SliderScalar("##exposure", ImGuiDataType_Double, &exposure, &darkest, &brightest, "%+.2f EV"))
+        state.display.exposure = exposure;
+    ImGui::EndDisabled();
     rowLabel("Tone map");
     int toneMap = static_cast<int>(state.display.toneMap);
     if (ImGui::Combo("##tonemap", &toneMap, "none\0ACES\0AgX\0")) state.display.toneMap = static_cast<ToneMap>(toneMap);

@@ -36,7 +36,9 @@ std::vector<double> imageKey(const PictureRequest& request) {
     if (!request.thresholdsFollow) key.insert(key.end(), {settings.thresholds.blur, settings.thresholds.size});
     for (glm::length_t column = 0; column < 4; ++column)
         for (glm::length_t row = 0; row < 4; ++row) key.push_back(view.worldFromCamera[column][row]);
-    for (const LensField& field : lensFields()) key.push_back(lensFieldValue(view.lens, field));
+    Lens lens = view.lens;
+    lens.exposureTime = lens.iso = 1;  // a matter of display
+    for (const LensField& field : lensFields()) key.push_back(lensFieldValue(lens, field));
     return key;
 }
 

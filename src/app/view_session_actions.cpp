@@ -90,7 +90,7 @@ View ViewSession::exportView() const {
 }
 
 WriteOptions ViewSession::writeOptions() const {
-    return {state_.display.toneMap, state_.display.exposure};
+    return {state_.display.toneMap, shownExposure(state_)};
 }
 
 void ViewSession::beginExport() {

@@ -18,6 +18,7 @@ PictureRequest ViewSession::request() const {
     result.poseVersion = poseVersion_;
     result.first = {chosenMethod(state_.options), state_.options.lod, 0};
     result.display = state_.display;
+    result.display.exposure = shownExposure(state_);
     result.mostSamples = state_.mostSamples;
     const MethodUse accumulation = parseMethodUse("accumulation");
     switch (state_.comparison) {

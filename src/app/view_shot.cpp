@@ -89,7 +89,8 @@ std::string shotJson(const SceneOptions& options, const std::vector<ShotKey>& ke
     shot["lod"] = lodModeName(options.lod);
     const std::string method = chosenMethod(options).text();
     if (method != "accumulation") shot["method"] = method;
-    if (write.exposure != 0) shot["exposure"] = write.exposure;
+    const bool ofLens = std::ranges::any_of(keys, [](const ShotKey& key) { return key.view.lens.exposureTime > 0; });
+    if (write.exposure != 0 && !ofLens) shot["exposure"] = write.exposure;
     shot["toneMap"] = write.toneMap == ToneMap::none ? "none" : write.toneMap == ToneMap::aces ? "aces" : "agx";
     return shot.dump(2) + "\n";
 }

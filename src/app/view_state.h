@@ -12,6 +12,7 @@
 #include "app/frame_budget.h"
 #include "app/scene_options.h"
 #include "app/view_shot.h"
+#include "lens/photographic_exposure.h"
 #include "render/display_pass.h"
 
 namespace defocus {
@@ -74,6 +75,11 @@ struct ViewState {
 };
 
 inline constexpr double poppingDuration = 8;  // s, from near to far and back
+
+// EV: of the lens where it has an exposure time, else the slider's.
+inline double shownExposure(const ViewState& state) {
+    return state.lens.exposureTime > 0 ? photographicExposure(state.lens) : state.display.exposure;
+}
 
 // What the panel asks for, done once it is drawn.
 struct ViewActions {

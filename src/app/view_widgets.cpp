@@ -84,6 +84,7 @@ const char* unitText(const LensField& field) {
            : unit == "DEG" ? "°"
            : unit == "PX"  ? " px"
            : unit == "D"   ? " D"
+           : unit == "S"   ? " s"
                            : "";
 }
 
@@ -92,6 +93,7 @@ double dragStep(const LensField& field, double value) {
     if (unit == "DEG") return 0.25;
     if (unit == "PX") return 0.5;
     if (unit == "R") return 0.005;
+    if (unit == "S") return std::max(1e-5, 0.005 * value);
     return std::max(1e-3, 0.005 * std::abs(value));
 }
 

@@ -15,6 +15,7 @@
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "lens/photographic_exposure.h"
 #include "plan/frame_plan.h"
 #include "render/frame_uniforms.h"
 
@@ -32,10 +33,10 @@ fs::path partPath(const fs::path& frame, const SampleRange& range) {
     return path;
 }
 
-std::string encodingOf(const std::string& pattern, const FilmOptions& options) {
+std::string encodingOf(const std::string& pattern, const WriteOptions& write) {
     const std::string ending = fs::path(pattern).extension().string();
     if (ending == ".exr" || ending == ".EXR") return "";
-    return fmt::format("{} {} {}", ending, static_cast<int>(options.write.toneMap), options.write.exposure);
+    return fmt::format("{} {} {}", ending, static_cast<int>(write.toneMap), write.exposure);
 }
 
 bool isFinishedPart(const fs::path& path, const std::string& settings) {
@@ -128,7 +129,7 @@ void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& opt
         metadata[settingsAttribute] = film.settings[i];
         const std::string ending = path.extension().string();
         if (ending != ".exr" && ending != ".png") metadata["comments"] = film.settings[i];  // all that a JPEG holds
-        writeImage(path, drawn.image, metadata, options.write);
+        writeImage(path, drawn.image, metadata, film.write);
     }
     drawn.times.writeMilliseconds = millisecondsSince(start);
     appendTimes(options, film, drawn.frame, drawn.stats, drawn.times);
@@ -160,9 +161,10 @@ FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, cons
     FilmFrame film;
     film.frame = number;
     film.finished = options.resume;
+    film.write = {options.toneMap, options.exposure.value_or(photographicExposure(frame.view.lens))};
     for (const std::string& pattern : options.outputs) {
         FilmSettings settings = options.settings;
-        settings.encoding = encodingOf(pattern, options);
+        settings.encoding = encodingOf(pattern, film.write);
         film.settings.push_back(frameSettings(settings, frame));
         fs::path path = framePath(pattern, number);
         if (options.samples) path = partPath(path, *options.samples);

@@ -25,13 +25,15 @@ struct FilmFrame {
     int frame = 0;
     std::vector<std::string> settings;         // of each file
     std::vector<std::filesystem::path> files;  // one an output pattern
+    WriteOptions write;                        // of PNG, JPEG and video
     bool finished = false;                     // there already, and as it should be
 };
 
 struct FilmOptions {
     std::vector<std::string> outputs;    // patterns, see frame_files.h
     std::optional<SampleRange> samples;  // write parts of the frames: FRAME.partFIRST-END.exr; one EXR output only
-    WriteOptions write;                  // of PNG and JPEG
+    ToneMap toneMap = ToneMap::none;     // of PNG, JPEG and video, as is the exposure
+    std::optional<double> exposure;      // EV; none: what each frame's lens makes
     FilmSettings settings;               // all but the encoding
     std::filesystem::path timings;       // the sidecar
     bool resume = false;                 // keep what is finished

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
 #include "plan/camera_path.h"
 #include "plan/focus_depth.h"
@@ -115,7 +116,7 @@ enum class Scale { plain, logarithmic, reciprocal, stepped };
 Scale scaleOf(const LensField& field) {
     if (!std::holds_alternative<double Lens::*>(field.member)) return Scale::stepped;
     const std::string_view name = field.name;
-    if (name == "fStop" || name == "focalLength") return Scale::logarithmic;
+    if (name == "fStop" || name == "focalLength" || name == "exposureTime" || name == "iso") return Scale::logarithmic;
     return name == "focusDistance" ? Scale::reciprocal : Scale::plain;
 }
 
@@ -126,6 +127,7 @@ double lensValueAt(const LensTrack& track, const LensField& field, double frame)
         case Scale::plain:
             return valueAt(keys, track.easing, frame);
         case Scale::logarithmic:
+            if (std::ranges::any_of(keys, [](const Key<double>& key) { return key.value <= 0; })) break;
             for (Key<double>& key : keys) key.value = std::log(key.value);
             return std::exp(valueAt(keys, track.easing, frame));
         case Scale::reciprocal:
@@ -144,9 +146,8 @@ void followCamera(const SequenceBase& base, const Camera& camera, Lens& lens) {
     for (const auto& [name, value] : camera.lens)
         if (!base.fixedLens.contains(name)) own.emplace(name, value);
     setLensFields(lens, own);  // values that no lens can have were warned of
-    if (base.fixedLens.contains("focalLength") || camera.lens.contains("focalLength")) return;
-    const double aspect = static_cast<double>(base.view.width) / base.view.height;
-    lens.focalLength = focalLengthFromFov(aspect * std::tan(camera.yfov / 2), lens.horizontalAperture);
+    fitToCamera(lens, camera, static_cast<double>(base.view.width) / base.view.height,
+                [&](std::string_view name) { return base.fixedLens.contains(name) || camera.lens.contains(name); });
 }
 
 Lens lensAt(const Shot& shot, const SequenceBase& base, const SequenceFrame& frame) {

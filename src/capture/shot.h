@@ -115,7 +115,7 @@ struct Shot {
     std::optional<LayerFormat> layerFormat;
 
     std::vector<std::string> outputs = {"frames/####.exr"};
-    double exposure = 0;  // EV, of PNG, JPEG and video
+    std::optional<double> exposure;  // EV, of PNG, JPEG and video; none: what the lens's exposure time makes, else 0
     ToneMap toneMap = ToneMap::none;
     std::filesystem::path video;  // none: empty
 };

@@ -334,6 +334,8 @@ Shot shotOf(const json& document, const fs::path& file) {
     if (const auto lens = reader.find("lens")) shot.lens = lensOf(*lens);
     if (shot.focus && shot.lens.contains("focusDistance"))
         reader.at("lens").at("focusDistance").failWith("the shot has a 'focus' too; give one of them");
+    if (reader.has("exposure") && shot.lens.contains("exposureTime"))
+        reader.at("exposure").failWith("the lens has an exposureTime too; give one of them");
     readQuality(reader, shot);
     readOutput(reader, shot);
     return shot;

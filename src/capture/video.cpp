@@ -124,14 +124,15 @@ private:
     int input_ = -1;
 };
 
-std::vector<std::uint8_t> displayBytes(const fs::path& path, const Image& first, const WriteOptions& options) {
+std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& first) {
+    const fs::path& path = frame.file;
     Image image = readImage(path);
     if (image.width != first.width || image.height != first.height)
         fail("{}: is {}x{} and not {}x{} as the film's first frame", path.string(), image.width, image.height,
              first.width, first.height);
     // A PNG or JPEG has been through the tone map; only its encoding is undone by reading.
     const bool linear = path.extension() == ".exr";
-    image = linear ? displayEncoded(image, options.toneMap, options.exposure) : displayEncoded(image);
+    image = linear ? displayEncoded(image, frame.image.toneMap, frame.image.exposure) : displayEncoded(image);
     std::vector<std::uint8_t> bytes;
     bytes.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
     const auto channels = static_cast<std::size_t>(image.channels);
@@ -161,10 +162,10 @@ void checkVideo(const fs::path& path) {
     checkWritable(path);
 }
 
-void writeVideo(const fs::path& path, const std::vector<fs::path>& frames, const VideoOptions& options,
+void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, double frameRate,
                 const Progress& progress) {
     if (frames.empty()) fail("{}: a film needs a frame", path.string());
-    const Image first = readImage(frames.front());
+    const Image first = readImage(frames.front().file);
     const fs::path log = path.string() + ".log";
     removeUnfinished({path, log});
     PendingFile film(path);
@@ -175,7 +176,7 @@ void writeVideo(const fs::path& path, const std::vector<fs::path>& frames, const
                                           "-f",          "rawvideo",
                                           "-pix_fmt",    "rgb24",
                                           "-video_size", fmt::format("{}x{}", first.width, first.height),
-                                          "-framerate",  fmt::format("{}", options.frameRate),
+                                          "-framerate",  fmt::format("{}", frameRate),
                                           "-i",          "-"};
     const std::vector<std::string>& encoder = encoderOf(path);
     arguments.insert(arguments.end(), encoder.begin(), encoder.end());
@@ -187,7 +188,7 @@ void writeVideo(const fs::path& path, const std::vector<fs::path>& frames, const
     bool listening = true;
     for (std::size_t i = 0; i < frames.size() && listening; ++i) {
         report(progress, "film", i, frames.size());
-        listening = ffmpeg.write(displayBytes(frames[i], first, options.image));
+        listening = ffmpeg.write(displayBytes(frames[i], first));
     }
     const bool finished = ffmpeg.close();
     std::signal(SIGPIPE, previous);

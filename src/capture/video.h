@@ -12,14 +12,14 @@ namespace defocus {
 // Throws Error unless `path` is an .mp4, .mov, .mkv, .webm or .gif that can be written and ffmpeg is installed.
 void checkVideo(const std::filesystem::path& path);
 
-struct VideoOptions {
-    double frameRate = 24;  // 1/s
-    WriteOptions image;     // how linear frames are turned into display values
+struct VideoFrame {
+    std::filesystem::path file;
+    WriteOptions image;  // how a linear frame is turned into display values
 };
 
-// Reads the frames in order and pipes them to ffmpeg. The film appears whole or not at all. Throws Error naming the
-// frame that can't be read, or the film with what ffmpeg said.
-void writeVideo(const std::filesystem::path& path, const std::vector<std::filesystem::path>& frames,
-                const VideoOptions& options, const Progress& progress = {});
+// Reads the frames in order and pipes them to ffmpeg, `frameRate` a second. The film appears whole or not at all.
+// Throws Error naming the frame that can't be read, or the film with what ffmpeg said.
+void writeVideo(const std::filesystem::path& path, const std::vector<VideoFrame>& frames, double frameRate,
+                const Progress& progress = {});
 
 }  // namespace defocus

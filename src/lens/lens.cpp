@@ -44,6 +44,8 @@ void checkLens(const Lens& lens) {
     if (!(lens.focusDistance > 0)) fail("lens: the focus distance must be above 0 m, not {}", lens.focusDistance);
     if (!(lens.blurScale >= 0) || !std::isfinite(lens.blurScale))
         fail("lens: the blur scale must be a finite number of 0 or more, not {}", lens.blurScale);
+    requireWithin(lens.exposureTime, 0, 1e6, "the exposure time (s)");
+    requireWithin(lens.iso, 1, 1e7, "the ISO sensitivity");
     if (!std::isfinite(lens.bladeRotation)) fail("lens: the blade rotation must be finite, not {}", lens.bladeRotation);
     if (lens.bladeCount != 0 && (lens.bladeCount < 3 || lens.bladeCount > 64))
         fail("lens: the blade count must be 0 (a disk) or 3 to 64, not {}", lens.bladeCount);

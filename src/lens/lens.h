@@ -21,6 +21,8 @@ struct Lens {
     bool dofEnabled = true;          // false: a pinhole, whatever the f-number
     double blurScale = 1;            // 1 is physical; ≥ 0
     bool focusBreathing = false;     // true: textbook thin lens, the field of view narrows as the focus comes nearer
+    double exposureTime = 0;         // s, of photographic_exposure.h; 0: brightness is not a matter of the lens
+    double iso = 100;                // sensitivity, > 0
 
     // Aperture; see aperture.h.
     int bladeCount = 0;                   // 0: a disk, else a polygon of 3 or more blades

@@ -26,6 +26,12 @@ const LensField fields[] = {
     {"blurScale", "--blur-scale", "R", 0, 1e3, &Lens::blurScale, "Exaggerates the blur; 1 is physical"},
     {"focusBreathing", "--focus-breathing", "", 0, 1, &Lens::focusBreathing,
      "The textbook thin lens, whose field of view narrows as the focus comes nearer"},
+    {"exposureTime", "--exposure-time", "S", 0, 1e6, &Lens::exposureTime,
+     "Exposes .png, .jpg and film as a camera does, with the f-number and --iso: seconds, as 0.008 or 1/125; a scene's "
+     "value of 1 is 1 cd/m2 (glTF's lights have cd and lx). Without it (or 0), --exposure. Motion blur has a --shutter "
+     "of its own"},
+    {"iso", "--iso", "N", 1, 1e7, &Lens::iso,
+     "Sensitivity for --exposure-time; without it, the camera's own, else 100"},
     {"bladeCount", "--blades", "N", 0, 64, &Lens::bladeCount, "Blades of the aperture: 3 to 64, or 0 for a disk"},
     {"bladeRotation", "--blade-rotation", "DEG", -1e6, 1e6, &Lens::bladeRotation, "Turns the blades"},
     {"bladeCurvature", "--blade-curvature", "R", 0, 1, &Lens::bladeCurvature,

@@ -17,8 +17,8 @@ namespace defocus {
 struct LensField {
     const char* name;    // as in glTF extras and shot files: "bladeRotation"
     const char* option;  // on the command line: "--blade-rotation"
-    const char* unit;    // "MM", "M", "DEG", "PX", "D" (dioptres), "N" (a count), "R" (a ratio), "" (true or false)
-    double least = 0;    // range of the value, in `unit`
+    const char* unit;  // "MM", "M", "DEG", "PX", "D" (dioptres), "N" (a count), "R" (a ratio), "S", "" (true or false)
+    double least = 0;  // range of the value, in `unit`
     double most = 0;
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
     const char* description;  // of the option

@@ -1,12 +1,19 @@
 #pragma once
 // A camera as a file gives it. Lens values that a file doesn't give stay empty and fall back to the lens's defaults.
 
+#include <glm/vec2.hpp>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace defocus {
+
+// The draft extension EXT_camera_physical: the lens and sensor of a camera, whose field of view stays that of the file.
+struct PhysicalCamera {
+    double focalLength = 0;    // mm, > 0
+    glm::dvec2 sensorSize{0};  // mm, width and height, > 0
+};
 
 struct Camera {
     std::string name;
@@ -16,7 +23,8 @@ struct Camera {
     // Numbers of the camera's extras by their names ("fStop", "focusDistance" …; lens/lens_fields.h knows which count);
     // truth values are 0 and 1.
     std::map<std::string, double, std::less<>> lens;
-    std::string apertureImage;  // of the extras: a file's path, relative to the scene's; empty: none
+    std::optional<PhysicalCamera> physical;
+    std::string apertureImage;                // of the extras: a file's path, relative to the scene's; empty: none
     std::optional<std::string> orthographic;  // set to why the camera can't be used (orthographic cameras)
 
     [[nodiscard]] std::optional<double> lensValue(std::string_view lensName) const {

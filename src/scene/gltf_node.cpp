@@ -171,16 +171,41 @@ Node readNode(Source& source, std::size_t index) {
 
 // ---- cameras ------------------------------------------------------------------------------------
 
-// The numbers and truth values among a camera's extras: Blender exports custom properties there.
-std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& camera) {
+// The numbers and truth values among the extras of a camera or of its node: Blender exports custom properties there.
+std::map<std::string, double, std::less<>> lensValues(const nlohmann::json& json) {
     std::map<std::string, double, std::less<>> values;
-    const auto extras = camera.find("extras");
-    if (extras == camera.end() || !extras->is_object()) return values;
+    const auto extras = json.find("extras");
+    if (extras == json.end() || !extras->is_object()) return values;
     for (const auto& [name, value] : extras->items()) {
         if (value.is_number()) values[name] = value.get<double>();
         if (value.is_boolean()) values[name] = value.get<bool>() ? 1 : 0;
     }
     return values;
+}
+
+// The draft EXT_camera_physical, whose lengths are metres. Lens values that the extras have too stay as they are there.
+void readPhysicalCamera(Source& source, const nlohmann::json& json, const std::string& label, Camera& camera) {
+    constexpr double millimetres = 1e3;
+    constexpr double longest = 10;  // m; no lens is as long, but 35 is often a focal length in millimetres
+    const nlohmann::json* extension = findExtension(json, "EXT_camera_physical");
+    if (extension == nullptr) return;
+    const auto number = [&](const nlohmann::json& value, const char* name) {
+        const auto result = value.get<double>();
+        if (!(result > 0) || !std::isfinite(result))
+            fault(source.document, "{}: its EXT_camera_physical has an impossible {} of {}", label, name, value.dump());
+        return result;
+    };
+    PhysicalCamera physical;
+    physical.focalLength = number((*extension)["focalLength"], "focalLength") * millimetres;
+    physical.sensorSize.x = number((*extension)["sensorSize"][0], "sensorSize") * millimetres;
+    physical.sensorSize.y = number((*extension)["sensorSize"][1], "sensorSize") * millimetres;
+    if (extension->contains("fStop")) camera.lens.emplace("fStop", number((*extension)["fStop"], "fStop"));
+    if (extension->contains("focusDistance"))
+        camera.lens.emplace("focusDistance", number((*extension)["focusDistance"], "focusDistance"));
+    if (physical.focalLength <= longest * millimetres)
+        camera.physical = physical;
+    else
+        ignore(source, label, "its EXT_camera_physical has a focal length of more than 10 m; is it in millimetres?");
 }
 
 // A path among them; empty where there is none.
@@ -189,6 +214,17 @@ std::string apertureImageOf(const nlohmann::json& camera) {
     if (extras == camera.end() || !extras->is_object()) return {};
     const auto path = extras->find("apertureImage");
     return path != extras->end() && path->is_string() ? path->get<std::string>() : std::string();
+}
+
+// Custom properties that an artist gave to the camera's node rather than to the camera; those of the camera win.
+void addNodeExtras(const Source& source, std::vector<Camera>& cameras) {
+    for (std::size_t i = 0; i < source.model.nodes.size(); ++i) {
+        if (source.model.nodes[i].camera < 0) continue;
+        const nlohmann::json& json = source.document.json["nodes"][i];
+        Camera& camera = cameras[static_cast<std::size_t>(source.model.nodes[i].camera)];
+        for (const auto& [name, value] : lensValues(json)) camera.lens.emplace(name, value);
+        if (camera.apertureImage.empty()) camera.apertureImage = apertureImageOf(json);
+    }
 }
 
 }  // namespace
@@ -237,10 +273,12 @@ std::vector<Camera> readCameras(Source& source) {
             if (from.perspective.aspectRatio > 0) camera.aspectRatio = from.perspective.aspectRatio;
             if (!(camera.yfov > 0 && camera.yfov < std::numbers::pi))
                 fault(source.document, "{}: its yfov of {} rad is impossible", label, camera.yfov);
+            readPhysicalCamera(source, json, label, camera);
             if (!(camera.znear > 0)) fault(source.document, "{}: its znear of {} m is impossible", label, camera.znear);
         }
         cameras.push_back(camera);
     }
+    addNodeExtras(source, cameras);
     return cameras;
 }
 

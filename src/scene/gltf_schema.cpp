@@ -170,9 +170,15 @@ constexpr Property perspectiveProperties[] = {{"aspectRatio", Kind::number},
                                               required({"znear", Kind::number})};
 constexpr Property orthographicProperties[] = {
     {"xmag", Kind::number}, {"ymag", Kind::number}, {"zfar", Kind::number}, {"znear", Kind::number}};
-constexpr Property cameraProperties[] = {nameProperty, required({"type", Kind::string}),
-                                         object("perspective", perspectiveProperties),
-                                         object("orthographic", orthographicProperties)};
+// Draft, of the glTF repository's proposal (July 2026); lengths in metres.
+constexpr Property physicalCameraProperties[] = {required({"focalLength", Kind::number}),
+                                                 required(numbers("sensorSize", 2)),
+                                                 {"fStop", Kind::number},
+                                                 {"focusDistance", Kind::number}};
+constexpr Property cameraExtensions[] = {object("EXT_camera_physical", physicalCameraProperties)};
+constexpr Property cameraProperties[] = {
+    nameProperty, required({"type", Kind::string}), object("perspective", perspectiveProperties),
+    object("orthographic", orthographicProperties), object("extensions", cameraExtensions)};
 
 constexpr Property spotProperties[] = {{"innerConeAngle", Kind::number}, {"outerConeAngle", Kind::number}};
 constexpr Property lightProperties[] = {nameProperty,

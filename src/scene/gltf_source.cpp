@@ -14,10 +14,10 @@ namespace defocus::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> supportedExtensions = {
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "KHR_animation_pointer",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",        "KHR_mesh_quantization",   "KHR_texture_transform",
+constexpr std::array<std::string_view, 10> supportedExtensions = {
+    "EXT_camera_physical",        "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_animation_pointer",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_materials_emissive_strength", "KHR_materials_unlit",
+    "KHR_mesh_quantization",      "KHR_texture_transform",
 };
 
 // What a person sees instead, for extensions that are often met.

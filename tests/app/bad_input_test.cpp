@@ -45,7 +45,15 @@ TEST_F(BadInput, valuesOutOfRange) {
     expectFault(2, "--horizontal-aperture", {"--horizontal-aperture", "0"});
     expectFault(2, "--anamorphic-ratio", {"--anamorphic-ratio", "0"});
     expectFault(2, "--blur-scale", {"--blur-scale", "-1"});
+    expectFault(2, "--blades", {"--blades", "1"});
     expectFault(2, "--blades", {"--blades", "2"});
+    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // the focus plane through the camera
+    expectFault(2, "--focus-swing", {"--focus-swing=-90"});
+    expectFault(2, "--exposure-time", {"--exposure-time=-1"});
+    expectFault(2, "--exposure-time", {"--exposure-time", "1/0"});
+    expectFault(2, "--iso", {"--iso", "0"});
+    expectFault(2, "excludes", {"--exposure-time", "1", "--exposure", "2"});
+    expectFault(1, "--exposure-time", {"--iso", "400"});
     expectFault(2, "--wave", {"--wave", "65"});
     expectFault(2, "--seed", {"--seed", "4294967296"});
     expectFault(2, "--background", {"--background", "1,2"});
@@ -127,6 +135,38 @@ TEST_F(BadInput, focusThatTheSceneDoesNotHave) {
     expectFault(2, "--focus-pixel", {"--focus-pixel", "-1,0"});
     expectFault(1, "behind the camera", {"--focus-node", "Tripod"});
     expectFault(1, "focus breathing", {"--focus-breathing", "--focal-length", "50", "--focus-distance", "0.05"});
+}
+
+// The view axis lies in the plane through these: two points of one quad, straight above each other, and one of another.
+TEST_F(BadInput, focusPlanesThroughTheCamera) {
+    expectFault(1, "line", {"--focus-points", "500,380,500,390,500,400"});
+    expectFault(1, "no surface", {"--focus-points", "0,0,500,390,500,400"});
+    expectFault(2, "--focus-points", {"--focus-points", "1,2,3,4"});
+}
+
+TEST_F(BadInput, focusInsideTheFocalLengthIsALine) {
+    const Outcome outcome = run({"render", "quads.gltf", "--size", "8x6", "--samples", "1", "--focal-length", "50",
+                                 "--focus-distance", "0.05", "-o", "a.exr"});
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_NE(outcome.err.find("inside the focal length of 50 mm"), std::string::npos) << outcome.err;
+}
+
+TEST_F(BadInput, questionsAboutACamera) {
+    const auto expectInfoFault = [&](int exitCode, const std::string& part, std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"info", "quads.gltf"});
+        const Outcome outcome = run(arguments);
+        SCOPED_TRACE(arguments.back());
+        expectOneLine(outcome, exitCode);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    };
+    expectInfoFault(2, "--camera", {"--depths", "1"});
+    expectInfoFault(2, "--camera", {"--fstop", "2"});
+    expectInfoFault(2, "--depths", {"--camera", "--depths", "1,,2"});
+    expectInfoFault(2, "--depths", {"--camera", "--depths", "0"});
+    expectInfoFault(2, "--acceptable-coc", {"--camera", "--acceptable-coc", "0"});
+    expectInfoFault(1, "Main", {"--camera=Second"});
+    expectInfoFault(1, "focus breathing",
+                    {"--camera", "--focus-breathing", "--focal-length", "50", "--focus-distance", "0.05"});
 }
 
 TEST_F(BadInput, outputsThatCannotBeWritten) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -61,6 +62,44 @@ TEST(Info, builtInSchoolWithoutAFile) {
     const nlohmann::json json = nlohmann::json::parse(info("--fish 3 --fish-triangles 500 --json"));
     EXPECT_EQ(json["file"], "");
     EXPECT_GE(json["meshes"].size(), 3u);
+}
+
+// 50 mm at f/2 on 36 x 27 mm, focused at 2 m: H = 2500/(2·0.03) mm = 41.667 m; near, far = H·s/(H ± s).
+TEST(Info, cameraAnswersWhatPhotographersAsk) {
+    const nlohmann::json json = nlohmann::json::parse(
+        info("--camera --fish 1 --fish-triangles 200 --focal-length 50 --fstop 2 --focus-distance 2 --size 1000x750 "
+             "--depths 1,4,inf --exposure-time 1/125 --iso 400 --json"));
+    EXPECT_NEAR(json["acceptableCoc"], 0.03, 1e-12);
+    EXPECT_NEAR(json["hyperfocal"], 41.6666667, 1e-6);
+    EXPECT_NEAR(json["near"], 41.6666667 * 2 / 43.6666667, 1e-6);
+    EXPECT_NEAR(json["far"], 41.6666667 * 2 / 39.6666667, 1e-6);
+    EXPECT_NEAR(json["horizontalFieldOfView"], 39.5978, 1e-4);  // 2·atan(18/50)
+    EXPECT_NEAR(json["verticalFieldOfView"], 30.2241, 1e-4);    // 2·atan(13.5/50)
+    EXPECT_NEAR(json["exposure"]["ev100"], std::log2(4 * 125 / 4.0), 1e-9);
+    ASSERT_EQ(json["blur"].size(), 3u);
+    EXPECT_NEAR(json["blur"][0]["pixels"], -0.025 * 0.5 * 1000 / 0.72, 1e-9);
+    EXPECT_NEAR(json["blur"][1]["pixels"], 0.025 * 0.25 * 1000 / 0.72, 1e-9);
+    EXPECT_NEAR(json["blur"][2]["millimetres"], 0.025 * 0.5 * 50, 1e-9);
+    EXPECT_TRUE(json["blur"][2]["depth"].is_null());
+    EXPECT_TRUE(json["plainLens"]);
+}
+
+TEST(Info, cameraSaysWhereTheControlsCount) {
+    const std::string school = "--camera --fish 1 --fish-triangles 200 --focus-distance 2 --size 640x480 ";
+    const nlohmann::json json = nlohmann::json::parse(info(school + "--foreground-limit 3 --depths 0.2,50 --json"));
+    EXPECT_FALSE(json["plainLens"]);
+    EXPECT_EQ(json["blur"][0]["pixels"], -3);
+    const std::string text = info(school + "--foreground-limit 3");
+    EXPECT_NE(text.find("those of the plain lens"), std::string::npos) << text;
+    const std::string plain = info(school);
+    EXPECT_EQ(plain.find("those of the plain lens"), std::string::npos) << plain;
+    for (const char* part : {"hyperfocal", "in focus", "field of view", "acceptable blur", "infinity"})
+        EXPECT_NE(plain.find(part), std::string::npos) << plain;
+}
+
+TEST(Info, cameraIsTheOneThatIsNamed) {
+    EXPECT_NO_THROW((void)info("--camera=auto --fish 1 --fish-triangles 200"));
+    EXPECT_THROW((void)info("--camera=Nobody --fish 1 --fish-triangles 200"), Error);
 }
 
 TEST(Info, brokenFilesAreErrors) {

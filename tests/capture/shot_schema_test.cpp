@@ -155,6 +155,9 @@ std::vector<json> shots() {
     other["camera"] = json::parse(R"({"dolly": {"distance": -2, "interpolation": "linear", "frames": [3, 9]}})");
     other["focus"] = json::parse(R"({"distance": 4})");
     other["output"] = "####.jpg";
+    other.erase("exposure");
+    other["lens"]["exposureTime"] = json::parse(R"({"keys": [{"frame": 0, "value": 0.01}, {"frame": 9, "value": 0.1}]})");
+    other["lens"]["iso"] = 400;
     result.push_back(other);
     other["focus"] = json::parse(R"({"pixel": [160, 16383]})");
     result.push_back(other);

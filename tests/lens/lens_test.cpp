@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/error.h"
 #include "lens/circle_of_confusion.h"
@@ -99,6 +100,11 @@ TEST(Lens, impossibleLensesAreNamed) {
     EXPECT_NE(message([](Lens& l) { l.focusDistance = 0; }).find("focus distance"), std::string::npos);
     EXPECT_NE(message([&](Lens& l) { l.focusDistance = nan; }).find("focus distance"), std::string::npos);
     EXPECT_NE(message([](Lens& l) { l.bladeCount = 2; }).find("blade count"), std::string::npos);
+    EXPECT_NE(message([](Lens& l) { l.bladeCount = 1; }).find("blade count"), std::string::npos);
+    EXPECT_NE(message([](Lens& l) { l.exposureTime = -1; }).find("exposure time"), std::string::npos);
+    EXPECT_NE(message([](Lens& l) { l.iso = 0; }).find("ISO"), std::string::npos);
+    EXPECT_NE(message([](Lens& l) { l.focusTilt = std::numbers::pi / 2; }).find("focus tilt"), std::string::npos);
+    EXPECT_NE(message([](Lens& l) { l.focusSwing = -std::numbers::pi / 2; }).find("focus swing"), std::string::npos);
     EXPECT_NE(message([](Lens& l) {
                   l.focusBreathing = true;
                   l.focusDistance = 0.05;

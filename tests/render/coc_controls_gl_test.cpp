@@ -213,6 +213,57 @@ TEST_F(CocControls, focusRangeKeepsTheBlurOnEitherSide) {
     EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
 }
 
+TEST_F(CocControls, focusRangeIsSharpAsAPinhole) {
+    const auto small = threePatches();
+    const Image blurred = rendered(*small, 64);
+    small->view.lens.focusRangeFront = 1.6;  // to 0.9 m
+    small->view.lens.focusRangeBehind = 4;   // to 6.5 m
+    const Image range = rendered(*small, 64);
+    small->view.lens.dofEnabled = false;
+    const Image pinhole = rendered(*small, 64);
+    EXPECT_LT(rootMeanSquare(part(range, 0), part(pinhole, 0)), 1e-5);
+    EXPECT_LT(rootMeanSquare(part(range, 1), part(pinhole, 1)), 1e-5);
+    EXPECT_GT(rootMeanSquare(part(range, 2), part(pinhole, 2)), 1e-3) << "beyond the range it is blurred";
+    EXPECT_GT(rootMeanSquare(part(blurred, 0), part(pinhole, 0)), 0.02);
+}
+
+// Munkberg et al. 2012, Figure 4: what moves in front keeps its motion blur and loses its defocus; nothing else
+// changes.
+TEST_F(CocControls, limitInFrontLeavesTheMotion) {
+    const auto small = threePatches();
+    small->world.shutter.poses.assign(2, small->world.pose);
+    for (std::size_t i = 0; i < 2; ++i)
+        for (const std::size_t object : {0, 2}) {
+            glm::dmat4& matrix = small->world.shutter.poses[i].objects[object].worldFromObject;
+            matrix[3] += glm::dvec4((i == 0 ? -0.06 : 0.06) * -matrix[3].z, 0, 0, 0);
+        }
+    const Image before = rendered(*small, 64);
+    small->view.lens.foregroundLimit = 0;
+    const Image after = rendered(*small, 64);
+    EXPECT_LT(rootMeanSquare(part(before, 1), part(after, 1)), 1e-6);
+    EXPECT_LT(rootMeanSquare(part(before, 2), part(after, 2)), 1e-6);
+    EXPECT_GT(rootMeanSquare(part(before, 0), part(after, 0)), 0.02);
+    small->view.lens.dofEnabled = false;
+    const Image pinhole = rendered(*small, 64);
+    EXPECT_LT(rootMeanSquare(part(after, 0), part(pinhole, 0)), 1e-5);
+    small->world.shutter.poses.clear();
+    EXPECT_GT(rootMeanSquare(part(rendered(*small, 64), 0), part(pinhole, 0)), 0.02) << "it does move";
+}
+
+// Munkberg et al. 2012, Figure 8: with any aperture, what is selected has the pinhole's edges and the rest its bokeh.
+TEST_F(CocControls, scaleOfAnObjectHoldsForPolygonsToo) {
+    const auto small = threePatches();
+    const Image circular = rendered(*small, 256);
+    small->view.lens.bladeCount = 6;
+    const Image hexagonal = rendered(*small, 256);
+    small->world.pose.objects[2].cocScale = 0;
+    const Image selected = rendered(*small, 256);
+    EXPECT_LT(rootMeanSquare(part(selected, 0), part(hexagonal, 0)), 1e-6);
+    EXPECT_GT(rootMeanSquare(part(hexagonal, 0), part(circular, 0)), 0.005) << "a hexagon is no disk";
+    small->view.lens.dofEnabled = false;
+    EXPECT_LT(rootMeanSquare(part(selected, 2), part(rendered(*small, 256), 2)), 1e-5);
+}
+
 TEST_F(CocControls, scaleOfAnObjectIsItsOwn) {
     const auto small = threePatches();
     const Image before = rendered(*small, 64);

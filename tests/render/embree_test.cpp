@@ -100,6 +100,43 @@ TEST(EmbreeFocus, BreathingNarrowsTheViewAsAThinLensDoes) {
     EXPECT_NEAR(lensCamera(view).tanHalfHorizontal, still * 0.05 * (1 / 0.05 - 1), 1e-12);
 }
 
+// A lens at α (Munkberg, Toth and Akenine-Möller 2012): every ray is where C, limited in front, puts it:
+// X(z) = z·d − tan(θx/2)·C(z)·(u, v) for a pixel's axis d.
+TEST(EmbreeLimitedForeground, raysAreThoseOfTheLimitedBlur) {
+    for (const double focus : {1.5, 4.0, std::numeric_limits<double>::infinity()}) {
+        View view = bokehView(200, 120);
+        view.lens.focusDistance = focus;
+        view.lens.foregroundLimit = 7;
+        const LensCamera camera = lensCamera(view);
+        const double tangent = 0.5 * view.lens.horizontalAperture / view.lens.focalLength;
+        const double radius = 0.5 * view.lens.focalLength / (1000 * view.lens.fStop);
+        for (const glm::dvec2 point : {glm::dvec2(0), glm::dvec2(0.6, -0.8), glm::dvec2(-0.3, 0.1)}) {
+            const glm::dvec2 image(0.7, -0.4);
+            const LensRay eye = eyeRay(camera, image, point);
+            const LensRay behind = refractedRay(camera, image, eye);
+            const glm::dvec2 axis(image.x * tangent, image.y * tangent * 120 / 200);
+            for (const double z : {0.01, 0.1, 0.5, 0.9, 1.2, 3.0, 20.0}) {
+                const double plain = radius / tangent * (1 / z - 1 / focus) * 200;  // px, > 0 in front
+                const double shift = tangent * std::min(plain, 7.0) / 200;          // radius as a slope
+                const LensRay& ray = z < camera.lensDepth ? eye : behind;
+                const double along = z + ray.origin.z;
+                const glm::dvec2 place(ray.origin.x + along * ray.direction.x, ray.origin.y + along * ray.direction.y);
+                EXPECT_LT(glm::length(place / z - (axis + shift * point)), 1e-6) << focus << " m, at " << z << " m";
+            }
+        }
+    }
+}
+
+TEST(EmbreeLimitedForeground, otherControlsAreRefused) {
+    View view = bokehView(16, 12);
+    view.lens.foregroundLimit = 0;
+    EXPECT_THROW((void)traced(Scene{}, view, 1), Error);
+    view.lens.foregroundLimit = 3;
+    EXPECT_NO_THROW((void)traced(Scene{}, view, 1));
+    view.lens.backgroundLimit = 3;
+    EXPECT_THROW((void)traced(Scene{}, view, 1), Error);
+}
+
 struct BokehCase {
     const char* name;
     double depth;

@@ -270,6 +270,82 @@ TEST(GltfScene, cameraExtrasAreLensValues) {
     EXPECT_TRUE(scene.cameras.at(1).orthographic);
 }
 
+nlohmann::json physicalCamera(const nlohmann::json& extension) {
+    return {{"type", "perspective"},
+            {"perspective", {{"yfov", 0.66059}, {"znear", 0.01}, {"aspectRatio", 1.5}}},
+            {"extensions", {{"EXT_camera_physical", extension}}}};
+}
+
+// The example of the draft.
+TEST(GltfScene, physicalCamerasAreInMetresAndExtrasWin) {
+    GltfBuilder builder;
+    builder.json["extensionsUsed"] = {"EXT_camera_physical"};
+    builder.json["cameras"] = {
+        physicalCamera(
+            {{"focalLength", 0.035}, {"sensorSize", {0.036, 0.024}}, {"fStop", 2.8}, {"focusDistance", 5.0}}),
+        physicalCamera({{"focalLength", 0.05}, {"sensorSize", {0.024, 0.016}}, {"fStop", 8}})};
+    builder.json["cameras"][1]["extras"] = {{"fStop", 1.4}};
+    const Scene scene = builder.load();
+    ASSERT_TRUE(scene.cameras.at(0).physical);
+    EXPECT_DOUBLE_EQ(scene.cameras[0].physical->focalLength, 35);
+    EXPECT_DOUBLE_EQ(scene.cameras[0].physical->sensorSize.x, 36);
+    EXPECT_DOUBLE_EQ(scene.cameras[0].physical->sensorSize.y, 24);
+    EXPECT_EQ(scene.cameras[0].lensValue("fStop"), 2.8);
+    EXPECT_EQ(scene.cameras[0].lensValue("focusDistance"), 5);
+    EXPECT_EQ(scene.cameras.at(1).lensValue("fStop"), 1.4);
+    EXPECT_FALSE(scene.cameras[1].lensValue("focusDistance"));
+    EXPECT_TRUE(scene.ignored.empty());
+    EXPECT_EQ(scene.extensions, std::vector<std::string>{"EXT_camera_physical"});
+}
+
+TEST(GltfScene, impossiblePhysicalCamerasAreFaults) {
+    const auto fault = [](const nlohmann::json& extension) -> std::string {
+        GltfBuilder builder;
+        builder.json["cameras"] = {physicalCamera(extension)};
+        try {
+            (void)builder.load();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(fault({{"focalLength", 0}, {"sensorSize", {0.036, 0.024}}}).find("impossible focalLength of 0"),
+              std::string::npos);
+    EXPECT_NE(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, -1}}}).find("impossible sensorSize of -1"),
+              std::string::npos);
+    EXPECT_NE(fault({{"focalLength", 0.05}, {"sensorSize", {0.036}}}).find("must have 2 numbers, not 1"),
+              std::string::npos);
+    EXPECT_NE(fault({{"focalLength", 0.05}}).find("sensorSize is missing"), std::string::npos);
+    EXPECT_NE(fault({{"focalLength", "50 mm"}, {"sensorSize", {0.036, 0.024}}}).find("must be a number"),
+              std::string::npos);
+    EXPECT_NE(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, 0.024}}, {"fStop", 0}}).find("impossible fStop"),
+              std::string::npos);
+    EXPECT_EQ(fault({{"focalLength", 0.05}, {"sensorSize", {0.036, 0.024}}}), "");
+}
+
+// Millimetres, as of a draft's reader that didn't read on.
+TEST(GltfScene, physicalCamerasInMillimetresAreIgnoredWithAReason) {
+    GltfBuilder builder;
+    builder.json["cameras"] = {physicalCamera({{"focalLength", 35}, {"sensorSize", {36, 24}}})};
+    const Scene scene = builder.load();
+    EXPECT_FALSE(scene.cameras.at(0).physical);
+    ASSERT_EQ(scene.ignored.size(), 1u);
+    EXPECT_NE(scene.ignored[0].reason.find("millimetres"), std::string::npos);
+}
+
+// Blender's custom properties: those of the camera's data are the camera's extras, those of the object its node's.
+TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
+    GltfBuilder builder;
+    builder.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.2}}}, {"extras", {{"fStop", 1.4}}}}};
+    builder.json["nodes"] = {
+        {{"camera", 0}, {"extras", {{"fStop", 8}, {"focusDistance", 3}, {"dofEnabled", true}, {"note", "x"}}}}};
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.cameras.at(0).lensValue("fStop"), 1.4) << "the camera's own win";
+    EXPECT_EQ(scene.cameras[0].lensValue("focusDistance"), 3);
+    EXPECT_EQ(scene.cameras[0].lensValue("dofEnabled"), 1);
+}
+
 TEST(GltfScene, lightsShineAlongTheirNodesMinusZ) {
     GltfBuilder builder;
     builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"},

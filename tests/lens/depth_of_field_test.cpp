@@ -1,0 +1,101 @@
+// Depth of field against the textbook's formulas and tables, and against the blur that the renderer makes.
+#include "lens/depth_of_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "lens/circle_of_confusion.h"
+
+namespace defocus {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Lens lensOf(double focalLength, double fStop, double focusDistance, bool breathing) {
+    Lens lens;
+    lens.focalLength = focalLength;
+    lens.fStop = fStop;
+    lens.focusDistance = focusDistance;
+    lens.focusBreathing = breathing;
+    return lens;
+}
+
+// By Newton's and Gauss's equations instead of our own: where the sensor stands for s, the image of z lies at
+// i(z) = f·z/(z − f), and a cone from the aperture f/N meets the sensor in a disk of |i(s) − i(z)|/i(z) of it.
+double diskOfTheThinLens(const Lens& lens, double z) {
+    const double f = lens.focalLength;  // all in mm
+    const auto image = [&](double depth) { return 1000 * depth * f / (1000 * depth - f); };
+    const double sensor = image(lens.focusDistance);
+    const double at = std::isinf(z) ? f : image(z);
+    return f / lens.fStop * std::abs(sensor - at) / at;
+}
+
+TEST(DepthOfField, limitsOfATextbookLens) {
+    // 50 mm at f/8, 0.03 mm: H = 2500/0.24 + 50 = 10466.67 mm.
+    const Lens lens = lensOf(50, 8, 3, true);
+    const DepthOfField depth = depthOfField(lens, 0.03);
+    EXPECT_NEAR(depth.hyperfocal, 10.4666667, 1e-6);
+    EXPECT_NEAR(depth.near, 3000.0 * (10466.6667 - 50) / (10466.6667 + 3000 - 100) / 1000, 1e-6);
+    EXPECT_NEAR(depth.far, 3000.0 * (10466.6667 - 50) / (10466.6667 - 3000) / 1000, 1e-6);
+}
+
+TEST(DepthOfField, diskAtTheLimitsOfTheThinLensIsTheAcceptableOne) {
+    for (const double f : {24.0, 50.0, 200.0})
+        for (const double s : {0.7, 3.0, 12.0}) {
+            const Lens lens = lensOf(f, 4, s, true);
+            const DepthOfField depth = depthOfField(lens, 0.025);
+            EXPECT_NEAR(diskOfTheThinLens(lens, depth.near), 0.025, 1e-9) << f << " mm, " << s << " m";
+            if (std::isfinite(depth.far)) EXPECT_NEAR(diskOfTheThinLens(lens, depth.far), 0.025, 1e-9);
+            EXPECT_EQ(std::isinf(depth.far), diskOfTheThinLens(lens, infinity) <= 0.025);
+        }
+}
+
+// The C of the images, at any aspect and with any scale of the blur.
+TEST(DepthOfField, blurOfTheImageAtTheLimitsIsTheAcceptableOne) {
+    for (const bool breathing : {false, true})
+        for (const int width : {640, 300}) {
+            Lens lens = lensOf(85, 1.8, 2.2, breathing);
+            lens.horizontalAperture = 23.6;
+            lens.blurScale = 1.5;
+            const double acceptable = 0.02;
+            const DepthOfField depth = depthOfField(lens, acceptable);
+            const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, width, 400);
+            const double pixels = acceptable / lens.horizontalAperture * width;
+            EXPECT_NEAR(circleOfConfusion(coc, depth.near, width), -pixels, 1e-9);
+            EXPECT_NEAR(circleOfConfusion(coc, depth.far, width), pixels, 1e-9);
+        }
+}
+
+TEST(DepthOfField, focusedAtTheHyperfocalDistanceItReachesFromHalfOfItToInfinity) {
+    for (const bool breathing : {false, true}) {
+        Lens lens = lensOf(35, 5.6, 3, breathing);
+        lens.focusDistance = depthOfField(lens, 0.03).hyperfocal;
+        const DepthOfField depth = depthOfField(lens, 0.03);
+        EXPECT_TRUE(std::isinf(depth.far));
+        EXPECT_NEAR(depth.near, lens.focusDistance / 2, 1e-9);
+        lens.focusDistance *= 0.999;
+        EXPECT_FALSE(std::isinf(depthOfField(lens, 0.03).far));
+        lens.focusDistance = infinity;
+        EXPECT_TRUE(std::isinf(depthOfField(lens, 0.03).far));
+        EXPECT_NEAR(depthOfField(lens, 0.03).near, depth.hyperfocal - (breathing ? 0.035 : 0), 1e-9);
+    }
+}
+
+TEST(DepthOfField, ofAPinholeIsEverything) {
+    Lens lens;
+    lens.dofEnabled = false;
+    const DepthOfField depth = depthOfField(lens, 0.03);
+    EXPECT_EQ(depth.near, 0);
+    EXPECT_TRUE(std::isinf(depth.far));
+    EXPECT_EQ(depth.hyperfocal, 0);
+}
+
+TEST(DepthOfField, customaryCircleIsTheDiagonalOver1500) {
+    EXPECT_NEAR(customaryCircleOfConfusion(Lens{}, 1500, 1000), std::hypot(36, 24) / 1500, 1e-12);
+    EXPECT_NEAR(customaryCircleOfConfusion(Lens{}, 400, 300), 0.03, 1e-12);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,59 @@
+// The limited foreground against an independent truth (Munkberg, Toth and Akenine-Möller 2012, Figure 9): a ray tracer
+// that puts a lens of its own at the depth α before every pixel.
+
+#include <gtest/gtest.h>
+
+#include "embree/embree_renderer.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "lens/circle_of_confusion.h"
+#include "render/methods.h"
+#include "truth_scene.h"
+
+namespace defocus {
+namespace {
+
+constexpr double limit = 5;  // px
+
+// A small school whose nearest fish would be blurred to much more than the limit.
+std::unique_ptr<TruthScene> nearSchool() {
+    FishSchoolOptions school;
+    school.fishCount = 8;
+    school.trianglesPerFish = 2000;
+    auto truth = truthScene(fishSchool(school), 200, 150);
+    truth->view.lens.focusDistance *= 1.6;
+    truth->view.lens.fStop /= 4;
+    return truth;
+}
+
+Image rasterised(const TruthScene& truth, const RenderSettings& settings) {
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    return renderedImage(*methodNamed("accumulation").make(truth.world, options),
+                         planFrame(truth.world, truth.view, settings));
+}
+
+Image traced(const TruthScene& truth, const RenderSettings& settings, EmbreeSampling sampling) {
+    return renderedImage(*makeEmbreeRenderer(truth.world, sampling), planFrame(truth.world, truth.view, settings));
+}
+
+TEST(TruthLimited, foregroundIsThatOfALensBeforeEveryPixel) {
+    const auto context = createHeadlessContext();
+    const auto truth = nearSchool();
+    RenderSettings settings = fullDetailSettings(128);
+    settings.cocTolerance = 0.05;
+    const FramePlan plan = planFrame(truth->world, truth->view, settings);
+    double largest = 0;
+    for (const ObjectPlan& object : plan.objects) largest = std::max(largest, -object.coc.nearest);
+    ASSERT_GT(largest, 3 * limit) << "the limit must matter";
+    const Image unlimited = rasterised(*truth, settings);
+    truth->view.lens.foregroundLimit = limit;
+    const Image image = rasterised(*truth, settings);
+    const Image planned = traced(*truth, settings, EmbreeSampling::planned);
+    EXPECT_GT(compareImages(planned, image).psnr, 60);
+    EXPECT_GT(compareImages(traced(*truth, settings, EmbreeSampling::perPixel), image).psnr, 45);
+    EXPECT_LT(compareImages(planned, unlimited).psnr, 35) << "without the limit it is another image";
+}
+
+}  // namespace
+}  // namespace defocus
