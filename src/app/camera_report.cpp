@@ -78,6 +78,11 @@ Json orNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+// What is in focus behind the focus distance, m.
+double behindFocus(const CameraFacts& facts) {
+    return std::isinf(facts.lens.focusDistance) ? 0 : facts.depth.far - facts.lens.focusDistance;
+}
+
 // "1/125 s", "2.5 s"
 std::string shutterText(double seconds) {
     return seconds < 0.4 ? fmt::format("1/{:.4g} s", 1 / seconds) : fmt::format("{:.3g} s", seconds);
@@ -119,8 +124,7 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     line("in focus", fmt::format("{} to {}", metres(facts.depth.near), metres(facts.depth.far)));
     line("depth of field",
          fmt::format("{}: {} in front of the focus, {} behind", metres(facts.depth.far - facts.depth.near),
-                     metres(lens.focusDistance - facts.depth.near),
-                     std::isinf(lens.focusDistance) ? metres(0) : metres(facts.depth.far - lens.focusDistance)));
+                     metres(lens.focusDistance - facts.depth.near), metres(behindFocus(facts))));
     line("hyperfocal", metres(facts.depth.hyperfocal));
     if (lens.exposureTime > 0)
         line("exposure",

@@ -73,6 +73,8 @@ TEST(Info, cameraAnswersWhatPhotographersAsk) {
     EXPECT_NEAR(json["hyperfocal"], 41.6666667, 1e-6);
     EXPECT_NEAR(json["near"], 41.6666667 * 2 / 43.6666667, 1e-6);
     EXPECT_NEAR(json["far"], 41.6666667 * 2 / 39.6666667, 1e-6);
+    EXPECT_NEAR(json["depthOfField"], json["inFrontOfFocus"].get<double>() + json["behindFocus"].get<double>(), 1e-12);
+    EXPECT_NEAR(json["inFrontOfFocus"], 2 - json["near"].get<double>(), 1e-12);
     EXPECT_NEAR(json["horizontalFieldOfView"], 39.5978, 1e-4);  // 2·atan(18/50)
     EXPECT_NEAR(json["verticalFieldOfView"], 30.2241, 1e-4);    // 2·atan(13.5/50)
     EXPECT_NEAR(json["exposure"]["ev100"], std::log2(4 * 125 / 4.0), 1e-9);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.h"
 #include "gltf_builder.h"
 #include "scene/pose.h"
 
@@ -344,6 +345,38 @@ TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     EXPECT_EQ(scene.cameras.at(0).lensValue("fStop"), 1.4) << "the camera's own win";
     EXPECT_EQ(scene.cameras[0].lensValue("focusDistance"), 3);
     EXPECT_EQ(scene.cameras[0].lensValue("dofEnabled"), 1);
+}
+
+// A triangle with _COC_SCALE on a node with cocScale.
+GltfBuilder scaledBlur(const std::vector<float>& scales, const nlohmann::json& nodeScale) {
+    GltfBuilder builder;
+    const int positions = builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    builder.mesh({{{"attributes", {{"POSITION", positions}, {"_COC_SCALE", builder.floats(scales, "SCALAR", 1)}}}}},
+                 {{"extras", {{"cocScale", nodeScale}}}});
+    return builder;
+}
+
+TEST(GltfMesh, scalesOfTheBlurAreThoseOfTheFile) {
+    const Scene scene = scaledBlur({0, 0.5f, 2}, 0.25).load();
+    EXPECT_EQ(scene.meshes.at(0).vertices.cocScales, (std::vector<float>{0, 0.5f, 2}));
+    EXPECT_EQ(scene.meshes[0].cocScaleLeast, 0);
+    EXPECT_EQ(scene.meshes[0].cocScaleMost, 2);
+    EXPECT_EQ(scene.nodes.at(0).cocScale, 0.25);
+}
+
+TEST(GltfMesh, scalesOfTheBlurThatAreNoneAreFaults) {
+    const auto fault = [](const std::vector<float>& scales, const nlohmann::json& nodeScale) -> std::string {
+        try {
+            (void)scaledBlur(scales, nodeScale).load();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(fault({1, std::nanf(""), 1}, 1).find("_COC_SCALE of vertex 1 is nan"), std::string::npos);
+    EXPECT_NE(fault({1, 1, -2}, 1).find("_COC_SCALE of vertex 2 is -2"), std::string::npos);
+    EXPECT_NE(fault({1, 1, 1}, -1).find("cocScale must be a number of 0 or more"), std::string::npos);
+    EXPECT_NE(fault({1, 1, 1}, "none").find("cocScale must be a number of 0 or more"), std::string::npos);
 }
 
 TEST(GltfScene, lightsShineAlongTheirNodesMinusZ) {
