@@ -156,7 +156,7 @@ PlacedCamera place(PreparedFrame& frame, const SceneOptions& options) {
     chooseFocus(options, placed.camera, *frame.scene, frame.world.pose, frame.view);
     checkLens(frame.view.lens);
     if (options.lens.contains("iso") && frame.view.lens.exposureTime == 0)
-        fail("--iso says nothing without an exposure time: give --exposure-time too");
+        frame.refusedLensValues.emplace_back("iso says nothing without an exposure time (--exposure-time)");
     return placed;
 }
 

@@ -76,7 +76,7 @@ TEST(Info, cameraAnswersWhatPhotographersAsk) {
     EXPECT_NEAR(json["depthOfField"], json["inFrontOfFocus"].get<double>() + json["behindFocus"].get<double>(), 1e-12);
     EXPECT_NEAR(json["inFrontOfFocus"], 2 - json["near"].get<double>(), 1e-12);
     EXPECT_NEAR(json["horizontalFieldOfView"], 39.5978, 1e-4);  // 2·atan(18/50)
-    EXPECT_NEAR(json["verticalFieldOfView"], 30.2241, 1e-4);    // 2·atan(13.5/50)
+    EXPECT_NEAR(json["verticalFieldOfView"], 30.21915, 1e-4);   // 2·atan(13.5/50)
     EXPECT_NEAR(json["exposure"]["ev100"], std::log2(4 * 125 / 4.0), 1e-9);
     ASSERT_EQ(json["blur"].size(), 3u);
     EXPECT_NEAR(json["blur"][0]["pixels"], -0.025 * 0.5 * 1000 / 0.72, 1e-9);

@@ -50,7 +50,6 @@ TEST(TruthLimited, foregroundIsThatOfALensBeforeEveryPixel) {
     truth->view.lens.foregroundLimit = limit;
     const Image image = rasterised(*truth, settings);
     const Image planned = traced(*truth, settings, EmbreeSampling::planned);
-    std::printf("PSNR %f %f %f\n", compareImages(planned, image).psnr, compareImages(traced(*truth, settings, EmbreeSampling::perPixel), image).psnr, compareImages(planned, unlimited).psnr);
     EXPECT_GT(compareImages(planned, image).psnr, 60);
     EXPECT_GT(compareImages(traced(*truth, settings, EmbreeSampling::perPixel), image).psnr, 45);
     EXPECT_LT(compareImages(planned, unlimited).psnr, 35) << "without the limit it is another image";
