@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/option_text.h"
 #include "lens/circle_of_confusion.h"
@@ -20,7 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double degrees = 180 / std::numbers::pi;
 
 struct Blur {
     double depth = 0;      // m
@@ -56,7 +55,7 @@ CameraFacts factsOf(const PreparedFrame& frame, const CameraQuestion& question) 
     facts.lens = view.lens;
     facts.sensor = sensorSize(view.lens, view.width, view.height);
     const double tanX = tanHalfHorizontalFov(view.lens);
-    facts.fieldOfView = 2 * degrees * glm::dvec2(std::atan(tanX), std::atan(tanX * view.height / view.width));
+    facts.fieldOfView = glm::degrees(2.0 * glm::dvec2(std::atan(tanX), std::atan(tanX * view.height / view.width)));
     facts.customary = !question.acceptableCoc;
     facts.acceptable = question.acceptableCoc.value_or(customaryCircleOfConfusion(view.lens, view.width, view.height));
     facts.depth = depthOfField(view.lens, facts.acceptable);
@@ -70,7 +69,7 @@ CameraFacts factsOf(const PreparedFrame& frame, const CameraQuestion& question) 
     return facts;
 }
 
-std::string metres(double distance) {
+std::string inMetres(double distance) {
     return std::isinf(distance) ? "infinity" : fmt::format("{:.4g} m", distance);
 }
 
@@ -118,14 +117,15 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     line("sensor", fmt::format("{:.4g} x {:.4g} mm, as wide as its image of {}x{} px", facts.sensor.x, facts.sensor.y,
                                frame.view.width, frame.view.height));
     line("field of view", fmt::format("{:.4g} x {:.4g} degrees", facts.fieldOfView.x, facts.fieldOfView.y));
-    line("focus", fmt::format("{}{}", metres(lens.focusDistance), lens.focusBreathing ? ", with focus breathing" : ""));
+    line("focus",
+         fmt::format("{}{}", inMetres(lens.focusDistance), lens.focusBreathing ? ", with focus breathing" : ""));
     line("acceptable blur",
          fmt::format("{:.3g} mm on the sensor{}", facts.acceptable, facts.customary ? ", its diagonal over 1500" : ""));
-    line("in focus", fmt::format("{} to {}", metres(facts.depth.near), metres(facts.depth.far)));
+    line("in focus", fmt::format("{} to {}", inMetres(facts.depth.near), inMetres(facts.depth.far)));
     line("depth of field",
-         fmt::format("{}: {} in front of the focus, {} behind", metres(facts.depth.far - facts.depth.near),
-                     metres(lens.focusDistance - facts.depth.near), metres(behindFocus(facts))));
-    line("hyperfocal", metres(facts.depth.hyperfocal));
+         fmt::format("{}: {} in front of the focus, {} behind", inMetres(facts.depth.far - facts.depth.near),
+                     inMetres(lens.focusDistance - facts.depth.near), inMetres(behindFocus(facts))));
+    line("hyperfocal", inMetres(facts.depth.hyperfocal));
     if (lens.exposureTime > 0)
         line("exposure",
              fmt::format("{} at ISO {:.4g}: EV100 {:.2f}, {:+.2f} EV on the scene's cd/m2",
@@ -133,7 +133,7 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
     if (!facts.plain) text += fmt::format("{}.\n", plainLensNote);
     text += fmt::format("\n{:>12} {:>12} {:>14}\n", "depth", "blur, px", "on sensor, mm");
     for (const Blur& blur : facts.blurs)
-        text += fmt::format("{:>12} {:>12.2f} {:>14.4f}{}\n", metres(blur.depth), blur.pixels, blur.onSensor,
+        text += fmt::format("{:>12} {:>12.2f} {:>14.4f}{}\n", inMetres(blur.depth), blur.pixels, blur.onSensor,
                             blur.inFocus ? "  in focus" : "");
     text += "\nThe blur is that of the image's middle, < 0 in front of the focus.\n";
     return text;

@@ -8,13 +8,12 @@ namespace defocus {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double millimetre = 1e-3;
 constexpr double diagonalShare = 1500;
 
 }  // namespace
 
 DepthOfField depthOfField(const Lens& lens, double acceptable) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     const double aperture = apertureDiameter(lens);
     if (!(aperture > 0)) return {0, 0, infinity};
     const double f = lens.focalLength * millimetre;

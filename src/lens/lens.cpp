@@ -14,7 +14,6 @@ namespace defocus {
 
 namespace {
 
-constexpr double millimetre = 1e-3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double mostTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane goes through the camera
 

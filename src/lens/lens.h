@@ -12,6 +12,8 @@
 
 namespace defocus {
 
+inline constexpr double millimetre = 1e-3;  // m
+
 struct Lens {
     // Camera.
     double focalLength = 50;         // mm

@@ -70,6 +70,34 @@ TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {
     EXPECT_TRUE(std::get<std::string>(metadata.at("software")).starts_with("defocus "));
 }
 
+// f/2, 1/8 s, ISO 200: EV100 = log2(4·8/2) = 4, and white is 1.2·2^4 cd/m².
+TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
+    const std::vector<std::string> photographic = {"--fstop", "2", "--exposure-time", "1/8", "--iso", "200"};
+    std::vector<std::string> arguments = {"-o", "a.exr", "-o", "a.png"};
+    arguments.insert(arguments.end(), photographic.begin(), photographic.end());
+    ASSERT_EQ(render(arguments).exitCode, 0);
+    const std::string stops = fmt::format("--exposure={}", -4 - std::log2(1.2));
+    ASSERT_EQ(render({"-o", "b.png", "--fstop", "2", stops}).exitCode, 0);
+    EXPECT_EQ(readImage(folder() / "a.png").pixels, readImage(folder() / "b.png").pixels);
+    Metadata metadata;
+    readImage(folder() / "a.exr", &metadata);
+    EXPECT_NEAR(std::get<double>(metadata.at("expTime")), 0.125, 1e-6);
+    EXPECT_NEAR(std::get<double>(metadata.at("isoSpeed")), 200, 1e-4);
+
+    // A file's own, and --exposure, which wins.
+    json scene = json::parse(textOf(folder() / "quads.gltf"));
+    scene["cameras"][0]["extras"] = {{"fStop", 2}, {"exposureTime", 0.125}, {"iso", 200}};
+    std::ofstream(folder() / "own.gltf") << scene.dump();
+    const auto own = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"render", "own.gltf", "--size", "128x96", "--samples", "4", "-o", "c.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(run(words).exitCode, 0);
+        return readImage(folder() / "c.png").pixels;
+    };
+    EXPECT_EQ(own({}), readImage(folder() / "a.png").pixels);
+    EXPECT_NE(own({"--exposure", "0"}), readImage(folder() / "a.png").pixels);
+}
+
 // The camera's own image, beside the file, is the one of the option; one that can't be read is left out with a warning.
 TEST_F(Render, apertureImageOfTheCameraLiesBesideTheScene) {
     Image image(8, 8, 1);

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <set>
 
+#include "capture/capture.h"
 #include "capture/shot_json.h"
 #include "core/error.h"
 
@@ -235,6 +237,28 @@ TEST(ShardFrames, shareTheRangeWithoutRestAndWithoutOverlap) {
     EXPECT_EQ(*all.begin(), 7);
     EXPECT_EQ(*all.rbegin(), 40);
     EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 34u);
+}
+
+// Time and sensitivity go by ratios, and each frame is exposed by its own lens; an exposure in EV is for all.
+TEST_F(FrameSequence, exposureFollowsTheLens) {
+    const char* text = R"({"output": "x/####.png", "lens": {"fStop": 2, "iso": 400, "exposureTime":
+        {"interpolation": "linear", "keys": [{"frame": 0, "value": 0.01}, {"frame": 2, "value": 0.04}]}}})";
+    const Shot shot = parseShot(text, "x.json");
+    EXPECT_NEAR(frame(text, 1).view.lens.exposureTime, 0.02, 1e-12);
+    FilmOptions options;
+    options.outputs = shot.outputs;
+    const std::vector<FilmFrame> film = filmFrames(shot, base_, {0, 1, 2}, options);
+    EXPECT_NEAR(film[1].write.exposure, film[0].write.exposure + 1, 1e-12);
+    EXPECT_NEAR(film[2].write.exposure, -std::log2(4 / 0.04 * 100 / 400) - std::log2(1.2), 1e-12);
+    EXPECT_NE(film[0].settings, film[1].settings);
+    options.exposure = -1.5;
+    EXPECT_EQ(filmFrames(shot, base_, {0, 1}, options)[1].write.exposure, -1.5);
+
+    const char* switched =
+        R"({"lens": {"exposureTime": {"keys": [{"frame": 0, "value": 0}, {"frame": 4, "value": 1}]}}})";
+    EXPECT_EQ(frame(switched, 3).view.lens.exposureTime, 0) << "between none and some there is nothing";
+    EXPECT_EQ(frame(switched, 4).view.lens.exposureTime, 1);
+    EXPECT_THROW((void)parseShot(R"({"exposure": 1, "lens": {"exposureTime": 0.01}})", "x.json"), Error);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace defocus {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 Lens lensOf(double focalLength, double fStop, double focusDistance, bool breathing) {
     Lens lens;
@@ -48,7 +48,7 @@ TEST(DepthOfField, diskAtTheLimitsOfTheThinLensIsTheAcceptableOne) {
             const DepthOfField depth = depthOfField(lens, 0.025);
             EXPECT_NEAR(diskOfTheThinLens(lens, depth.near), 0.025, 1e-9) << f << " mm, " << s << " m";
             if (std::isfinite(depth.far)) EXPECT_NEAR(diskOfTheThinLens(lens, depth.far), 0.025, 1e-9);
-            EXPECT_EQ(std::isinf(depth.far), diskOfTheThinLens(lens, infinity) <= 0.025);
+            EXPECT_EQ(std::isinf(depth.far), diskOfTheThinLens(lens, unlimited) <= 0.025);
         }
 }
 
@@ -77,7 +77,7 @@ TEST(DepthOfField, focusedAtTheHyperfocalDistanceItReachesFromHalfOfItToInfinity
         EXPECT_NEAR(depth.near, lens.focusDistance / 2, 1e-9);
         lens.focusDistance *= 0.999;
         EXPECT_FALSE(std::isinf(depthOfField(lens, 0.03).far));
-        lens.focusDistance = infinity;
+        lens.focusDistance = unlimited;
         EXPECT_TRUE(std::isinf(depthOfField(lens, 0.03).far));
         EXPECT_NEAR(depthOfField(lens, 0.03).near, depth.hyperfocal - (breathing ? 0.035 : 0), 1e-9);
     }
