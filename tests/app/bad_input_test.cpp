@@ -14,10 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class BadInput : public Program {
+class BadInput : public ProgramTest {
 protected:
     void SetUp() override {
-        Program::SetUp();
+        ProgramTest::SetUp();
         writeTwoQuads(folder() / "quads.gltf");
     }
 

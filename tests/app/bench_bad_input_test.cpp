@@ -6,10 +6,10 @@
 namespace defocus {
 namespace {
 
-class Bench : public Program {
+class Bench : public ProgramTest {
 protected:
     void SetUp() override {
-        Program::SetUp();
+        ProgramTest::SetUp();
         writeTwoQuads(folder() / "quads.gltf");
     }
 

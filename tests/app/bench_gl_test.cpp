@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class BenchConvergence : public Program {
+class BenchConvergence : public ProgramTest {
 protected:
     void SetUp() override {
-        Program::SetUp();
+        ProgramTest::SetUp();
         try {
             createHeadlessContext();
         } catch (const Error& error) {

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Cache : public Program {
+class Cache : public ProgramTest {
 protected:
     // A plan of two small fish, which are simplified for it. `--verbose` says how many pyramids came from the cache.
     Outcome plan(std::vector<std::string> arguments = {}, std::size_t mostFileBytes = 0) const {

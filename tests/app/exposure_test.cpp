@@ -30,10 +30,10 @@ std::string movingSquare() {
     return builder.glb();
 }
 
-class Exposure : public Program {
+class Exposure : public ProgramTest {
 protected:
     void SetUp() override {
-        Program::SetUp();
+        ProgramTest::SetUp();
         GltfBuilder::save(folder() / "square.glb", movingSquare());
     }
 

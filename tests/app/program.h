@@ -23,7 +23,7 @@ struct Outcome {
     std::string err;
 };
 
-class Program : public testing::Test {
+class ProgramTest : public testing::Test {
 protected:
     void SetUp() override {
         std::string pattern = (std::filesystem::temp_directory_path() / "defocus-app-XXXXXX").string();

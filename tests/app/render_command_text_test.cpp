@@ -38,7 +38,7 @@ PreparedFrame placedBy(const std::string& command) {
     return placeFrame(options);
 }
 
-struct Shot {
+struct ShotRequest {
     SceneOptions options = smallSchool();
     PreparedFrame frame = placeFrame(options);
     View view = frame.view;
@@ -59,7 +59,7 @@ void expectSameView(const View& a, const View& b) {
 }
 
 TEST(RenderCommandText, isTheViewAgain) {
-    Shot shot;
+    ShotRequest shot;
     const ViewCamera camera = orbited(panned({shot.view.worldFromCamera, 2}, -0.4, 0.1), 0.7, -0.2);
     shot.view.worldFromCamera = camera.worldFromCamera;
     shot.view.width = 320;
@@ -76,7 +76,7 @@ TEST(RenderCommandText, isTheViewAgain) {
 
 TEST(RenderCommandText, everyLensFieldArrives) {
     for (const LensField& field : lensFields()) {
-        Shot shot;
+        ShotRequest shot;
         shot.view.lens.focusDistance = 3;
         const double before = lensFieldValue(shot.view.lens, field);
         const bool flag = std::holds_alternative<bool Lens::*>(field.member);
@@ -91,13 +91,13 @@ TEST(RenderCommandText, everyLensFieldArrives) {
 }
 
 TEST(RenderCommandText, aRolledCameraStaysRolled) {
-    Shot shot;
+    ShotRequest shot;
     shot.view.worldFromCamera = shot.view.worldFromCamera * glm::rotate(glm::dmat4(1.0), 2.5, glm::dvec3(0, 0, 1));
     expectSameView(placedBy(shot.command()).view, shot.view);
 }
 
 TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
-    Shot shot;
+    ShotRequest shot;
     shot.options.lod = LodMode::nearest;
     shot.options.samples = 12;
     shot.options.method = "circular:far-components=5";

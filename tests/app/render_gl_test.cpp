@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class Render : public Program {
+class Render : public ProgramTest {
 protected:
     void SetUp() override {
-        Program::SetUp();
+        ProgramTest::SetUp();
         try {
             createHeadlessContext();
         } catch (const Error& error) {

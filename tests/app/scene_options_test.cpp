@@ -11,10 +11,10 @@ namespace {
 
 using nlohmann::json;
 
-class SceneOptionsTest : public Program {
+class SceneOptionsTest : public ProgramTest {
 protected:
     void SetUp() override {
-        Program::SetUp();
+        ProgramTest::SetUp();
         writeTwoQuads(folder() / "two quads ❤.gltf");
     }
 

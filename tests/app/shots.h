@@ -12,10 +12,10 @@
 
 namespace defocus {
 
-class Capture : public Program {
+class Capture : public ProgramTest {
 protected:
     void SetUp() override {
-        Program::SetUp();
+        ProgramTest::SetUp();
         try {
             createHeadlessContext();
         } catch (const Error& error) {
