@@ -88,7 +88,7 @@ TEST(GltfMorph, tangentsAndNormalsAreRead) {
     GltfBuilder builder;
     json attributes = attributesOf(builder);
     attributes["NORMAL"] = builder.floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
-    attributes["TANGENT"] = builder.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4", 3);
+    attributes["TANGENT"] = builder.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4", 4);
     const json target = {{"TANGENT", builder.floats({0, 1, 0, 0, 2, 0, 0, 3, 0}, "VEC3", 3)},
                          {"NORMAL", builder.floats({4, 0, 0, 5, 0, 0, 6, 0, 0}, "VEC3", 3)}};
     builder.mesh({{{"attributes", attributes}, {"targets", {target}}}});
