@@ -47,7 +47,9 @@ TEST(DepthOfField, diskAtTheLimitsOfTheThinLensIsTheAcceptableOne) {
             const Lens lens = lensOf(f, 4, s, true);
             const DepthOfField depth = depthOfField(lens, 0.025);
             EXPECT_NEAR(diskOfTheThinLens(lens, depth.near), 0.025, 1e-9) << f << " mm, " << s << " m";
-            if (std::isfinite(depth.far)) EXPECT_NEAR(diskOfTheThinLens(lens, depth.far), 0.025, 1e-9);
+            if (std::isfinite(depth.far)) {
+                EXPECT_NEAR(diskOfTheThinLens(lens, depth.far), 0.025, 1e-9);
+            }
             EXPECT_EQ(std::isinf(depth.far), diskOfTheThinLens(lens, unlimited) <= 0.025);
         }
 }
