@@ -25,6 +25,7 @@
 #include "lens/photographic_exposure.h"
 #include "render/aov.h"
 #include "render/methods.h"
+#include "render/work.h"
 
 namespace defocus {
 
@@ -36,7 +37,9 @@ struct AovRequest {
     bool depth = false;
     bool coc = false;
     bool level = false;
-    [[nodiscard]] bool any() const { return depth || coc || level; }
+    bool work = false;
+    [[nodiscard]] bool surfaces() const { return depth || coc || level; }
+    [[nodiscard]] bool any() const { return surfaces() || work; }
 };
 
 struct RenderArguments {
@@ -50,8 +53,8 @@ struct RenderArguments {
 };
 
 void parseAovs(const std::string& text, AovRequest& aovs) {
-    const std::vector<std::string> names = {"depth", "coc", "level"};
-    const std::array<bool*, 3> wanted = {&aovs.depth, &aovs.coc, &aovs.level};
+    const std::vector<std::string> names = {"depth", "coc", "level", "work"};
+    const std::array<bool*, 4> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work};
     std::size_t begin = 0;
     while (begin <= text.size()) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -74,6 +77,8 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
     if (arguments.aovs.coc) paths.push_back(derivedPath(output, "coc.exr"));
     if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.exr"));
     if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.png"));
+    if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.exr"));
+    if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.png"));
     return paths;
 }
 
@@ -121,6 +126,18 @@ void writeAovs(const RenderArguments& arguments, const AovImages& images, const 
     if (!arguments.aovs.level) return;
     writeImage(derivedPath(output, "level.exr"), images.level, metadata);
     writeImage(derivedPath(output, "level.png"), levelColourMap(images.level));
+}
+
+void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Image& work, const Metadata& metadata,
+               bool quiet) {
+    const std::filesystem::path& output = arguments.outputs.front();
+    const auto samples = static_cast<std::uint32_t>(plan.samples.size());
+    writeImage(derivedPath(output, "work.exr"), work, metadata);
+    writeImage(derivedPath(output, "work.png"), workColourMap(work, samples));
+    const WorkSummary summary = workSummary(work, samples);
+    if (!quiet)
+        fmt::print(stderr, "work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean,
+                   summary.most);
 }
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report) {
@@ -180,7 +197,9 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     else
         for (const std::filesystem::path& path : arguments.outputs)
             writeImage(path, image, metadata, {arguments.toneMap, exposure});
-    if (arguments.aovs.any()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
+    if (arguments.aovs.surfaces()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
+    if (arguments.aovs.work)
+        writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
     if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
     printWarnings(frame, global);
     if (global.verbose) printChoices(context.get(), plan, report);
@@ -205,9 +224,10 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
                        {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
                        "Film curve of .png and .jpg")
         ->group(group);
-    addParsed(command, "--aov", "depth,coc,level",
-              "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px) and out.level.exr with "
-              "out.level.png (level of detail)",
+    addParsed(command, "--aov", "depth,coc,level,work",
+              "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
+              "out.level.png (level of detail) and out.work.exr with out.work.png (triangles that touch each pixel, "
+              "summed over the lens samples of the accumulation, hidden ones too)",
               [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
         ->group(group);
     addParsed(command, "--sample-range", "FIRST:END",

@@ -236,6 +236,11 @@ void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first,
     glDisable(GL_BLEND);
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
+    drawFronts(items, first, count);
+}
+
+// Both sides of what is double-sided.
+void SurfacePass::drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count) {
     for (const Draw& item : items) {
         if (scene_->material(item.material).doubleSided)
             glDisable(GL_CULL_FACE);
@@ -253,6 +258,16 @@ void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
 void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
     drawSolid(opaque_, first, count);
     drawSolid(blended_, first, count);
+}
+
+void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {
+    bindFrame();
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    drawFronts(opaque_, first, count);
+    drawFronts(blended_, first, count);
+    glDisable(GL_BLEND);
 }
 
 void SurfacePass::drawBlended(std::uint32_t first, std::uint32_t count) {

@@ -36,6 +36,8 @@ public:
     void drawBlendedDepth(std::uint32_t first, std::uint32_t count);
     // All surfaces, blended ones too, as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
+    // All of them, each fragment added to what is there: nothing hides anything.
+    void drawTouched(std::uint32_t first, std::uint32_t count);
     // The environment behind everything, where no surface was drawn. (The accumulation composes skies that are simpler
     // than maps when it adds layers.)
     void drawSky(std::uint32_t first, std::uint32_t count);
@@ -72,6 +74,7 @@ private:
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
     void bindFrame();
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
+    void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
     void draw(const Draw& item, std::uint32_t first, std::uint32_t count);
 
     GpuScene* scene_;

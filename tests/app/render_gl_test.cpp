@@ -179,6 +179,21 @@ TEST_F(Render, aovsHoldDepthBlurAndLevel) {
     EXPECT_EQ(*level.at(10, 80), -1);
 }
 
+TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
+    Image images[2];
+    for (int i = 0; i < 2; ++i) {
+        const Outcome outcome = render({"-o", "a.png", "--aov", "work", "--wave", i == 0 ? "1" : "3"});
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_NE(outcome.err.find("triangles a pixel and lens sample"), std::string::npos) << outcome.err;
+        EXPECT_TRUE(fs::exists(folder() / "a.work.png"));
+        images[i] = readImage(folder() / "a.work.exr");
+    }
+    EXPECT_EQ(images[0].channels, 1);
+    EXPECT_EQ(images[0].pixels, images[1].pixels);
+    EXPECT_EQ(*images[0].at(63, 21), 4);  // in the middle of Near, which hides nothing
+    EXPECT_EQ(*images[0].at(10, 80), 0);
+}
+
 TEST_F(Render, transparentBackgroundHasNoCoverage) {
     ASSERT_EQ(render({"-o", "a.exr", "--background", "none", "--no-dof"}).exitCode, 0);
     const Image image = readImage(folder() / "a.exr");
