@@ -82,9 +82,9 @@ TEST_F(Work, backsCountOnlyWhereTheyAreDrawn) {
 // A rectangle at depth z is shifted by each lens point and jittered: in each sample it touches the pixels whose centres
 // lie inside.
 TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
-    const double depth = 1.25;
-    const glm::dvec2 centre(0.03, -0.02);
-    const glm::dvec2 half(0.171, 0.113);
+    const double depth = 0.6;
+    const glm::dvec2 centre(0.0143, -0.0097);
+    const glm::dvec2 half(0.0821, 0.0543);
     const auto small = facingQuads({quadAt(depth, centre, half)}, unlitMaterial(glm::vec4(1)));
     const FramePlan plan = planFrame(small->world, small->view, manySamples());
     const double perMetre = 96 / (0.72 * depth);
