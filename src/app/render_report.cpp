@@ -125,6 +125,8 @@ std::string statsJson(const RenderReport& report) {
                                     ? "timer queries of a software driver: vertex work is not covered, not for ratios"
                                     : "timer queries around the waves of samples"},
         {"trianglesDrawn", stats.trianglesDrawn},
+        {"trianglesFacingAway", report.plan.trianglesFacingAway},
+        {"trianglesOutside", report.plan.trianglesOutside},
         {"trianglesAtFullDetail", report.plan.trianglesAtFullDetail},
         {"peakBytes", peakMemory()},
         {"gpuBytes", stats.peakBytes},

@@ -1,7 +1,5 @@
 #include "lod/level_order.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
 
 namespace defocus {
@@ -11,30 +9,6 @@ namespace {
 constexpr std::uint32_t none = 0xffffffffu;
 
 }  // namespace
-
-void optimizeTriangleOrder(LevelTriangles& level, std::size_t vertexCount) {
-    std::vector<std::uint32_t> localOf(vertexCount, none);
-    std::vector<std::uint32_t>
-        vertices;  // of the primitive, numbered from 0: its cost shall not depend on the whole mesh
-    std::vector<std::uint32_t> local;
-    std::size_t first = 0;
-    for (const std::uint32_t count : level.primitiveIndexCounts) {
-        vertices.clear();
-        local.assign(level.indices.begin() + static_cast<std::ptrdiff_t>(first),
-                     level.indices.begin() + static_cast<std::ptrdiff_t>(first + count));
-        for (std::uint32_t& v : local) {
-            if (localOf[v] == none) {
-                localOf[v] = static_cast<std::uint32_t>(vertices.size());
-                vertices.push_back(v);
-            }
-            v = localOf[v];
-        }
-        if (count > 0) meshopt_optimizeVertexCache(local.data(), local.data(), count, vertices.size());
-        for (std::size_t i = 0; i < count; ++i) level.indices[first + i] = vertices[local[i]];
-        for (const std::uint32_t v : vertices) localOf[v] = none;
-        first += count;
-    }
-}
 
 SurvivalOrder sortBySurvival(std::vector<LevelTriangles>& levels, const Welded& positions) {
     // The vertices of each position, in a list that starts at `head`; only those that a level uses.

@@ -1,6 +1,5 @@
 #pragma once
-// The order of a pyramid's triangles and vertices: every level's triangles for the vertex cache, and the vertices by
-// how long they survive, so that a level uses a prefix of them.
+// The order of a pyramid's vertices: by how long they survive, so that a level uses a prefix of them.
 
 #include <cstdint>
 #include <vector>
@@ -19,9 +18,6 @@ struct SurvivalOrder {
     std::vector<std::uint32_t> vertices;      // old vertex numbers in their new order; those that level 0 uses
     std::vector<std::uint32_t> vertexCounts;  // of each level: the prefix that it uses
 };
-
-// Reorders the triangles within each primitive so that a GPU's cache of shaded vertices serves most of them.
-void optimizeTriangleOrder(LevelTriangles& level, std::size_t vertexCount);
 
 // Sorts vertices by the coarsest level that uses their position, and within by first use in that level; vertices at one
 // position stay together. Rewrites the indices of `levels` (finest first) to the new numbers.

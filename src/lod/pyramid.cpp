@@ -61,11 +61,14 @@ void measureEdges(PyramidLevel& level, const std::vector<std::uint32_t>& indices
 }
 
 // Appends a level's ranges and indices; `triangles` are in final vertex numbers.
-PyramidLevel appendLevel(Pyramid& pyramid, const LevelTriangles& triangles, std::uint32_t vertexCount) {
+PyramidLevel appendLevel(Pyramid& pyramid, const LevelTriangles& triangles, std::vector<Cluster> clusters,
+                         std::uint32_t vertexCount) {
     PyramidLevel level;
+    level.clusters = std::move(clusters);
     level.vertexCount = vertexCount;
     level.triangleCount = static_cast<std::uint32_t>(triangles.indices.size() / 3);
     auto first = static_cast<std::uint32_t>(pyramid.indices.size());
+    for (Cluster& cluster : level.clusters) cluster.indices.first += first;
     for (const std::uint32_t count : triangles.primitiveIndexCounts) {
         level.primitives.push_back({first, count});
         first += count;
@@ -140,8 +143,10 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
         triangles.push_back(std::move(level.triangles));
     }
 
-    // Order triangles for the cache and vertices by survival.
-    for (LevelTriangles& level : triangles) optimizeTriangleOrder(level, vertices.count());
+    // Order triangles by clusters and vertices by survival.
+    std::vector<std::vector<Cluster>> clusters;
+    for (std::size_t l = 0; l < triangles.size(); ++l)
+        clusters.push_back(clusterTriangles(triangles[l], fits[l].positions));
     const SurvivalOrder order = sortBySurvival(triangles, positions);
     pyramid.vertices = gathered(vertices, order.vertices);
     pyramid.source = gathered(gathered(unique.first, withTwins), order.vertices);
@@ -149,7 +154,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
 
     // Describe each level.
     for (std::size_t l = 0; l < triangles.size(); ++l) {
-        PyramidLevel level = appendLevel(pyramid, triangles[l], order.vertexCounts[l]);
+        PyramidLevel level = appendLevel(pyramid, triangles[l], std::move(clusters[l]), order.vertexCounts[l]);
         level.error = errors[l];
         const std::vector<std::uint32_t> prefix(order.vertices.begin(), order.vertices.begin() + level.vertexCount);
         level.positions = gathered(fits[l].positions, prefix);

@@ -11,19 +11,16 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "lod/clusters.h"
 #include "scene/mesh.h"
 
 namespace defocus {
-
-struct IndexRange {
-    std::uint32_t first = 0;  // into Pyramid::indices
-    std::uint32_t count = 0;  // a multiple of 3
-};
 
 struct PyramidLevel {
     std::vector<IndexRange> primitives;  // one a primitive of the mesh, in its order
     std::uint32_t vertexCount = 0;       // the prefix of the vertex buffer that the level uses
     std::uint32_t triangleCount = 0;
+    std::vector<Cluster> clusters;  // their ranges follow each other over those of the primitives
     // Fitted to level 0 (there: the mesh's own), inside its bounds; vertices at one position stay at one. Normals have
     // a length of at most 1: the shorter, the more the normals that they stand for differ, and the less light a matt
     // surface throws back.

@@ -13,7 +13,8 @@ namespace defocus {
 // member, which the key or the file would lack.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
-static_assert(sizeof(PyramidFileHeader) == 112 && sizeof(PyramidFileLevel) == 32, "no padding, so that all is written");
+static_assert(sizeof(PyramidFileHeader) == 112 && sizeof(PyramidFileLevel) == 40 && sizeof(Cluster) == 48,
+              "no padding, so that all is written");
 
 namespace {
 
@@ -82,7 +83,8 @@ std::size_t encodedSize(const Pyramid& pyramid, const Mesh& mesh) {
                        pyramid.vertices.count() * (sizeof(std::uint32_t) + sizeof(glm::vec3)) +
                        pyramid.indices.size() * sizeof(std::uint32_t);
     for (const PyramidLevel& level : pyramid.levels)
-        size += sizeof(PyramidFileLevel) + mesh.primitives.size() * sizeof(IndexRange) +
+        size += sizeof(PyramidFileLevel) + level.clusters.size() * sizeof(Cluster) +
+                mesh.primitives.size() * sizeof(IndexRange) +
                 level.vertexCount * (2 * sizeof(glm::vec3) + sizeof(glm::u8vec4));
     return size;
 }
@@ -121,6 +123,22 @@ bool matches(const PyramidFileHeader& header, const Mesh& mesh, const PyramidKey
            header.levelCount >= 1;
 }
 
+// The clusters' ranges follow each other over each primitive's.
+bool clustersFit(const PyramidLevel& level) {
+    auto cluster = level.clusters.begin();
+    for (const IndexRange& primitive : level.primitives) {
+        std::uint32_t next = primitive.first;
+        const std::uint32_t end = primitive.first + primitive.count;
+        for (; next < end; ++cluster) {
+            if (cluster == level.clusters.end()) return false;
+            const auto [first, count] = cluster->indices;
+            if (first != next || count == 0 || count % 3 != 0 || count > end - next) return false;
+            next += count;
+        }
+    }
+    return cluster == level.clusters.end();
+}
+
 // The record's numbers and ranges: the levels' ranges follow each other over all indices, which stay below the level's
 // number of vertices.
 bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<PyramidLevel>& levels,
@@ -152,7 +170,10 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
         level.longestEdge = record.longestEdge;
         level.error = record.error;
     }
-    return next == header.indexCount;
+    if (next != header.indexCount) return false;
+    for (std::size_t l = 0; l < levels.size(); ++l)
+        if (!reader.read(levels[l].clusters, records[l].clusterCount) || !clustersFit(levels[l])) return false;
+    return true;
 }
 
 // Level 0 of a mesh has its first so many triangles a primitive.
@@ -213,13 +234,17 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
     // The levels' table, then the arrays.
     std::vector<PyramidFileLevel> records;
     std::vector<IndexRange> ranges;
-    for (const auto& [primitives, vertexCount, triangleCount, positions, normals, colors, meanEdge, longestEdge,
-                      error] : pyramid.levels) {
-        records.push_back({vertexCount, triangleCount, meanEdge, longestEdge, error});
+    std::vector<Cluster> allClusters;
+    for (const auto& [primitives, vertexCount, triangleCount, clusters, positions, normals, colors, meanEdge,
+                      longestEdge, error] : pyramid.levels) {
+        records.push_back(
+            {vertexCount, triangleCount, static_cast<std::uint32_t>(clusters.size()), 0, meanEdge, longestEdge, error});
+        allClusters.insert(allClusters.end(), clusters.begin(), clusters.end());
         ranges.insert(ranges.end(), primitives.begin(), primitives.end());
     }
     append(bytes, records);
     append(bytes, ranges);
+    append(bytes, allClusters);
     append(bytes, pyramid.source);
     append(bytes, pyramid.indices);
     if (mesh.vertices.normals.empty()) append(bytes, pyramid.vertices.normals);

@@ -2,7 +2,7 @@
 // A pyramid as the bytes of a cache file, and back. The file holds what the mesh can't give: which of the mesh's
 // vertices the pyramid has in which order, the indices, and each level's own positions, normals and colours.
 //
-//   header | level records | index ranges, levels × primitives | source | indices
+//   header | level records | index ranges, levels × primitives | clusters, level after level | source | indices
 //          | normals, where the mesh has none | of each level from 1 on: positions, normals, colours
 //
 // Bytes are as this machine has them in memory; a file of another byte order has another magic.
@@ -29,7 +29,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
     // Of the format. What buildPyramid makes of a mesh is in the key: see pyramidKey.
-    static constexpr std::uint32_t expectedVersion = 1;
+    static constexpr std::uint32_t expectedVersion = 2;
 
     std::uint64_t magic = expectedMagic;
     std::uint64_t checksum = 0;  // hashBytes of all that follows this field
@@ -50,6 +50,8 @@ struct PyramidFileHeader {
 struct PyramidFileLevel {
     std::uint32_t vertexCount = 0;
     std::uint32_t triangleCount = 0;
+    std::uint32_t clusterCount = 0;
+    std::uint32_t unused = 0;
     double meanEdge = 0;
     double longestEdge = 0;
     double error = 0;

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "plan/motion.h"
 #include "plan/object_pose.h"
+#include "plan/visibility.h"
 #include "scene/posed_mesh.h"
 
 namespace defocus {
@@ -30,28 +31,6 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     if (!(settings.cocTolerance > 0)) fail("CoC tolerance {} px: must be above 0", settings.cocTolerance);
     if (!(settings.thresholds.blur >= 0) || !(settings.thresholds.size >= 0))
         fail("level-of-detail thresholds must be 0 or more");
-}
-
-// No lens sample sees any of the box: all corners lie outside one plane of the frustum widened by the lens. For the
-// left plane a point is outside while x/tan + w + |C| < 0 (half a pixel added for the jitter). The thin lens's |C(w)|
-// is convex, so corners bound it; otherwise |C|/w is at most `largest` px over the image's width.
-bool outsideWidenedFrustum(const Bounds& viewBox, const View& view, double tanX, double tanY,
-                           const ClipCircleOfConfusion& coc, double largest) {
-    bool outside[5] = {true, true, true, true, true};
-    for (const glm::dvec3& corner : viewBox.corners()) {
-        const double w = -corner.z;
-        const double reach = coc.thinLens() ? std::abs(coc.a + coc.front * w) : std::abs(w) * largest / view.width;
-        const double x = corner.x / tanX;
-        const double y = corner.y / tanY;
-        const double marginX = std::abs(w) / view.width + reach;
-        const double marginY = std::abs(w) / view.height + reach * view.width / view.height;
-        outside[0] &= x + w + marginX < 0;
-        outside[1] &= w - x + marginX < 0;
-        outside[2] &= y + w + marginY < 0;
-        outside[3] &= w - y + marginY < 0;
-        outside[4] &= w < view.nearPlane;
-    }
-    return std::any_of(std::begin(outside), std::end(outside), [](bool value) { return value; });
 }
 
 const Material& materialOf(const Scene& scene, const Primitive& primitive) {
@@ -75,18 +54,7 @@ bool hasTextures(const Scene& scene, const Mesh& mesh) {
 
 // The box of an object in front of the near plane, as the lens sees it.
 CocBox cocBoxOf(const ObjectPlan& object, const Mesh& mesh, const FramePlan& plan) {
-    CocBox box{.zNear = object.nearestDepth, .zFar = object.farthestDepth};
-    box.scaleLeast = object.cocScale * mesh.cocScaleLeast;
-    box.scaleMost = object.cocScale * mesh.cocScaleMost;
-    const glm::dvec2 perTangent(1 / plan.tanHalfHorizontal, plan.coc.aspect / plan.tanHalfHorizontal);
-    box.ndcLeast = glm::dvec2(std::numeric_limits<double>::infinity());
-    box.ndcMost = -box.ndcLeast;
-    for (const glm::dvec3& corner : object.viewBox.corners()) {
-        const glm::dvec2 ndc = glm::dvec2(corner) * perTangent / -corner.z;
-        box.ndcLeast = glm::min(box.ndcLeast, ndc);
-        box.ndcMost = glm::max(box.ndcMost, ndc);
-    }
-    return box;
+    return cocBoxOf(object.viewBox, object.cocScale * mesh.cocScaleLeast, object.cocScale * mesh.cocScaleMost, plan);
 }
 
 // Depths and blur of an object's box, before anything is decided.
@@ -175,12 +143,11 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
 }
 
 // Why this object need not be drawn; empty if it must.
-std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object, double tanY) {
+std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const ObjectPlan& object) {
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
     if (plan.settings.keepAll) return "";
-    if (outsideWidenedFrustum(object.viewBox, plan.view, plan.tanHalfHorizontal, tanY, plan.coc, object.coc.largest))
-        return "no lens sample can see it";
+    if (outsideWidenedFrustum(object.viewBox, plan, object.coc.largest)) return "no lens sample can see it";
     return "";
 }
 
@@ -247,6 +214,10 @@ void noteLevels(FramePlan& plan, const World& world) {
         for (const LevelDraw& draw : {object.coarse, object.fine}) {
             if (draw.sampleCount > 0) used[draw.level] = true;
             plan.trianglesDrawn += std::uint64_t{draw.triangleCount} * draw.sampleCount;
+            const VisibleLevel* visible = visibleLevel(object, draw.level);
+            if (visible == nullptr) continue;
+            plan.trianglesFacingAway += std::uint64_t{visible->facingAway} * draw.sampleCount;
+            plan.trianglesOutside += std::uint64_t{visible->outside} * draw.sampleCount;
         }
         plan.trianglesAtFullDetail +=
             std::uint64_t{world.pyramids[static_cast<std::size_t>(object.mesh)].levels[0].triangleCount} *
@@ -258,12 +229,24 @@ void noteLevels(FramePlan& plan, const World& world) {
     if (kept < all)
         plan.leftOut.push_back(
             {fmt::format("{} of {} pyramid levels", all - kept, all), "no sample of this frame draws them"});
+    if (plan.trianglesFacingAway > 0)
+        plan.leftOut.push_back({fmt::format("{} triangles in all samples", plan.trianglesFacingAway),
+                                "their clusters show their back to all of the lens"});
+    if (plan.trianglesOutside > 0)
+        plan.leftOut.push_back({fmt::format("{} triangles in all samples", plan.trianglesOutside),
+                                "no lens sample can see their clusters"});
     const LodMode mode = plan.settings.lod;
     if (whole > 0 && (mode == LodMode::fractional || mode == LodMode::continuous))
         plan.leftOut.push_back({fmt::format("sample split of {} object(s)", whole), "their level is whole"});
 }
 
 }  // namespace
+
+const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level) {
+    const auto found = std::find_if(object.visible.begin(), object.visible.end(),
+                                    [&](const VisibleLevel& visible) { return visible.level == level; });
+    return found == object.visible.end() ? nullptr : &*found;
+}
 
 std::optional<std::uint32_t> boundarySample(const ObjectPlan& object) {
     const std::uint32_t coarseEnd = object.coarse.firstSample + object.coarse.sampleCount;
@@ -288,10 +271,9 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
 
     // Place every object and drop those that cannot be seen.
     const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
-    const double tanY = plan.tanHalfHorizontal * view.height / view.width;
     for (std::size_t i = 0; i < world.pose.objects.size(); ++i) {
         ObjectPlan object = placedObject(world, plan, i, viewFromWorld);
-        std::string reason = reasonToLeaveOut(world, plan, object, tanY);
+        std::string reason = reasonToLeaveOut(world, plan, object);
         if (reason.empty())
             plan.objects.push_back(std::move(object));
         else
@@ -307,6 +289,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     for (ObjectPlan& object : plan.objects) {
         chooseLevels(object, world.pyramids[static_cast<std::size_t>(object.mesh)], plan);
         chooseRefinement(object, world, plan);
+        if (!settings.keepAll) leaveOutClusters(object, world, plan);
     }
 
     // Nearest first: what is drawn first hides the rest.

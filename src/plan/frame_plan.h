@@ -25,7 +25,15 @@ struct LevelDraw {
     std::uint32_t level = 0;
     std::uint32_t firstSample = 0;  // into FramePlan::samples
     std::uint32_t sampleCount = 0;
-    std::uint32_t triangleCount = 0;  // of the level, all primitives
+    std::uint32_t triangleCount = 0;  // of the level, all primitives, less what ObjectPlan::visible leaves out
+};
+
+// What is left of a level without the clusters that no lens sample shows; see visibility.h.
+struct VisibleLevel {
+    std::uint32_t level = 0;
+    std::vector<std::vector<IndexRange>> primitives;  // runs into Pyramid::indices, one list a primitive of the mesh
+    std::uint32_t facingAway = 0;                     // triangles left out as they show their back to all of the lens
+    std::uint32_t outside = 0;                        // triangles left out as they lie outside the image
 };
 
 // What it takes to keep C linear inside each drawn triangle, to RenderSettings::cocTolerance.
@@ -63,7 +71,8 @@ struct ObjectPlan {
     // LodMode::continuous: where the two overlap by a sample (`coarse` then ends with sample n), the share of that
     // sample's pixels that draw `coarse`; the others draw `fine`.
     double boundaryShare = 0;
-    double cocScale = 1;  // of the object's blur, ≥ 0
+    std::vector<VisibleLevel> visible;  // of the levels that are drawn; any other is drawn whole
+    double cocScale = 1;                // of the object's blur, ≥ 0
     Refinement refinement = Refinement::none;
     bool mirrored = false;  // the transform flips winding
     bool blended = false;   // has alpha-blended primitives
@@ -93,13 +102,18 @@ struct FramePlan {
     bool usesBlending = false;
     bool needsAlpha = false;                  // transparent background: the accumulation keeps coverage
     std::uint64_t trianglesDrawn = 0;         // over all samples
-    std::uint64_t trianglesAtFullDetail = 0;  // what --lod off would draw
+    std::uint64_t trianglesFacingAway = 0;    // over all samples, of the drawn levels: left out with their clusters
+    std::uint64_t trianglesOutside = 0;       // the same
+    std::uint64_t trianglesAtFullDetail = 0;  // over all samples: level 0, nothing left out
 };
 
 // Samples that remain when nothing is blurred: they only smooth edges.
 inline constexpr std::uint32_t antialiasingSamples = 16;
 // Blur below this diameter is left out (with keepAll it is not).
 inline constexpr double leastBlur = 0.5;  // px
+
+// What is left of `level`; null if it is drawn whole.
+const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);
 
 // The sample that an object draws at both levels, each at its own pixels; none in most modes.
 std::optional<std::uint32_t> boundarySample(const ObjectPlan& object);

@@ -124,7 +124,11 @@ std::string planJson(const FramePlan& plan) {
                              {"sizeThreshold", plan.settings.thresholds.size}}},
                            {"objects", std::move(objects)},
                            {"leftOut", std::move(leftOut)},
-                           {"triangles", {{"drawn", plan.trianglesDrawn}, {"fullDetail", plan.trianglesAtFullDetail}}}};
+                           {"triangles",
+                            {{"drawn", plan.trianglesDrawn},
+                             {"facingAway", plan.trianglesFacingAway},
+                             {"outside", plan.trianglesOutside},
+                             {"fullDetail", plan.trianglesAtFullDetail}}}};
     return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -78,6 +78,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     opaque_.clear();
     blended_.clear();
     materialSlots_.clear();
+    commandBytes_ = 0;
     for (std::size_t index = 0; index < plan.objects.size(); ++index) {
         const ObjectPlan& object = plan.objects[index];
         const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
@@ -106,12 +107,25 @@ void SurfacePass::addDraws(const FramePlan& plan) {
         }
     }
     std::reverse(blended_.begin(), blended_.end());  // the plan's objects come nearest first
+    commands_ = commandBytes_ > 0 ? Buffer(commandBytes_) : Buffer();
 }
 
 // The samples that `level` draws alone, and the one that it shares.
 void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
+    if (level.sampleCount == 0) return;
     const Pyramid& pyramid = scene_->world().pyramids[static_cast<std::size_t>(object.mesh)];
-    const std::uint32_t indexCount = pyramid.levels[level.level].primitives[draw.primitive].count;
+    const IndexRange whole = pyramid.levels[level.level].primitives[draw.primitive];
+    const VisibleLevel* visible = visibleLevel(object, level.level);
+    const std::vector<IndexRange> ranges =
+        visible != nullptr ? visible->primitives[draw.primitive] : std::vector<IndexRange>{whole};
+    const std::size_t offset = scene_->mesh(object.mesh).levels[level.level].indexOffsets[draw.primitive];
+    std::vector<DrawCommand> runs;
+    std::uint32_t indexCount = 0;
+    for (const IndexRange& range : ranges) {
+        const std::size_t first = offset / sizeof(std::uint32_t) + range.first - whole.first;
+        runs.push_back({.count = range.count, .firstIndex = static_cast<GLuint>(first)});
+        indexCount += range.count;
+    }
     if (indexCount == 0) return;
     auto& list = scene_->material(draw.material).alphaMode == AlphaMode::blend ? blended_ : opaque_;
     const auto add = [&](std::uint32_t first, std::uint32_t end, ScreenDoor screenDoor) {
@@ -120,7 +134,12 @@ void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const Lev
         added.level = level.level;
         added.firstSample = first;
         added.sampleCount = end - first;
-        added.indexCount = static_cast<GLsizei>(indexCount);
+        added.runs = runs;
+        added.triangleCount = indexCount / 3;
+        if (runs.size() > 1) {
+            added.commandOffset = commandBytes_;
+            commandBytes_ += runs.size() * sizeof(DrawCommand);
+        }
         added.screenDoor = screenDoor;
         added.program = &program(added);
     };
@@ -218,17 +237,35 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     const GLenum mode = item.refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
     if (mode == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
-    const std::uint64_t triangles = static_cast<std::uint64_t>(item.indexCount) / 3;
     const std::uint64_t most = pacer_.mostTriangles();
-    const std::uint64_t step = most == 0 ? end - begin : std::max<std::uint64_t>(1, most / triangles);
+    const std::uint64_t step = most == 0 ? end - begin : std::max<std::uint64_t>(1, most / item.triangleCount);
     for (std::uint64_t at = begin; at < end; at += step) {
         const std::uint64_t instances = std::min(step, end - at);
-        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
-        const auto* const offset = reinterpret_cast<const void*>(level.indexOffsets[item.primitive]);
-        glDrawElementsInstancedBaseInstance(mode, item.indexCount, GL_UNSIGNED_INT, offset,
-                                            static_cast<GLsizei>(instances), static_cast<GLuint>(at));
-        pacer_.submitted(instances * triangles);
+        drawRuns(item, mode, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(instances));
+        pacer_.submitted(instances * item.triangleCount);
     }
+}
+
+// Samples [first, first + count), one an instance.
+void SurfacePass::drawRuns(const Draw& item, GLenum mode, std::uint32_t first, std::uint32_t count) {
+    if (item.runs.size() == 1) {
+        const DrawCommand& run = item.runs.front();
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
+        const auto* const offset = reinterpret_cast<const void*>(std::size_t{run.firstIndex} * sizeof(std::uint32_t));
+        glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(run.count), GL_UNSIGNED_INT, offset,
+                                            static_cast<GLsizei>(count), first);
+        return;
+    }
+    std::vector<DrawCommand> commands = item.runs;
+    for (DrawCommand& command : commands) {
+        command.instanceCount = count;
+        command.baseInstance = first;
+    }
+    commands_.update(item.commandOffset, commands.size() * sizeof(DrawCommand), commands.data());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
+    const auto* const offset = reinterpret_cast<const void*>(item.commandOffset);
+    glMultiDrawElementsIndirect(mode, GL_UNSIGNED_INT, offset, static_cast<GLsizei>(commands.size()), 0);
 }
 
 void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count) {
@@ -313,7 +350,7 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
 }
 
 std::size_t SurfacePass::bytes() const {
-    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes();
+    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes() + commands_.bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
     return total;
 }

@@ -1,7 +1,8 @@
 #pragma once
 // Draws the surfaces of a FramePlan: one shader program for each set of features that the drawn materials need, and per
 // object, primitive and wave at most two instanced draws (a wave meets at most one boundary between levels); two more
-// where a sample at that boundary is split over its pixels.
+// where a sample at that boundary is split over its pixels. A level that clusters are left out of is drawn by one
+// indirect draw of all its runs of indices.
 
 #include <map>
 #include <string>
@@ -45,6 +46,14 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    struct DrawCommand {  // as glMultiDrawElementsIndirect reads it
+        GLuint count = 0;
+        GLuint instanceCount = 0;
+        GLuint firstIndex = 0;
+        GLint baseVertex = 0;
+        GLuint baseInstance = 0;
+    };
+
     enum class ScreenDoor {
         open,         // every pixel
         coarseShare,  // the pixels of a boundary sample that draw the coarser level
@@ -59,7 +68,9 @@ private:
         int material = -1;
         std::uint32_t firstSample = 0;
         std::uint32_t sampleCount = 0;
-        GLsizei indexCount = 0;
+        std::vector<DrawCommand> runs;  // of the primitive's indices; without instances
+        std::size_t commandOffset = 0;  // bytes into commands_, where there are several runs
+        std::uint32_t triangleCount = 0;
         bool mirrored = false;
         Refinement refinement = Refinement::none;
         ScreenDoor screenDoor = ScreenDoor::open;
@@ -76,6 +87,7 @@ private:
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
     void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
     void draw(const Draw& item, std::uint32_t first, std::uint32_t count);
+    void drawRuns(const Draw& item, GLenum mode, std::uint32_t first, std::uint32_t count);
 
     GpuScene* scene_;
     SurfacePassInfo info_;
@@ -88,6 +100,8 @@ private:
     Buffer objectBlocks_, materialBlocks_;
     std::size_t objectStride_ = 0;
     std::size_t materialStride_ = 0;
+    std::size_t commandBytes_ = 0;
+    Buffer commands_;              // of the draws that have several runs
     std::vector<GpuPoses> poses_;  // as many as objects
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;

@@ -51,6 +51,7 @@ void expectEqual(const Pyramid& a, const Pyramid& b) {
         EXPECT_TRUE(sameBits(x.primitives, y.primitives));
         EXPECT_EQ(x.vertexCount, y.vertexCount);
         EXPECT_EQ(x.triangleCount, y.triangleCount);
+        EXPECT_TRUE(sameBits(x.clusters, y.clusters));
         EXPECT_TRUE(sameBits(x.positions, y.positions));
         EXPECT_TRUE(sameBits(x.normals, y.normals));
         EXPECT_TRUE(sameBits(x.colors, y.colors));
@@ -112,6 +113,9 @@ std::vector<std::size_t> sectionBorders(const Encoded& file) {
     add(sizeof(PyramidFileHeader));
     add(pyramid.levels.size() * sizeof(PyramidFileLevel));
     add(pyramid.levels.size() * file.mesh.primitives.size() * sizeof(IndexRange));
+    std::size_t clusters = 0;
+    for (const PyramidLevel& level : pyramid.levels) clusters += level.clusters.size();
+    add(clusters * sizeof(Cluster));
     add(pyramid.source.size() * 4);
     add(pyramid.indices.size() * 4);
     if (file.mesh.vertices.normals.empty()) add(pyramid.vertices.count() * 12);
@@ -144,6 +148,8 @@ void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
             count += range.count;
         }
         ASSERT_EQ(count, 3 * std::size_t{level.triangleCount});
+        for (const Cluster& cluster : level.clusters)
+            ASSERT_LE(std::size_t{cluster.indices.first} + cluster.indices.count, pyramid.indices.size());
     }
 }
 
@@ -312,11 +318,17 @@ TEST(PyramidFile, wrongCountsUnderARightChecksumAreMisses) {
     for (std::size_t l = 0; l < file.pyramid.levels.size(); ++l) {
         counts.push_back(records + l * sizeof(PyramidFileLevel) + offsetof(PyramidFileLevel, vertexCount));
         counts.push_back(records + l * sizeof(PyramidFileLevel) + offsetof(PyramidFileLevel, triangleCount));
+        counts.push_back(records + l * sizeof(PyramidFileLevel) + offsetof(PyramidFileLevel, clusterCount));
         for (std::size_t p = 0; p < file.mesh.primitives.size(); ++p) {
             const std::size_t range = ranges + (l * file.mesh.primitives.size() + p) * sizeof(IndexRange);
             counts.push_back(range + offsetof(IndexRange, first));
             counts.push_back(range + offsetof(IndexRange, count));
         }
+    }
+    const std::size_t clusters = sectionBorders(file)[3];
+    for (std::size_t c = 0; c < file.pyramid.levels[0].clusters.size(); ++c) {
+        counts.push_back(clusters + c * sizeof(Cluster) + offsetof(IndexRange, first));
+        counts.push_back(clusters + c * sizeof(Cluster) + offsetof(IndexRange, count));
     }
     for (const std::size_t offset : counts)
         for (const std::uint32_t value : {0u, at(offset) + 1, at(offset) - 1, at(offset) + 3, at(offset) - 3,
@@ -344,8 +356,8 @@ TEST(PyramidFile, aTriangleThatChangedPrimitivesIsAMiss) {
 TEST(PyramidFile, indicesOutOfRangeUnderARightChecksumAreMisses) {
     const Encoded file(decoratedTorus());
     const std::vector<std::size_t> borders = sectionBorders(file);
-    const std::size_t sources = borders[3];
-    const std::size_t indices = borders[4];
+    const std::size_t sources = borders[4];
+    const std::size_t indices = borders[5];
     const auto vertexCount = static_cast<std::uint32_t>(file.mesh.vertices.count());
     for (std::size_t v = 0; v < file.pyramid.source.size(); v += 37) {
         EXPECT_FALSE(decodeWith(file, sources + 4 * v, vertexCount));

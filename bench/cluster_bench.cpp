@@ -1,0 +1,134 @@
+// What leaving out clusters saves that face away or lie outside for all of the lens and the exposure
+// (plan/visibility.h): the same plan drawn whole and without them, at full detail and with levels of detail.
+//
+//   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
+//
+// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. Whole and lean frames take turns;
+// times are the fastest, ratios the median of those of a turn. `CPU` is the time of all threads of the process, which
+// says more where others use the machine too. The two images are compared bit by bit.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "app/prepared_frame.h"
+#include "gl/context.h"
+#include "render/methods.h"
+
+namespace {
+
+using namespace defocus;
+
+constexpr int turns = 5;
+
+struct Variant {
+    FramePlan plan;
+    std::vector<double> seconds;
+    std::vector<double> cpuSeconds;
+    Image image;
+};
+
+void renderOnce(const World& world, Variant& variant) {
+    const auto renderer = methodNamed("accumulation").make(world, {});
+    const std::clock_t before = std::clock();
+    renderer->start(variant.plan);
+    while (renderer->advance()) {
+    }
+    variant.seconds.push_back(renderer->stats().renderMilliseconds / 1000);
+    variant.cpuSeconds.push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+    variant.image = renderer->image();
+}
+
+double fastest(const std::vector<double>& times) {
+    return *std::min_element(times.begin(), times.end());
+}
+
+double medianRatio(std::vector<double> whole, const std::vector<double>& lean) {
+    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] /= lean[i];
+    std::nth_element(whole.begin(), whole.begin() + turns / 2, whole.end());
+    return whole[turns / 2];
+}
+
+// Every level as it is.
+FramePlan drawnWhole(const World& world, FramePlan plan) {
+    for (ObjectPlan& object : plan.objects) {
+        object.visible.clear();
+        for (LevelDraw* draw : {&object.coarse, &object.fine})
+            draw->triangleCount =
+                world.pyramids[static_cast<std::size_t>(object.mesh)].levels[draw->level].triangleCount;
+    }
+    return plan;
+}
+
+std::string differences(const Image& a, const Image& b) {
+    std::size_t count = 0;
+    float most = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        count += a.pixels[i] != b.pixels[i] ? 1 : 0;
+        most = std::max(most, std::abs(a.pixels[i] - b.pixels[i]));
+    }
+    return count == 0 ? "same image" : fmt::format("{} VALUES DIFFER, by up to {:.3g}", count, most);
+}
+
+void measure(const std::filesystem::path& path) {
+    SceneOptions options;
+    options.path = path;
+    const PreparedFrame frame = prepareFrame(options);
+    std::vector<Variant> variants;
+    for (const LodMode lod : {LodMode::off, LodMode::fractional}) {
+        RenderSettings settings = frame.settings;
+        settings.lod = lod;
+        const FramePlan plan = planFrame(frame.world, frame.view, settings);
+        variants.push_back({.plan = drawnWhole(frame.world, plan), .image = {}});
+        variants.push_back({.plan = plan, .image = {}});
+    }
+    for (int turn = 0; turn < turns; ++turn)
+        for (std::size_t i = 0; i < variants.size(); ++i)  // either first
+            renderOnce(frame.world, variants[turn % 2 == 0 ? i : i ^ 1u]);
+    fmt::print("\n{}\n", frame.sceneName);
+    for (std::size_t i = 0; i < variants.size(); i += 2) {
+        const Variant& whole = variants[i];
+        const Variant& seen = variants[i + 1];
+        const auto millions = [](std::uint64_t count) { return static_cast<double>(count) / 1e6; };
+        const std::uint64_t away = seen.plan.trianglesFacingAway;
+        const std::uint64_t outside = seen.plan.trianglesOutside;
+        std::size_t runCount = 0;
+        for (const ObjectPlan& object : seen.plan.objects)
+            for (const VisibleLevel& level : object.visible)
+                for (const std::vector<IndexRange>& ranges : level.primitives) runCount += ranges.size();
+        fmt::print(
+            "{:<12} {:>8.1f} {:>8.1f} {:>8.1f} {:>7} {:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f} {:>8.2f} {:>6.2f}  {}\n",
+            lodModeName(seen.plan.settings.lod), millions(seen.plan.trianglesDrawn + away + outside), millions(away),
+            millions(outside), runCount, fastest(whole.seconds), fastest(seen.seconds),
+            medianRatio(whole.seconds, seen.seconds), fastest(whole.cpuSeconds), fastest(seen.cpuSeconds),
+            medianRatio(whole.cpuSeconds, seen.cpuSeconds), differences(whole.image, seen.image));
+    }
+}
+
+int run(const std::vector<std::filesystem::path>& scenes) {
+    const auto context = createHeadlessContext();
+    fmt::print("{}, {}\n1024 x 768, 64 samples, {} turns; whole | clusters left out\n\n", context->device(),
+               context->driver(), turns);
+    fmt::print("{:<12} {:>8} {:>8} {:>8} {:>7} {:>17} {:>6} {:>17} {:>6}\n", "levels", "M tri", "away", "outside",
+               "runs", "frame, s", "ratio", "CPU, s", "ratio");
+    for (const std::filesystem::path& scene : scenes) measure(scene);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        std::vector<std::filesystem::path> scenes(argv + 1, argv + argc);
+        if (scenes.empty()) scenes.emplace_back();
+        return run(scenes);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "cluster_bench: {}\n", error.what());
+        return 1;
+    }
+}

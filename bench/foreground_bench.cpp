@@ -1,0 +1,97 @@
+// What a limit of the foreground's blur saves: a scene seen through leaves that nearly touch the lens (Munkberg, Toth
+// and Akenine-Möller 2012, Figure 7). A rasteriser of one lens sample an instance touches a triangle's pixels once a
+// sample, however far it is blurred. What a limit saves here are the triangles beside the image that only their blur
+// brings into it; levels of detail get finer with it.
+//
+// Held equal: camera, lens, size, lens samples, renderer and process; interleaved runs, the fastest of each counts.
+// CPU is the time of all threads, which says more where others use the machine too.
+// `work` is the heat map of --aov work: triangles that touch a pixel, a lens sample.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+#include <vector>
+
+#include "app/prepared_frame.h"
+#include "gl/context.h"
+#include "render/methods.h"
+#include "render/work.h"
+
+namespace {
+
+using namespace defocus;
+
+constexpr int runs = 5;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Row {
+    LodMode lod = LodMode::off;
+    double limit = infinity;  // px
+    FramePlan plan;
+    double milliseconds = infinity;
+    double cpuMilliseconds = infinity;
+};
+
+void renderOnce(const World& world, Row& row) {
+    const auto renderer = methodNamed("accumulation").make(world, {});
+    renderer->start(row.plan);
+    const std::clock_t before = std::clock();
+    while (renderer->advance()) {
+    }
+    row.milliseconds = std::min(row.milliseconds, renderer->stats().renderMilliseconds);
+    row.cpuMilliseconds =
+        std::min(row.cpuMilliseconds, 1000.0 * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+}
+
+int run() {
+    const auto context = createHeadlessContext();
+    SceneOptions options;
+    options.path = DEFOCUS_SOURCE_DIR "/meshes/thicket.gltf";
+    options.width = 512;
+    options.height = 384;
+    PreparedFrame frame = prepareFrame(options);
+    fmt::print("{}, {}\nmeshes/thicket.gltf, {} x {}, {} samples, fastest of {} interleaved runs\n\n",
+               context->device(), context->driver(), frame.view.width, frame.view.height, frame.settings.sampleCount,
+               runs);
+    std::vector<Row> rows;
+    for (const LodMode lod : {LodMode::off, LodMode::fractional})
+        for (const double limit : {infinity, 64.0, 8.0, 0.0}) {
+            View view = frame.view;
+            view.lens.foregroundLimit = limit;
+            RenderSettings settings = frame.settings;
+            settings.lod = lod;
+            rows.push_back({.lod = lod, .limit = limit, .plan = planFrame(frame.world, view, settings)});
+        }
+    for (int i = 0; i < runs; ++i)
+        for (Row& row : rows) renderOnce(frame.world, row);
+
+    fmt::print("{:<12} {:>10} {:>10} {:>7} {:>10} {:>7} {:>14} {:>8} {:>8}\n", "levels", "limit, px", "frame, ms",
+               "ratio", "CPU, ms", "ratio", "triangles, M", "work", "most");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Row& row = rows[i];
+        const Row& unlimited = rows[i / 4 * 4];
+        const auto samples = static_cast<std::uint32_t>(row.plan.samples.size());
+        const WorkSummary work = workSummary(renderWork(frame.world, row.plan), samples);
+        fmt::print("{:<12} {:>10} {:>10.0f} {:>7.2f} {:>10.0f} {:>7.2f} {:>14.2f} {:>8.2f} {:>8.1f}\n",
+                   lodModeName(row.lod), std::isinf(row.limit) ? "none" : fmt::format("{:.0f}", row.limit),
+                   row.milliseconds, unlimited.milliseconds / row.milliseconds, row.cpuMilliseconds,
+                   unlimited.cpuMilliseconds / row.cpuMilliseconds, static_cast<double>(row.plan.trianglesDrawn) / 1e6,
+                   work.mean, work.most);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main() {
+    try {
+        return run();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "foreground_bench: {}\n", error.what());
+        return 1;
+    }
+}

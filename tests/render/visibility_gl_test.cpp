@@ -1,0 +1,133 @@
+// Leaving out clusters changes no bit of the image: what is left out shows nothing.
+
+#include <gtest/gtest.h>
+
+#include "gl/context.h"
+#include "models.h"
+#include "posed_world.h"
+#include "render/methods.h"
+#include "render/work.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class Visibility : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> Visibility::context_;
+
+RenderSettings settingsFor(LodMode lod, bool keepAll) {
+    RenderSettings settings;
+    settings.sampleCount = 24;
+    settings.lod = lod;
+    settings.thresholds = {0.5, 2};
+    settings.keepAll = keepAll;
+    return settings;
+}
+
+Image rendered(const SmallWorld& small, const FramePlan& plan, std::uint32_t wave) {
+    RendererOptions options;
+    options.wave = wave;
+    const auto renderer = methodNamed("accumulation").make(small.world, options);
+    renderer->start(plan);
+    while (renderer->advance()) {
+    }
+    EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
+    return renderer->image();
+}
+
+// Everything that the plan draws, whole.
+FramePlan drawnWhole(const SmallWorld& small, FramePlan plan) {
+    plan.trianglesDrawn += plan.trianglesFacingAway + plan.trianglesOutside;
+    for (ObjectPlan& object : plan.objects) {
+        object.visible.clear();
+        for (LevelDraw* draw : {&object.coarse, &object.fine})
+            draw->triangleCount =
+                small.world.pyramids[static_cast<std::size_t>(object.mesh)].levels[draw->level].triangleCount;
+    }
+    return plan;
+}
+
+// How many triangles are left out, as a share.
+double expectSameImage(const SmallWorld& small, LodMode lod) {
+    const FramePlan seen = planFrame(small.world, small.view, settingsFor(lod, false));
+    const FramePlan all = drawnWhole(small, seen);
+    EXPECT_TRUE(rendered(small, all, 0).pixels == rendered(small, seen, 5).pixels);
+    EXPECT_TRUE(renderWork(small.world, all).pixels == renderWork(small.world, seen).pixels);
+    return static_cast<double>(seen.trianglesFacingAway + seen.trianglesOutside) /
+           static_cast<double>(all.trianglesDrawn);
+}
+
+TEST_F(Visibility, keepingAllGivesTheSameImage) {
+    const auto small = fiveSpheres();
+    const FramePlan all = planFrame(small->world, small->view, settingsFor(LodMode::fractional, true));
+    const FramePlan seen = planFrame(small->world, small->view, settingsFor(LodMode::fractional, false));
+    EXPECT_LT(seen.trianglesDrawn, 0.9 * static_cast<double>(all.trianglesDrawn));
+    EXPECT_TRUE(rendered(*small, all, 3).pixels == rendered(*small, seen, 3).pixels);
+}
+
+TEST_F(Visibility, spheresAtAllLevelsOfDetail) {
+    const auto small = fiveSpheres();
+    for (const LodMode lod : {LodMode::off, LodMode::fractional, LodMode::continuous})
+        EXPECT_GT(expectSameImage(*small, lod), lod == LodMode::off ? 0.2 : 0.1) << lodModeName(lod);
+}
+
+TEST_F(Visibility, underLimitsRangesAndTiltedPlanes) {
+    for (int variant = 0; variant < 5; ++variant) {
+        const auto small = fiveSpheres();
+        Lens& lens = small->view.lens;
+        if (variant == 0) lens.foregroundLimit = 3;
+        if (variant == 1) lens.backgroundLimit = 3;
+        if (variant == 2) lens.focusRangeBehind = 1;
+        if (variant == 3) lens.focusTilt = 0.4;
+        if (variant == 4) lens.fieldCurvature = 0.3;
+        EXPECT_GT(expectSameImage(*small, LodMode::off), variant == 4 ? -1 : 0.15) << variant;
+    }
+}
+
+TEST_F(Visibility, blendedAndDoubleSidedSurfaces) {
+    for (const bool doubleSided : {false, true}) {
+        const auto small = fiveSpheres();
+        small->scene.materials[0].alphaMode = AlphaMode::blend;
+        small->scene.materials[0].baseColorFactor.a = 0.6f;
+        small->scene.materials[0].doubleSided = doubleSided;
+        const double share = expectSameImage(*small, LodMode::off);
+        EXPECT_GT(share, doubleSided ? -1 : 0.2);
+    }
+}
+
+TEST_F(Visibility, spheresThatMoveAndTurn) {
+    const auto small = fiveSpheres();
+    small->world.shutter.poses.assign(3, small->world.pose);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (Object& object : small->world.shutter.poses[i].objects)
+            object.worldFromObject =
+                glm::rotate(glm::translate(object.worldFromObject, glm::dvec3(0.1 * static_cast<double>(i), 0, 0)),
+                            0.2 * static_cast<double>(i), glm::dvec3(0, 1, 0));
+    EXPECT_GT(expectSameImage(*small, LodMode::off), 0.15);
+}
+
+// Scanned and modelled surfaces: needles, folds, holes.
+TEST_F(Visibility, filesOfOthers) {
+    int rendered = 0;
+    double most = 0;
+    for (const char* name : {"FlightHelmet/FlightHelmet.gltf", "Suzanne.glb", "NegativeScaleTest.glb",
+                             "WaterBottle.glb", "SimpleInstancing.glb"}) {
+        const std::filesystem::path path = modelsDirectory() / name;
+        if (!std::filesystem::exists(path)) continue;
+        const auto small = posedWorld(path, 0, 0);
+        small->view.lens.fStop = 0.5;
+        for (const LodMode lod : {LodMode::off, LodMode::fractional})
+            most = std::max(most, expectSameImage(*small, lod));
+        ++rendered;
+    }
+    if (rendered == 0) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
+    EXPECT_GT(most, 0.02);
+}
+
+}  // namespace
+}  // namespace defocus
