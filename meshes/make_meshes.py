@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, fish.glb, chess.glb, artefact-*.gltf and
-swimmers.glb. Python's standard library only.
+"""Writes the small test scenes of this folder: bokeh.gltf, staircase.gltf, thicket.gltf, fish.glb, chess.glb,
+artefact-*.gltf and swimmers.glb. Python's standard library only.
 
     make_meshes.py            write them beside this file
     make_meshes.py --check    compare them with what would be written; exit code 1 when one differs
@@ -106,6 +106,64 @@ def staircase():
                           translation=[round(side * (0.34 + 0.05 * step), 5), round(y, 5), round(z - depth / 2, 5)])
     document.sun([1.0, 0.96, 0.88], 2.4, quaternion((-0.8944272, 0.4472136, 0), 40))
     document.camera(2 * math.atan(0.27), 4 / 3, {"fStop": 1.4, "focusDistance": 2.75, "horizontalAperture": 36.0})
+    return document.gltf()
+
+
+# ---- thicket.gltf ---------------------------------------------------------------------------------------------------
+
+
+def leaf(length, width):
+    """A pointed leaf that bends downwards, from its stalk at the origin along +y; 24 x 8 quads, both sides to be drawn."""
+    surface = Surface()
+    along, across = 24, 8
+    for j in range(along + 1):
+        t = j / along
+        half = 0.5 * width * math.sin(math.pi * t ** 0.8) * (1 - 0.25 * t)
+        for i in range(across + 1):
+            s = 2 * i / across - 1
+            ridge = 0.12 * width * (1 - abs(s)) - 0.35 * length * t * t
+            surface.positions.append((half * s, length * t, ridge))
+            vein = 1.35 if i == across // 2 else 1.0
+            surface.colors.append(linear(*(min(255, round(vein * v)) for v in (46 + 50 * t, 120 + 40 * t, 38))))
+    for j in range(along):
+        for i in range(across):
+            a, b = j * (across + 1) + i, (j + 1) * (across + 1) + i
+            surface.indices += [a, a + 1, b + 1, a, b + 1, b]
+    surface.normals = smooth_normals(surface)
+    return surface
+
+
+def thicket():
+    """A checkered court seen through leaves that nearly touch the lens, most of them beside the image."""
+    document = Document()
+    stone = document.material("Stone", pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.7})
+    pale, red, blue = linear(222, 214, 200), linear(176, 68, 44), linear(44, 92, 132)
+    court = Surface()
+    checkered(court, (-2.5, -0.7, -2.0), (5, 0, 0), (0, 0, -5.5), 20, 22, pale, red)
+    checkered(court, (-2.5, -0.7, -7.5), (5, 0, 0), (0, 4, 0), 20, 16, pale, blue)
+    document.node("Court", mesh=document.mesh("Court", court, stone))
+    for k, (x, z) in enumerate([(-0.55, -2.6), (0.1, -3.2), (0.75, -4.0), (-0.9, -4.8), (0.4, -5.6)]):
+        pillar, a = Surface(), 0.12
+        for right, corner in (((1, 0, 0), (-1, 1)), ((0, 0, -1), (1, 1)), ((-1, 0, 0), (1, -1)), ((0, 0, 1), (-1, -1))):
+            checkered(pillar, (corner[0] * a, 0, corner[1] * a), tuple(2 * a * v for v in right), (0, 1.1, 0), 2, 9,
+                      blue if k % 2 else red, pale)
+        checkered(pillar, (-a, 1.1, a), (2 * a, 0, 0), (0, 0, -2 * a), 2, 2, pale, pale)
+        document.node(f"Pillar {k + 1}", mesh=document.mesh(f"Pillar {k + 1}", pillar, stone), translation=[x, -0.7, z])
+
+    # Leaves about the axis by golden angles, with a clearing in the middle, each pointing inwards.
+    green = document.material("Leaf", doubleSided=True,
+                              pbrMetallicRoughness={"metallicFactor": 0, "roughnessFactor": 0.5})
+    mesh = document.mesh("Leaf", leaf(0.022, 0.008), green)
+    count = 300
+    for k in range(count):
+        turn = 137.507764 * k
+        depth = 0.08 + 0.07 * ((k * 0.754877666) % 1)
+        reach = math.sqrt(1.3 + 4.2 * (k + 0.5) / count)  # 1: the image's left and right edge
+        x, y = (0.36 * depth * reach * f(math.radians(turn)) for f in (math.cos, math.sin))
+        document.node(f"Leaf {k + 1}", mesh=mesh, translation=[round(x, 5), round(y, 5), round(-depth, 5)],
+                      rotation=quaternion((0, 0, 1), turn + 90 + 40 * math.sin(5.0 * k)))
+    document.sun([1.0, 0.96, 0.88], 2.6, quaternion((-0.8944272, 0.4472136, 0), 50))
+    document.camera(2 * math.atan(0.27), 4 / 3, {"fStop": 0.95, "focusDistance": 3.2, "horizontalAperture": 36.0})
     return document.gltf()
 
 
@@ -393,7 +451,8 @@ def main():
     if sys.argv[1:] and not check:
         sys.exit(__doc__)
     differing = []
-    for name, make in (("bokeh.gltf", bokeh), ("staircase.gltf", staircase), ("fish.glb", fish), ("chess.glb", chess),
+    for name, make in (("bokeh.gltf", bokeh), ("staircase.gltf", staircase), ("thicket.gltf", thicket),
+                       ("fish.glb", fish), ("chess.glb", chess),
                        ("artefact-leaking.gltf", leaking), ("artefact-lost-background.gltf", lost_background),
                        ("artefact-half-discs.gltf", half_discs), ("artefact-ghosting.gltf", ghosting),
                        ("artefact-resolution-loss.gltf", resolution_loss), ("swimmers.glb", swimmers)):
