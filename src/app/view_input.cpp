@@ -248,6 +248,7 @@ void ViewInput::handle(const WindowEvent& event, const InputContext& context, Vi
                 state.camera = zoomed(state.camera, std::pow(zoomNotch, event.scroll.y));
             break;
         case WindowEvent::Type::key:
+            hold(event, context);
             if (!event.pressed || context.typing) break;
             if (event.control)
                 handleControlKey(event.key, state, actions);
@@ -311,15 +312,20 @@ void ViewInput::drag(const WindowEvent& event, const InputContext& context, View
                                                          : turned(state.camera, -0.5 * angle.x, -0.5 * angle.y);
 }
 
-void ViewInput::fly(const Window& window, const InputContext& context, double seconds, ViewState& state) const {
-    if (context.typing || window.keyHeld(key::leftControl) || window.keyHeld(key::rightControl))
-        return;  // with Control they are commands
+void ViewInput::hold(const WindowEvent& event, const InputContext& context) {
+    if (!event.pressed)
+        held_.erase(event.key);
+    else if (!event.control && !context.typing)
+        held_.insert(event.key);
+}
+
+void ViewInput::fly(const InputContext& context, double seconds, ViewState& state) const {
     const auto axis = [&](int positive, int negative) {
-        return (window.keyHeld(positive) ? 1.0 : 0.0) - (window.keyHeld(negative) ? 1.0 : 0.0);
+        return static_cast<double>(held_.count(positive)) - static_cast<double>(held_.count(negative));
     };
     const glm::dvec3 direction(axis('D', 'A'), axis('E', 'Q'), axis('W', 'S'));
-    if (direction == glm::dvec3(0)) return;
-    const bool fast = window.keyHeld(key::leftShift) || window.keyHeld(key::rightShift);
+    if (context.typing || direction == glm::dvec3(0)) return;
+    const bool fast = held_.count(key::leftShift) + held_.count(key::rightShift) > 0;
     const double speed = 0.5 * state.camera.pivotDistance * (fast ? 4 : 1);  // m a second
     state.followsCamera = false;
     state.camera = flown(state.camera, direction * (speed * std::min(seconds, 0.1)));

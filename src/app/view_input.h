@@ -1,6 +1,8 @@
 #pragma once
 // What hands do over the picture: mouse and keys become changes of the view's state.
 
+#include <set>
+
 #include "app/prepared_frame.h"
 #include "app/view_state.h"
 #include "gl/window.h"
@@ -28,7 +30,7 @@ class ViewInput {
 public:
     void handle(const WindowEvent& event, const InputContext& context, ViewState& state, ViewActions& actions);
     // Keys that act while they are held: flying.
-    void fly(const Window& window, const InputContext& context, double seconds, ViewState& state) const;
+    void fly(const InputContext& context, double seconds, ViewState& state) const;
 
 private:
     enum class Drag { none, orbit, pan, divider };
@@ -36,12 +38,14 @@ private:
     void press(const WindowEvent& event, const InputContext& context, ViewState& state);
     void release(const WindowEvent& event, const InputContext& context, ViewState& state, ViewActions& actions);
     void drag(const WindowEvent& event, const InputContext& context, ViewState& state);
+    void hold(const WindowEvent& event, const InputContext& context);
 
     Drag drag_ = Drag::none;
     glm::dvec2 pressedAt_{0.0};
     glm::dvec2 last_{0.0};
     bool moved_ = false;
     double lastClick_ = -1;
+    std::set<int> held_;  // keys that went down without Control: with it they are commands, whichever is let go first
 };
 
 // tan of half the field of view, horizontally and vertically, of the picture.

@@ -64,7 +64,7 @@ void ViewSession::adoptScene(LoadedScene scene) {
 void ViewSession::moveThings(double seconds) {
     if (!frame_) return;
     const InputContext context = inputContext();
-    input_.fly(window_, context, seconds, state_);
+    input_.fly(context, seconds, state_);
     if (state_.pull) {
         state_.lens.focusDistance = state_.pull->distanceAt(now());
         if (state_.pull->over(now())) state_.pull.reset();
