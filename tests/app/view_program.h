@@ -99,7 +99,7 @@ protected:
         return value.is_discarded() ? nlohmann::json::object() : value;
     }
     // Whether the state comes to satisfy `condition` in time. Software drivers on busy machines are slow.
-    bool reaches(const std::function<bool(const nlohmann::json&)>& condition, double seconds = 60) const {
+    bool reaches(const std::function<bool(const nlohmann::json&)>& condition, double seconds = 180) const {
         for (double waited = 0; waited < seconds; waited += 0.1) {
             const nlohmann::json now = state();
             if (!now.empty() && condition(now)) return true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "gl/context.h"
 #include "image/metrics.h"
@@ -99,6 +100,34 @@ std::unique_ptr<SmallWorld> checkeredFloor(int cells, double begin, double end) 
     return small;
 }
 
+// The same floor before black, white and of triangles of many shapes: corners moved about, diagonals either way.
+std::unique_ptr<SmallWorld> unevenWhiteFloor(int cells, double begin, double end) {
+    auto small = checkeredFloor(cells, begin, end);
+    small->scene.materials[0].baseColor.texture = -1;
+    small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
+    Mesh& mesh = small->scene.meshes[0];
+    std::minstd_rand random(7);
+    const auto uniform = [&] { return static_cast<float>(random() % 2001) / 1000 - 1; };  // [−1, 1]
+    const auto across = static_cast<std::size_t>(cells) + 1;
+    const glm::vec2 cell(5.0 / cells, (end - begin) / cells);
+    for (std::size_t i = 0; i < mesh.vertices.positions.size(); ++i) {
+        glm::vec3& position = mesh.vertices.positions[i];
+        const glm::vec2 step = 0.35f * cell * glm::vec2(uniform(), uniform());
+        if (i % across > 0 && i % across < across - 1) position.x += step.x;
+        if (i / across > 0 && i / across < across - 1) position.z += step.y;
+    }
+    std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
+    for (std::size_t i = 0; i < indices.size(); i += 6) {
+        const std::uint32_t corners[4] = {indices[i], indices[i + 1], indices[i + 4], indices[i + 5]};
+        if (uniform() < 0) continue;
+        const std::uint32_t other[6] = {corners[0], corners[1], corners[2], corners[0], corners[2], corners[3]};
+        std::copy(std::begin(other), std::end(other), indices.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    small->world.pyramids = {};
+    small->world.pyramids.push_back(fullDetail(mesh));
+    return small;
+}
+
 struct Control {
     const char* name;
     std::function<void(Lens&)> set;
@@ -127,6 +156,16 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
     }
     EXPECT_LT(error, 0.012);
     EXPECT_GT(rootMeanSquare(rendered(*large, 16, 1e6), truth), 2.5 * error) << "undivided triangles must differ";
+}
+
+// Neighbours divide a common edge alike: through a white floor of uneven triangles, nothing of the black behind it
+// shows.
+TEST_P(LargeTriangles, meetWithoutGaps) {
+    const auto floor = unevenWhiteFloor(5, GetParam().begin, 12);
+    GetParam().set(floor->view.lens);
+    const Image image = rendered(*floor, 16, 0.05);
+    for (int y = 85; y < image.height; ++y)  // nearer than 5 m: no blur of the floor's edges reaches here
+        for (int x = 0; x < image.width; ++x) ASSERT_EQ(image.at(x, y)[1], 1) << x << ", " << y;
 }
 
 INSTANTIATE_TEST_SUITE_P(
