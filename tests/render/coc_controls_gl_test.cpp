@@ -163,9 +163,10 @@ TEST_P(LargeTriangles, lookLikeSmallOnes) {
 TEST_P(LargeTriangles, meetWithoutGaps) {
     const auto floor = unevenWhiteFloor(5, GetParam().begin, 12);
     GetParam().set(floor->view.lens);
-    const Image image = rendered(*floor, 16, 0.05);
-    for (int y = 85; y < image.height; ++y)  // nearer than 5 m: no blur of the floor's edges reaches here
-        for (int x = 0; x < image.width; ++x) ASSERT_EQ(image.at(x, y)[1], 1) << x << ", " << y;
+    const Image image = rendered(*floor, 16, 0.2);
+    // Nearer than 5 m no blur of the floor's edges reaches. A hole in one sample takes 1/16; the rest is rounding.
+    for (int y = 85; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) ASSERT_GT(image.at(x, y)[1], 0.99) << x << ", " << y;
 }
 
 INSTANTIATE_TEST_SUITE_P(
