@@ -68,6 +68,11 @@ std::size_t momentCount(const FramePlan& plan) {
     return count;
 }
 
+// No blur has no sign.
+double shownCoc(double coc) {
+    return std::abs(coc) < 0.005 ? 0 : coc;
+}
+
 }  // namespace
 
 std::string planTable(const FramePlan& plan) {
@@ -89,8 +94,8 @@ std::string planTable(const FramePlan& plan) {
                         "edge px", "level", "coarse (first samples)", "fine (the rest)");
     for (const ObjectPlan& object : plan.objects)
         text += fmt::format("{:{}}  {:>8.3f} {:>8.3f}  {:>8.2f} {:>8.2f}  {:>7.2f}  {:>6.2f}  {}\n", object.name, width,
-                            object.nearestDepth, object.farthestDepth, object.coc.nearest, object.coc.farthest,
-                            object.projectedEdge, object.lambda, drawsText(object));
+                            object.nearestDepth, object.farthestDepth, shownCoc(object.coc.nearest),
+                            shownCoc(object.coc.farthest), object.projectedEdge, object.lambda, drawsText(object));
     const double ratio = plan.trianglesDrawn > 0 ? static_cast<double>(plan.trianglesAtFullDetail) /
                                                        static_cast<double>(plan.trianglesDrawn)
                                                  : 1;
