@@ -6,6 +6,7 @@ std::vector<StabilityCase> stabilityCases() {
     std::vector<StabilityCase> cases;
     addSumCases(cases);
     addLensCases(cases);
+    addMotionCases(cases);
     addSpaceCases(cases);
     addLevelCases(cases);
     return cases;

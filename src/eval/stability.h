@@ -14,7 +14,7 @@ namespace defocus {
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
-    std::string area;      // "sums", "lens", "space", "levels"
+    std::string area;      // "sums", "lens", "motion", "space", "levels"
     std::string name;      // what is stiff about it
     std::string measured;  // what the error is of, with its unit
     std::string truth;     // "closed form", "double sum", …
@@ -36,6 +36,7 @@ void measureStability(const std::function<void(const StabilityRow&)>& visit, con
 // The parts of stabilityCases, one a file.
 void addSumCases(std::vector<StabilityCase>& cases);
 void addLensCases(std::vector<StabilityCase>& cases);
+void addMotionCases(std::vector<StabilityCase>& cases);
 void addSpaceCases(std::vector<StabilityCase>& cases);
 void addLevelCases(std::vector<StabilityCase>& cases);
 
