@@ -84,8 +84,8 @@ void measure(const std::filesystem::path& path) {
         RenderSettings settings = frame.settings;
         settings.lod = lod;
         const FramePlan plan = planFrame(frame.world, frame.view, settings);
-        variants.push_back({.plan = drawnWhole(frame.world, plan), .image = {}});
-        variants.push_back({.plan = plan, .image = {}});
+        variants.push_back({drawnWhole(frame.world, plan), {}, {}, {}});
+        variants.push_back({plan, {}, {}, {}});
     }
     for (int turn = 0; turn < turns; ++turn)
         for (std::size_t i = 0; i < variants.size(); ++i)  // either first
