@@ -5,6 +5,10 @@
 // "meshoptimizer" is meshopt_simplify from level to level, "DecimaterT" OpenMesh's decimater with its quadric module on
 // a mesh of welded positions; neither of these two makes attributes.
 //
+// Distance. Held equal: the mesh, joined by position, and the triangle count of each level, which meshoptimizer gets
+// from level 0 at once. The mean distance to level 0 and from it, the larger of the two, over the diagonal of the
+// mesh's box.
+//
 // Looks. Held equal: the mesh, the triangle count of each level (meshoptimizer gets ours), camera, lens, 32 lens
 // samples, 512 x 384. Each level is drawn at the blur where the default thresholds would use it, and compared with
 // level 0 under the same blur. meshoptimizer's levels keep the surviving vertices' attributes, chosen with
@@ -24,12 +28,14 @@
 #include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
 #include "gl/context.h"
 #include "image/metrics.h"
+#include "lod/surface_distance.h"
 #include "lod/weld.h"
 #include "render/methods.h"
 #include "scene/defaults.h"
@@ -43,6 +49,7 @@ using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 constexpr std::size_t leastTriangles = 64;
 constexpr std::uint32_t lensSamples = 32;
+constexpr std::size_t distancePoints = 40'000;  // on each surface
 
 double secondsOf(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -51,13 +58,13 @@ double secondsOf(const std::function<void()>& work) {
 }
 
 // The surface joined by position, which is all that either peer can use.
-struct Surface {
+struct JoinedSurface {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
 };
 
-Surface joinedSurface(const Mesh& mesh) {
-    Surface surface;
+JoinedSurface joinedSurface(const Mesh& mesh) {
+    JoinedSurface surface;
     const Welded welded = weldPositions(mesh.vertices.positions);
     for (const std::uint32_t v : welded.first) surface.positions.push_back(mesh.vertices.positions[v]);
     for (const Primitive& primitive : mesh.primitives)
@@ -75,7 +82,7 @@ std::vector<std::uint32_t> simplified(const std::vector<glm::vec3>& positions,
 }
 
 // Triangles that are left.
-std::size_t meshoptimizerChain(const Surface& surface) {
+std::size_t meshoptimizerChain(const JoinedSurface& surface) {
     std::vector<std::uint32_t> indices = surface.indices;
     while (indices.size() / 3 > leastTriangles) {
         std::vector<std::uint32_t> next =
@@ -86,7 +93,7 @@ std::size_t meshoptimizerChain(const Surface& surface) {
     return indices.size() / 3;
 }
 
-std::size_t decimaterChain(const Surface& surface) {
+std::size_t decimaterChain(const JoinedSurface& surface) {
     DecimatedMesh mesh;
     for (const glm::vec3& p : surface.positions) mesh.add_vertex({p.x, p.y, p.z});
     const auto handle = [&](std::size_t i) { return OpenMesh::VertexHandle(static_cast<int>(surface.indices[i])); };
@@ -105,7 +112,7 @@ std::size_t decimaterChain(const Surface& surface) {
 }
 
 void timeRow(const std::string& name, const Mesh& mesh) {
-    const Surface surface = joinedSurface(mesh);
+    const JoinedSurface surface = joinedSurface(mesh);
     Pyramid pyramid;
     std::size_t meshoptimizerLeft = 0;
     const double own = secondsOf([&] { pyramid = buildPyramid(mesh); });
@@ -120,6 +127,47 @@ void timeRow(const std::string& name, const Mesh& mesh) {
     const double decimater = secondsOf([&] { decimaterLeft = decimaterChain(surface); });
     fmt::print(" {:>8.3f} {:>6} {:>8.1f}\n", decimater, decimaterLeft, decimater / own);
     std::fflush(stdout);
+}
+
+// The mean ratio of the distances, weighted alike by levels, of logarithms: for a mesh, and over all meshes.
+struct DistanceRatios {
+    double sum = 0;
+    int levels = 0;
+    [[nodiscard]] double mean() const { return levels > 0 ? std::exp(sum / levels) : 0; }
+};
+
+void distanceRows(const std::string& name, const Mesh& mesh, DistanceRatios& all) {
+    const JoinedSurface joined = joinedSurface(mesh);
+    const Surface truth = prepareSurface(joined.positions, joined.indices);
+    const Pyramid pyramid = buildPyramid(mesh);
+    const double diagonal = glm::length(mesh.bounds().size());
+    DistanceRatios own;
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        const PyramidLevel& level = pyramid.levels[l];
+        std::vector<std::uint32_t> indices;
+        for (const IndexRange& range : level.primitives)
+            indices.insert(indices.end(), pyramid.indices.begin() + range.first,
+                           pyramid.indices.begin() + range.first + range.count);
+        const std::vector<std::uint32_t> peer = simplified(joined.positions, joined.indices, level.triangleCount);
+        if (peer.size() > indices.size() * 5 / 4) {
+            fmt::print("{:<20} {:>5} {:>9}  (meshoptimizer stops before)\n", name, l, level.triangleCount);
+            continue;
+        }
+        const auto meanDistance = [&](std::span<const glm::vec3> positions, std::span<const std::uint32_t> triangles) {
+            return surfaceDistance(prepareSurface(positions, triangles), truth, distancePoints).both.mean / diagonal;
+        };
+        const double ours = meanDistance(level.positions, indices);
+        const double theirs = meanDistance(joined.positions, peer);
+        const double ratio = ours / theirs;
+        fmt::print("{:<20} {:>5} {:>9} {:>9} {:>11.2f} {:>11.2f} {:>7.2f}\n", name, l, level.triangleCount,
+                   peer.size() / 3, 1e6 * ours, 1e6 * theirs, ratio);
+        for (DistanceRatios* ratios : {&own, &all}) {
+            ratios->sum += std::log(ratio);
+            ++ratios->levels;
+        }
+        std::fflush(stdout);
+    }
+    fmt::print("{:<20} {:>5} {:>51.2f}\n", name, "mean", own.mean());
 }
 
 // One mesh alone, without skin or animation, seen by a camera that frames it.
@@ -247,6 +295,12 @@ int run(int argc, char** argv) {
                "left", "s", "left", "fast");
     for (const auto& [name, scene] : scenes) timeRow(name, largestMesh(scene));
     if (million) timeRow("fish", fishSchool({.fishCount = 1, .trianglesPerFish = 1'000'000}).meshes.front());
+
+    fmt::print("\nmean distance, millionths of the diagonal\n{:<20} {:>5} {:>9} {:>9} {:>11} {:>11} {:>7}\n", "mesh",
+               "level", "triangles", "theirs", "ours", "theirs", "ratio");
+    DistanceRatios all;
+    for (const auto& [name, scene] : scenes) distanceRows(name, largestMesh(scene), all);
+    fmt::print("{:<20} {:>5} {:>51.2f}\n", "all", "mean", all.mean());
 
     const auto context = createHeadlessContext();
     fmt::print("\nagainst level 0 under the same blur\n{:<24} {:>5} {:>9} {:>9} {:>7} {:>9} {:>9} {:>9} {:>9}\n",
