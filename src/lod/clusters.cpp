@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/bounds.h"
+
 namespace defocus {
 
 namespace {
@@ -32,9 +34,7 @@ LocalTriangles localTriangles(const std::uint32_t* indices, std::size_t count, c
         if (localOf[v] == unnumbered) {
             localOf[v] = static_cast<std::uint32_t>(local.vertices.size());
             local.vertices.push_back(v);
-            const glm::vec3& p = positions[v];
-            const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-            local.positions.push_back(finite ? p : glm::vec3(0));
+            local.positions.push_back(isFinite(positions[v]) ? positions[v] : glm::vec3(0));
         }
         local.indices.push_back(localOf[v]);
     }

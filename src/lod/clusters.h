@@ -1,6 +1,6 @@
 #pragma once
 // Clusters: runs of a level's triangles that lie near each other and face about the same way, so that a frame can leave
-// out a whole run at once when no lens sample shows any of it (plan/cluster_culling.h).
+// out a whole run at once when no lens sample shows any of it (plan/visibility.h).
 
 #include <glm/vec3.hpp>
 #include <vector>
