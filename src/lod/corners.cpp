@@ -2,6 +2,7 @@
 
 #include "lod/corners.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -90,11 +91,18 @@ Choice chooseWedge(const Corners& corners, const WedgeQuestion& question, std::u
 Fit retargetWedges(const Corners& corners, const WedgeQuestion& question, std::vector<Retarget>& result) {
     result.clear();
     Fit worst = Fit::good;
+    Choice choice;
+    std::uint32_t lastWedge = EdgeSide::none;
+    std::uint32_t lastPrimitive = EdgeSide::none;
     for (const std::uint32_t face : question.facesFrom) {
         if (face == question.sides[0].face || face == question.sides[1].face) continue;
         const std::uint32_t corner = corners.at(face, question.from);
-        const Choice choice = chooseWedge(corners, question, corners.wedge[corner], corners.primitive[face]);
-        if (choice.fit > worst) worst = choice.fit;
+        const std::uint32_t wedge = corners.wedge[corner];
+        const std::uint32_t primitive = corners.primitive[face];
+        if (wedge != lastWedge || primitive != lastPrimitive) choice = chooseWedge(corners, question, wedge, primitive);
+        lastWedge = wedge;
+        lastPrimitive = primitive;
+        worst = std::max(worst, choice.fit);
         result.push_back({corner, choice.wedge});
     }
     return worst;

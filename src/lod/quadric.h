@@ -1,6 +1,9 @@
 #pragma once
 // Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics: the weighted sum of squared distances
-// to a set of planes, pᵀAp + 2bᵀp + c.
+// to a set of planes, dᵀAd + 2bᵀd + c.
+//
+// Places d are steps from the vertex that the quadric belongs to: all that it is asked for lies near by, so that single
+// precision serves.
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -9,47 +12,46 @@
 namespace defocus {
 
 struct Quadric {
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // A
-    glm::dvec3 b{0};
-    double c = 0;
-    double weight = 0;  // of all planes together
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // A
+    glm::vec3 b{0};
+    float c = 0;       // the sum at the vertex itself
+    float weight = 0;  // of all planes together
 
-    // The plane through `point` with the unit normal `normal`.
-    void addPlane(const glm::dvec3& normal, const glm::dvec3& point, double planeWeight) {
-        addSquare(normal, -glm::dot(normal, point), planeWeight);
+    // The plane through the vertex with the unit normal `normal`.
+    void addPlane(const glm::vec3& normal, float planeWeight) {
+        addSquare(normal, planeWeight);
         weight += planeWeight;
     }
 
-    // squareWeight · (gᵀp + offset)², without counting towards `weight`.
-    void addSquare(const glm::dvec3& g, double offset, double squareWeight) {
-        const glm::dvec3 weighted = squareWeight * g;
+    // squareWeight · (gᵀd)², without counting towards `weight`.
+    void addSquare(const glm::vec3& g, float squareWeight) {
+        const glm::vec3 weighted = squareWeight * g;
         xx += weighted.x * g.x;
         xy += weighted.x * g.y;
         xz += weighted.x * g.z;
         yy += weighted.y * g.y;
         yz += weighted.y * g.z;
         zz += weighted.z * g.z;
-        b += weighted * offset;
-        c += squareWeight * offset * offset;
     }
 
-    void add(const Quadric& other) {
+    // The quadric of another vertex, from which `step` leads to this one's.
+    void add(const Quadric& other, const glm::vec3& step) {
+        b += other.b + other.timesA(step);
+        c += other.at(step);
         xx += other.xx;
         xy += other.xy;
         xz += other.xz;
         yy += other.yy;
         yz += other.yz;
         zz += other.zz;
-        b += other.b;
-        c += other.c;
         weight += other.weight;
     }
 
-    [[nodiscard]] double at(const glm::dvec3& p) const {
-        const double quadratic =
-            p.x * (xx * p.x + 2 * (xy * p.y + xz * p.z)) + p.y * (yy * p.y + 2 * yz * p.z) + zz * p.z * p.z;
-        return std::max(0.0, quadratic + 2 * glm::dot(b, p) + c);
+    [[nodiscard]] glm::vec3 timesA(const glm::vec3& d) const {
+        return {xx * d.x + xy * d.y + xz * d.z, xy * d.x + yy * d.y + yz * d.z, xz * d.x + yz * d.y + zz * d.z};
     }
+
+    [[nodiscard]] float at(const glm::vec3& d) const { return std::max(0.0f, glm::dot(timesA(d) + 2.0f * b, d) + c); }
 };
 
 }  // namespace defocus

@@ -1,6 +1,6 @@
 // Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics; half-edge collapses over OpenMesh's
-// half-edges (Botsch, Steinberg, Bischoff and Kobbelt 2002). One pass with a lazy priority queue: the queue holds each
-// vertex's cheapest collapse by cost alone, and whether it is allowed is only looked at when it comes up.
+// half-edges (Botsch, Steinberg, Bischoff and Kobbelt 2002). One pass with a priority queue, which holds each vertex's
+// cheapest collapse by cost alone, and whether it is allowed is only looked at when it comes up.
 
 #include "lod/simplify.h"
 
@@ -17,59 +17,44 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
 // A poor collapse is made when good ones cost this much more.
-constexpr double poorPenalty = 10;
+constexpr float poorPenalty = 10;
 // A further level must save a quarter of the triangles …
 constexpr double largestShare = 0.75;
 // … but leave this share of those that can still go: where many components are as small as they get, halving all would
 // be at the cost of the few large ones.
 constexpr double leastShareOfMovable = 0.25;
 
-void enqueue(Simplifier& s, std::uint32_t v, HalfedgeHandle edge, double cost, Fit fit) {
-    Candidate& candidate = s.candidates[v];
-    if (edge.is_valid() && candidate.edge == edge && candidate.cost == cost && candidate.fit == fit) return;
-    candidate = {edge, cost, fit, candidate.version + 1};
-    if (!edge.is_valid()) return;
-    s.queue.push_back({cost, v, candidate.version, fit == Fit::bad});
-    std::push_heap(s.queue.begin(), s.queue.end());
+void enqueue(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
+    s.candidates[v] = candidate;
+    if (candidate.edge.is_valid())
+        s.queue.put(v, candidate.cost, candidate.fit == Fit::bad);
+    else
+        s.queue.take(v);
 }
 
 // Puts the vertex's cheapest collapse into the queue, unseen whether it is a good one.
 void enqueueCheapest(Simplifier& s, std::uint32_t v) {
-    HalfedgeHandle cheapest;
-    double least = std::numeric_limits<double>::infinity();
-    forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) {
-        if (const double cost = collapseCost(s, edge); cost < least) {
-            least = cost;
-            cheapest = edge;
-        }
-    });
-    enqueue(s, v, cheapest, least, Fit::good);
+    enqueue(s, v, cheapestCollapse(s, v));
 }
 
 // Puts the vertex's best collapse into the queue, all of them judged; nothing if none is possible.
 void enqueueBest(Simplifier& s, std::uint32_t v) {
-    HalfedgeHandle best;
-    Fit bestFit = Fit::impossible;
-    double least = std::numeric_limits<double>::infinity();
+    Candidate best;
+    best.fit = Fit::impossible;
     forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) {
         const Fit fit = judgeCollapse(s, edge);
-        if (fit == Fit::impossible || (fit == Fit::bad && bestFit < Fit::bad)) return;
-        const double cost = collapseCost(s, edge) * (fit == Fit::poor ? poorPenalty : 1);
-        if (!(cost < least) && (fit == Fit::bad || bestFit < Fit::bad)) return;
-        best = edge;
-        bestFit = fit;
-        least = cost;
+        if (fit == Fit::impossible || (fit == Fit::bad && best.fit < Fit::bad)) return;
+        const float cost = collapseCost(s, edge) * (fit == Fit::poor ? poorPenalty : 1);
+        if (!(cost < best.cost) && (fit == Fit::bad || best.fit < Fit::bad)) return;
+        best = {edge, cost, fit};
     });
-    enqueue(s, v, best, least, bestFit);
+    enqueue(s, v, best);
 }
 
 void fillQueue(Simplifier& s) {
-    s.queue.clear();
-    for (std::uint32_t v = 0; v < s.points.size(); ++v) {
-        if (s.mesh.status(vertexHandle(v)).deleted()) continue;
-        s.candidates[v].edge.invalidate();
-        enqueueCheapest(s, v);
-    }
+    s.queue.reset(s.points.size());
+    for (std::uint32_t v = 0; v < s.points.size(); ++v)
+        if (s.survivors[v] == v) enqueueCheapest(s, v);
 }
 
 // The neighbours of the survivor: only the way to it has a new cost, unless the cheapest way led there or was refused.
@@ -79,13 +64,13 @@ void requeueAround(Simplifier& s, VertexHandle survivor) {
         const std::uint32_t v = index(s.mesh.to_vertex_handle(edge));
         const HalfedgeHandle back = s.mesh.opposite_halfedge_handle(edge);
         const Candidate& candidate = s.candidates[v];
-        const bool known = candidate.edge.is_valid() && candidate.fit == Fit::good &&
-                           !s.mesh.status(s.mesh.edge_handle(candidate.edge)).deleted() &&
-                           s.mesh.to_vertex_handle(candidate.edge) != survivor;
+        const VertexHandle chosen =
+            candidate.edge.is_valid() ? s.mesh.to_vertex_handle(candidate.edge) : VertexHandle();
+        const bool known = candidate.fit == Fit::good && chosen.is_valid() && chosen != survivor;
         if (!known)
             enqueueCheapest(s, v);
-        else if (const double cost = collapseCost(s, back); cost < candidate.cost)
-            enqueue(s, v, back, cost, Fit::good);
+        else if (const float cost = collapseCost(s, back); cost < candidate.cost)
+            enqueue(s, v, {back, cost, Fit::good});
     });
 }
 
@@ -95,21 +80,21 @@ void collapse(Simplifier& s, HalfedgeHandle edge) {
     const std::uint32_t from = index(s.mesh.to_vertex_handle(opposite));
     const VertexHandle survivor = s.mesh.to_vertex_handle(edge);
     const std::uint32_t to = index(survivor);
+    const glm::vec3 step(s.points[to] - s.points[from]);
     for (const HalfedgeHandle side : {edge, opposite})
         if (s.mesh.face_handle(side).is_valid()) --s.liveFaces;
     for (const Retarget& retarget : s.retargets) {
         const std::uint32_t old = s.corners.wedge[retarget.corner];
         if (old != retarget.wedge && s.attributeQuadrics[old].squares.weight > 0) {
-            s.attributeQuadrics[retarget.wedge].add(s.attributeQuadrics[old]);
+            addAttributeQuadric(s, old, retarget.wedge, step);
             s.attributeQuadrics[old] = {};
         }
         s.corners.vertex[retarget.corner] = to;
         s.corners.wedge[retarget.corner] = retarget.wedge;
     }
-    s.quadrics[to].add(s.quadrics[from]);
+    s.quadrics[to].add(s.quadrics[from], step);
     s.survivors[from] = to;
-    ++s.candidates[from].version;
-    s.mesh.collapse(edge);
+    removeEdge(s.mesh, edge);
     requeueAround(s, survivor);
 }
 
@@ -124,13 +109,10 @@ bool collapseTo(Simplifier& s, std::size_t target) {
             fillQueue(s);
             continue;
         }
-        std::pop_heap(s.queue.begin(), s.queue.end());
-        const QueueEntry entry = s.queue.back();
-        s.queue.pop_back();
-        const Candidate candidate = s.candidates[entry.vertex];
-        if (entry.version != candidate.version) continue;
+        const std::uint32_t v = s.queue.takeBest();
+        const Candidate candidate = s.candidates[v];
         if (judgeCollapse(s, candidate.edge) > candidate.fit) {
-            enqueueBest(s, entry.vertex);
+            enqueueBest(s, v);
             continue;
         }
         collapse(s, candidate.edge);
@@ -145,7 +127,7 @@ SimplifiedLevel snapshot(Simplifier& s, std::size_t primitiveCount) {
     level.triangles.primitiveIndexCounts.assign(primitiveCount, 0);
     level.triangles.indices.reserve(3 * s.liveFaces);
     for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
-        if (s.mesh.status(FaceHandle(static_cast<int>(face))).deleted()) continue;
+        if (!isAlive(s, face)) continue;
         for (std::uint32_t i = 0; i < 3; ++i) level.triangles.indices.push_back(wedges[3 * face + i]);
         level.triangles.primitiveIndexCounts[s.corners.primitive[face]] += 3;
     }
@@ -167,7 +149,7 @@ void rememberCorners(Simplifier& s, std::size_t vertexCount) {
 std::size_t stuckFaces(const Simplifier& s) {
     std::size_t count = 0;
     for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
-        if (s.mesh.status(FaceHandle(static_cast<int>(face))).deleted()) continue;
+        if (!isAlive(s, face)) continue;
         const auto canGo = [&](std::uint32_t corner) { return s.candidates[s.corners.vertex[corner]].edge.is_valid(); };
         if (!canGo(3 * face) && !canGo(3 * face + 1) && !canGo(3 * face + 2)) ++count;
     }

@@ -80,7 +80,7 @@ std::vector<std::uint32_t> creasedWedges(Simplifier& s) {
     std::vector<std::uint32_t> first(s.firstCorner.size() + 1, 0);
     const auto forEachCorner = [&](const auto& visit) {
         for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face)
-            if (!s.mesh.status(OpenMesh::FaceHandle(static_cast<int>(face))).deleted())
+            if (isAlive(s, face))
                 for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) visit(corner);
     };
     forEachCorner([&](std::uint32_t corner) { ++first[wedges[corner] + 1]; });

@@ -1,5 +1,5 @@
-// Garland and Heckbert 1997 (cost); Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction
-// (link condition).
+// What collapses are allowed: Dey, Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction (link
+// condition).
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -14,9 +14,6 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-// Squared edge length that weighs as much as a squared distance: decides on flat ground, where it favours even
-// triangles.
-constexpr double edgeWeight = 1e-4;
 constexpr double leastTurnCosine = 0.2588;  // 75°
 constexpr double sliverQuality = 0.02;      // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
@@ -44,19 +41,59 @@ Fit judgeMovedFace(const Simplifier& s, std::uint32_t face, std::uint32_t from, 
     return quality < sliverQuality && quality * edges(a) < lengthBefore ? Fit::poor : Fit::good;
 }
 
-// The link condition (Dey, Edelsbrunner, Guha and Nekhayev 1999), and what OpenMesh's test of it leaves open: a second
-// edge between the two vertices, and a tetrahedron, which would become two faces back to back.
+bool isBorder(const Simplifier& s, VertexHandle v) {
+    return !s.mesh.face_handle(s.mesh.halfedge_handle(v)).is_valid();
+}
+
+// The third vertex of the face along `edge`, invalid if there is none.
+VertexHandle apex(const Simplifier& s, HalfedgeHandle edge) {
+    if (!s.mesh.face_handle(edge).is_valid()) return VertexHandle();
+    return s.mesh.to_vertex_handle(s.mesh.next_halfedge_handle(edge));
+}
+
+// The face along `edge` hangs on by this edge alone.
+bool isFlap(const Simplifier& s, HalfedgeHandle edge) {
+    if (!s.mesh.face_handle(edge).is_valid()) return false;
+    const auto ends = [&](HalfedgeHandle h) {
+        return !s.mesh.face_handle(s.mesh.opposite_halfedge_handle(h)).is_valid();
+    };
+    return ends(s.mesh.next_halfedge_handle(edge)) && ends(s.mesh.prev_halfedge_handle(edge));
+}
+
+// The link condition: the edge's vertices have no neighbours in common but those of its faces (and no second edge), a
+// border is left by no edge but its own, and what would become two faces back to back stays. Leaves the faces around
+// both in `s.facesFrom` and `s.facesTo`.
 bool keepsTopology(Simplifier& s, HalfedgeHandle edge) {
-    if (!s.mesh.is_collapse_ok(edge)) return false;
+    const HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
+    const VertexHandle from = s.mesh.to_vertex_handle(opposite);
     const VertexHandle to = s.mesh.to_vertex_handle(edge);
-    const HalfedgeHandle onward = s.mesh.next_halfedge_handle(s.mesh.opposite_halfedge_handle(edge));
-    int valence = 1;
-    for (HalfedgeHandle h = onward; h != edge; ++valence) {
-        if (s.mesh.to_vertex_handle(h) == to) return false;
-        h = s.mesh.next_halfedge_handle(s.mesh.opposite_halfedge_handle(h));
-    }
-    const bool inside = !s.mesh.is_boundary(s.mesh.from_vertex_handle(edge)) && !s.mesh.is_boundary(to);
-    return !(inside && valence == 3 && s.mesh.valence(to) == 3);
+    const VertexHandle left = apex(s, edge);
+    const VertexHandle right = apex(s, opposite);
+    const bool inside = !isBorder(s, from) && !isBorder(s, to);
+    if (left == right || isFlap(s, edge) || isFlap(s, opposite)) return false;
+    if (left.is_valid() && right.is_valid() && isBorder(s, from) && isBorder(s, to)) return false;
+
+    s.marks.resize(s.points.size(), 0);
+    ++s.markNumber;
+    s.facesFrom.clear();
+    s.facesTo.clear();
+    std::size_t edgesBetween = 0;
+    std::size_t valenceFrom = 0;
+    std::size_t valenceTo = 0;
+    forEachOutgoing(s.mesh, from, [&](HalfedgeHandle out) {
+        const VertexHandle neighbour = s.mesh.to_vertex_handle(out);
+        if (neighbour == to) ++edgesBetween;
+        if (neighbour != left && neighbour != right) s.marks[index(neighbour)] = s.markNumber;
+        if (const FaceHandle face = s.mesh.face_handle(out); face.is_valid()) s.facesFrom.push_back(index(face));
+        ++valenceFrom;
+    });
+    bool shared = false;
+    forEachOutgoing(s.mesh, to, [&](HalfedgeHandle out) {
+        shared = shared || s.marks[index(s.mesh.to_vertex_handle(out))] == s.markNumber;
+        if (const FaceHandle face = s.mesh.face_handle(out); face.is_valid()) s.facesTo.push_back(index(face));
+        ++valenceTo;
+    });
+    return edgesBetween == 1 && !shared && !(inside && valenceFrom == 3 && valenceTo == 3);
 }
 
 }  // namespace
@@ -68,34 +105,12 @@ void facesAround(const Simplifier& s, VertexHandle v, std::vector<std::uint32_t>
     });
 }
 
-// Quadric errors of both vertices at the survivor, of place and of attributes, plus what edge length weighs.
-double collapseCost(const Simplifier& s, HalfedgeHandle edge) {
-    const HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
-    const std::uint32_t from = index(s.mesh.to_vertex_handle(opposite));
-    const std::uint32_t to = index(s.mesh.to_vertex_handle(edge));
-    const glm::dvec3 step = s.points[to] - s.points[from];
-    double cost = s.quadrics[from].at(s.points[to]) + s.quadrics[to].at(s.points[to]) +
-                  s.quadrics[from].weight * edgeWeight * glm::dot(step, step);
-    EdgeSide last;
-    for (const HalfedgeHandle side : {edge, opposite}) {
-        const EdgeSide wedges = edgeSide(s, s.mesh.face_handle(side), from, to);
-        if (wedges.face == EdgeSide::none || (wedges.from == last.from && wedges.to == last.to)) continue;
-        last = wedges;
-        const AttributeRow& row = s.rows[wedges.to];
-        cost += s.attributeQuadrics[wedges.from].at(s.points[to], row);
-        cost += s.attributeQuadrics[wedges.to].at(s.points[to], row);
-    }
-    return cost;
-}
-
 // Leaves the wedges to hand over in `s.retargets`.
 Fit judgeCollapse(Simplifier& s, HalfedgeHandle edge) {
     if (!keepsTopology(s, edge)) return Fit::impossible;
     const HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
     const VertexHandle from = s.mesh.to_vertex_handle(opposite);
     const VertexHandle to = s.mesh.to_vertex_handle(edge);
-    facesAround(s, from, s.facesFrom);
-    facesAround(s, to, s.facesTo);
 
     WedgeQuestion question{index(from), index(to), {}, s.facesFrom, s.facesTo, 0};
     question.sides[0] = edgeSide(s, s.mesh.face_handle(edge), question.from, question.to);
@@ -103,8 +118,8 @@ Fit judgeCollapse(Simplifier& s, HalfedgeHandle edge) {
     question.edgeLength = glm::distance(s.points[question.from], s.points[question.to]);
     Fit worst = retargetWedges(s.corners, question, s.retargets);
 
-    const bool isBorder = s.mesh.is_boundary(edge) || s.mesh.is_boundary(opposite);
-    if (s.mesh.is_boundary(from) && !isBorder) worst = std::max(worst, Fit::poor);
+    const bool alongBorder = !s.mesh.face_handle(edge).is_valid() || !s.mesh.face_handle(opposite).is_valid();
+    if (isBorder(s, from) && !alongBorder) worst = std::max(worst, Fit::poor);
     for (const std::uint32_t face : s.facesFrom)
         if (face != question.sides[0].face && face != question.sides[1].face)
             worst = std::max(worst, judgeMovedFace(s, face, question.from, s.points[question.to]));

@@ -32,10 +32,6 @@ constexpr double leastQuality = 1e-3;  // twice the area / sum of squared edges;
 // Links half-edges directly: the manifold is known to be one, which add_face would find out again face by face.
 void buildConnectivity(Simplifier& s, const Manifold& manifold) {
     auto& mesh = s.mesh;
-    mesh.request_vertex_status();
-    mesh.request_edge_status();
-    mesh.request_halfedge_status();
-    mesh.request_face_status();
     const std::size_t edgeCount = manifold.twins.size();
     mesh.reserve(manifold.positions.size(), edgeCount, manifold.faces.size());
     for (std::size_t v = 0; v < manifold.positions.size(); ++v) mesh.new_vertex();
@@ -138,9 +134,9 @@ void buildAttributeQuadrics(Simplifier& s) {
         }
         const double doubleArea = glm::length(faceCross(s, static_cast<std::uint32_t>(first / 3)));
         if (!(doubleArea > leastQuality * squaredEdges)) continue;  // its gradients would be noise
-        AttributeQuadric quadric;
-        quadric.addFace(points, rows, doubleArea / 6);
-        for (std::size_t i = 0; i < 3; ++i) s.attributeQuadrics[s.corners.wedge[first + i]].add(quadric);
+        const AttributeGradients gradients = attributeGradients(points, rows);
+        for (std::size_t i = 0; i < 3; ++i)
+            s.attributeQuadrics[s.corners.wedge[first + i]].addFace(gradients, static_cast<float>(doubleArea / 6));
     }
 }
 
@@ -154,7 +150,7 @@ void buildQuadrics(Simplifier& s, const Manifold& manifold) {
         for (std::uint32_t e = 3 * face; e < 3 * face + 3; ++e) {
             const std::uint32_t a = s.corners.vertex[e];
             const std::uint32_t b = s.corners.vertex[e % 3 == 2 ? e - 2 : e + 1];
-            s.quadrics[a].addPlane(normal, s.points[a], doubleArea / 6);
+            s.quadrics[a].addPlane(glm::vec3(normal), static_cast<float>(doubleArea / 6));
             const bool border = isBorder(s, manifold, e);
             const double weight =
                 border ? borderWeight : std::max(seamConstraint(s.corners, manifold, e), rimConstraint(s, manifold, e));
@@ -165,8 +161,9 @@ void buildQuadrics(Simplifier& s, const Manifold& manifold) {
             // A border of short edges before long faces, the end of a strip, weighs as much as those faces: by its
             // edges alone it would cost less to shorten than the strip's inside costs to thin out.
             const double area = border ? std::max(length * length, doubleArea) : length * length;
-            s.quadrics[a].addPlane(upright / length, s.points[a], weight * area);
-            s.quadrics[b].addPlane(upright / length, s.points[a], weight * area);
+            const glm::vec3 constraint(upright / length);
+            s.quadrics[a].addPlane(constraint, static_cast<float>(weight * area));
+            s.quadrics[b].addPlane(constraint, static_cast<float>(weight * area));
         }
     }
 }

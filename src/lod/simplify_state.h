@@ -9,32 +9,28 @@
 #include <vector>
 
 #include "lod/attribute_quadric.h"
+#include "lod/collapse_queue.h"
 #include "lod/corners.h"
 #include "lod/quadric.h"
 #include "lod/simplify.h"
 
 namespace defocus {
 
-struct QueueEntry {
-    double cost;
-    std::uint32_t vertex;
-    std::uint32_t version;
-    bool bad;
-
-    // For std::push_heap, whose top is the greatest: not bad, then lower cost, then lower number.
-    bool operator<(const QueueEntry& other) const {
-        if (bad != other.bad) return bad;
-        if (cost != other.cost) return cost > other.cost;
-        return vertex > other.vertex;
-    }
-};
-
 // The collapse that a vertex waits for in the queue.
 struct Candidate {
     OpenMesh::HalfedgeHandle edge;  // from the vertex to the survivor; invalid: none
-    double cost = std::numeric_limits<double>::infinity();
-    Fit fit = Fit::good;        // as far as it has been looked at
-    std::uint32_t version = 0;  // entries of another version are stale
+    float cost = std::numeric_limits<float>::infinity();
+    Fit fit = Fit::good;  // as far as it has been looked at
+};
+
+// An edge out of a vertex, and the face that it runs along.
+struct Spoke {
+    OpenMesh::HalfedgeHandle edge;
+    std::uint32_t to = 0;
+    std::uint32_t face = EdgeSide::none;
+    std::uint32_t wedge = EdgeSide::none;     // of the vertex on the face
+    std::uint32_t toWedge = EdgeSide::none;   // of `to` on the face
+    std::uint32_t farWedge = EdgeSide::none;  // of the face's third vertex
 };
 
 struct Simplifier {
@@ -47,7 +43,7 @@ struct Simplifier {
     std::vector<AttributeQuadric> attributeQuadrics;  // of each mesh vertex
     std::vector<std::uint32_t> survivors;  // for each vertex the one it collapsed onto, itself while it lives
     std::vector<Candidate> candidates;
-    std::vector<QueueEntry> queue;
+    CollapseQueue queue;
     std::size_t liveFaces = 0;
     std::uint32_t repairedFaces = 0;
     std::vector<std::uint32_t> firstCorner;  // of each mesh vertex, as the mesh was; EdgeSide::none if it has no face
@@ -56,8 +52,11 @@ struct Simplifier {
     std::vector<std::uint32_t> twins;                         // see Simplification
     std::unordered_map<std::uint32_t, std::uint32_t> twinOf;  // mesh vertex → the number of its twin
 
+    std::vector<Spoke> spokes;                      // scratch of spokesAround
     std::vector<std::uint32_t> facesFrom, facesTo;  // scratch of judgeCollapse
-    std::vector<Retarget> retargets;                // the wedges that the collapse judged last hands over
+    std::vector<std::uint32_t> marks;               // the same, one a vertex: of a neighbour the number of the question
+    std::uint32_t markNumber = 0;
+    std::vector<Retarget> retargets;  // the wedges that the collapse judged last hands over
 };
 
 inline std::uint32_t index(OpenMesh::VertexHandle v) {
@@ -68,6 +67,10 @@ inline std::uint32_t index(OpenMesh::FaceHandle f) {
 }
 inline OpenMesh::VertexHandle vertexHandle(std::uint32_t v) {
     return OpenMesh::VertexHandle(static_cast<int>(v));
+}
+
+inline bool isAlive(const Simplifier& s, std::uint32_t face) {
+    return s.mesh.halfedge_handle(OpenMesh::FaceHandle(static_cast<int>(face))).is_valid();
 }
 
 // Calls visit(half-edge) for every half-edge that leaves `v`, once around.
@@ -86,10 +89,19 @@ void facesAround(const Simplifier& s, OpenMesh::VertexHandle v, std::vector<std:
 // simplify_setup.cpp: the mesh at unit size, its manifold in half-edges, quadrics; no queue yet.
 Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions, const LevelTriangles& triangles);
 
-// simplify_judge.cpp: what a good collapse along `edge` costs, and how good it is; the latter sets
-// Simplifier::retargets.
-double collapseCost(const Simplifier& s, OpenMesh::HalfedgeHandle edge);
+// simplify_judge.cpp: how good a collapse along `edge` is, which sets Simplifier::retargets.
 Fit judgeCollapse(Simplifier& s, OpenMesh::HalfedgeHandle edge);
+
+// simplify_cost.cpp: what a good collapse along `edge` costs, and the cheapest of those from `v` (an invalid edge if
+// there is none).
+float collapseCost(const Simplifier& s, OpenMesh::HalfedgeHandle edge);
+Candidate cheapestCollapse(Simplifier& s, std::uint32_t v);
+// Adds the quadric of wedge `from` to that of `to`, `step` away.
+void addAttributeQuadric(Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step);
+
+// simplify_collapse.cpp: takes the vertex that `edge` leaves and the faces beside the edge out of the mesh, which the
+// link condition allows. Half-edges that are gone lead to an invalid vertex.
+void removeEdge(OpenMesh::TriConnectivity& mesh, OpenMesh::HalfedgeHandle edge);
 
 // simplify_anchors.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive;
 // `wedges` (one a corner) are the vertices that they name.

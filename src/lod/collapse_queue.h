@@ -1,0 +1,98 @@
+#pragma once
+// The vertices that wait for their collapse, the best first: no bad one before the others, then by cost, then by
+// number. A heap of four children a node in which every vertex has at most one place (Johnson 1975, Priority Queues
+// with Update and Finding Minimum Spanning Trees).
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace defocus {
+
+class CollapseQueue {
+public:
+    // No vertex waits; numbers are below `vertexCount`.
+    void reset(std::size_t vertexCount) {
+        heap_.clear();
+        places_.assign(vertexCount, absent);
+    }
+
+    [[nodiscard]] bool empty() const { return heap_.empty(); }
+
+    // The vertex waits with this cost (≥ 0), whether it did before or not.
+    void put(std::uint32_t vertex, float cost, bool bad) {
+        const std::uint64_t bits = std::bit_cast<std::uint32_t>(std::max(0.0f, cost));
+        const std::uint64_t key = std::uint64_t{bad} << 63 | bits << 32 | vertex;
+        std::uint32_t place = places_[vertex];
+        if (place == absent) {
+            place = static_cast<std::uint32_t>(heap_.size());
+            heap_.push_back(key);
+            rise(place, key);
+        } else if (key < heap_[place]) {
+            rise(place, key);
+        } else {
+            sink(place, key);
+        }
+    }
+
+    // The vertex waits no more, if it did.
+    void take(std::uint32_t vertex) {
+        const std::uint32_t place = places_[vertex];
+        if (place == absent) return;
+        places_[vertex] = absent;
+        const std::uint64_t last = heap_.back();
+        heap_.pop_back();
+        if (place == heap_.size()) return;
+        if (place > 0 && last < heap_[(place - 1) / arity])
+            rise(place, last);
+        else
+            sink(place, last);
+    }
+
+    // Of a queue that isn't empty.
+    std::uint32_t takeBest() {
+        const auto vertex = static_cast<std::uint32_t>(heap_.front());
+        take(vertex);
+        return vertex;
+    }
+
+private:
+    static constexpr std::uint32_t arity = 4;
+    static constexpr std::uint32_t absent = 0xffffffffu;
+
+    void set(std::uint32_t place, std::uint64_t key) {
+        heap_[place] = key;
+        places_[static_cast<std::uint32_t>(key)] = place;
+    }
+
+    void rise(std::uint32_t place, std::uint64_t key) {
+        while (place > 0) {
+            const std::uint32_t parent = (place - 1) / arity;
+            if (heap_[parent] < key) break;
+            set(place, heap_[parent]);
+            place = parent;
+        }
+        set(place, key);
+    }
+
+    void sink(std::uint32_t place, std::uint64_t key) {
+        const auto size = static_cast<std::uint32_t>(heap_.size());
+        for (;;) {
+            const std::uint32_t first = arity * place + 1;
+            if (first >= size) break;
+            std::uint32_t least = first;
+            for (std::uint32_t child = first + 1; child < std::min(first + arity, size); ++child)
+                if (heap_[child] < heap_[least]) least = child;
+            if (key < heap_[least]) break;
+            set(place, heap_[least]);
+            place = least;
+        }
+        set(place, key);
+    }
+
+    std::vector<std::uint64_t> heap_;    // bad (1 bit), bits of the cost (31; they are ordered as it is), vertex
+    std::vector<std::uint32_t> places_;  // of each vertex in the heap
+};
+
+}  // namespace defocus

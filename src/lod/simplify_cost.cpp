@@ -1,0 +1,100 @@
+// What collapses cost: Garland and Heckbert 1997 (places), Hoppe 1999 (attributes).
+
+#include <glm/geometric.hpp>
+
+#include "lod/simplify_state.h"
+
+namespace defocus {
+
+namespace {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+// Squared edge length that weighs as much as a squared distance: decides on flat ground, where it favours even
+// triangles.
+constexpr float edgeWeight = 1e-4f;
+
+AttributeRow change(const Simplifier& s, std::uint32_t from, std::uint32_t to) {
+    AttributeRow result;
+    for (std::size_t j = 0; j < attributeCount; ++j) result[j] = s.rows[to][j] - s.rows[from][j];
+    return result;
+}
+
+float placeCost(const Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step) {
+    const Quadric& quadric = s.quadrics[from];
+    return quadric.at(step) + s.quadrics[to].c + quadric.weight * edgeWeight * glm::dot(step, step);
+}
+
+float wedgeCost(const Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step) {
+    return s.attributeQuadrics[from].at(step, change(s, from, to)) + s.attributeQuadrics[to].squares.c;
+}
+
+glm::vec3 stepBetween(const Simplifier& s, std::uint32_t from, std::uint32_t to) {
+    return glm::vec3(s.points[to] - s.points[from]);
+}
+
+Spoke spokeAlong(const Simplifier& s, HalfedgeHandle edge, std::uint32_t v) {
+    Spoke spoke;
+    spoke.edge = edge;
+    spoke.to = index(s.mesh.to_vertex_handle(edge));
+    const FaceHandle face = s.mesh.face_handle(edge);
+    if (!face.is_valid()) return spoke;
+    spoke.face = index(face);
+    for (std::uint32_t corner = 3 * spoke.face; corner < 3 * spoke.face + 3; ++corner) {
+        const std::uint32_t at = s.corners.vertex[corner];
+        (at == v ? spoke.wedge : at == spoke.to ? spoke.toWedge : spoke.farWedge) = s.corners.wedge[corner];
+    }
+    return spoke;
+}
+
+}  // namespace
+
+// Quadric errors of both vertices at the survivor, of place and of attributes, plus what edge length weighs.
+float collapseCost(const Simplifier& s, HalfedgeHandle edge) {
+    const HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
+    const std::uint32_t from = index(s.mesh.to_vertex_handle(opposite));
+    const std::uint32_t to = index(s.mesh.to_vertex_handle(edge));
+    const glm::vec3 step = stepBetween(s, from, to);
+    float cost = placeCost(s, from, to, step);
+    std::uint32_t lastFrom = EdgeSide::none;
+    std::uint32_t lastTo = EdgeSide::none;
+    for (const HalfedgeHandle side : {edge, opposite}) {
+        const FaceHandle face = s.mesh.face_handle(side);
+        if (!face.is_valid()) continue;
+        const std::uint32_t wedgeFrom = s.corners.wedge[s.corners.at(index(face), from)];
+        const std::uint32_t wedgeTo = s.corners.wedge[s.corners.at(index(face), to)];
+        if (wedgeFrom == lastFrom && wedgeTo == lastTo) continue;
+        lastFrom = wedgeFrom;
+        lastTo = wedgeTo;
+        cost += wedgeCost(s, wedgeFrom, wedgeTo, step);
+    }
+    return cost;
+}
+
+Candidate cheapestCollapse(Simplifier& s, std::uint32_t v) {
+    s.spokes.clear();
+    forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) { s.spokes.push_back(spokeAlong(s, edge, v)); });
+    Candidate best;
+    for (std::size_t i = 0; i < s.spokes.size(); ++i) {
+        const Spoke& spoke = s.spokes[i];
+        const Spoke& other = s.spokes[i + 1 < s.spokes.size() ? i + 1 : 0];  // along the edge's other side
+        const glm::vec3 step = stepBetween(s, v, spoke.to);
+        float cost = placeCost(s, v, spoke.to, step);
+        if (spoke.face != EdgeSide::none) cost += wedgeCost(s, spoke.wedge, spoke.toWedge, step);
+        if (other.face != EdgeSide::none && (other.wedge != spoke.wedge || other.farWedge != spoke.toWedge))
+            cost += wedgeCost(s, other.wedge, other.farWedge, step);
+        if (cost < best.cost) {
+            best.edge = spoke.edge;
+            best.cost = cost;
+        }
+    }
+    return best;
+}
+
+void addAttributeQuadric(Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step) {
+    s.attributeQuadrics[to].add(s.attributeQuadrics[from], step, change(s, from, to));
+}
+
+}  // namespace defocus
