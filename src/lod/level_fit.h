@@ -9,42 +9,51 @@
 #include <span>
 #include <vector>
 
+#include "core/bounds.h"
 #include "lod/weld.h"
 #include "scene/mesh.h"
 
 namespace defocus {
 
-// Where a vertex of level 0 lies on a coarser level: the closest point of one of its triangles, as a weighted mean of
-// three of the level's vertices. Weights of 0 leave the vertex out.
+// Where a vertex of level 0 lies on a coarser level: a point of one of its triangles, as a weighted mean of the
+// corners. Weights of 0 leave the vertex out.
 struct Anchor {
-    std::uint32_t vertex[3] = {0, 0, 0};
+    std::uint32_t triangle = 0;
     float weight[3] = {0, 0, 0};
 };
 
+// A level's triangles with vertices numbered from 0.
+struct LevelMesh {
+    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> sources;  // for each vertex, which one of the mesh's it has its values from
+    std::vector<std::uint8_t> apart;     // 1: it shares its normal and colour with no other (a twin, see simplify.h)
+};
+
+// Of each vertex of a LevelMesh.
 struct LevelFit {
-    std::vector<glm::vec3> positions;  // one a vertex
-    std::vector<glm::vec3>
-        normals;  // one a vertex; of length ≤ 1: the shorter, the more the normals that it stands for differ
-    std::vector<glm::u8vec4> colors;  // one a vertex; empty without colours
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;   // of length ≤ 1: the shorter, the more the normals that it stands for differ
+    std::vector<glm::u8vec4> colors;  // empty without colours
 };
 
-// What all levels of a mesh are fitted to.
+// What all levels of a mesh are fitted to. Vertices with equal numbers in `places` share a position, in `smoothing` a
+// normal, in `shades` a colour; the number is that of one of them.
 struct FitSource {
-    const Vertices& vertices;              // the mesh's, then the twins (see simplify.h)
-    const Welded& positions;               // of them
-    std::vector<std::uint32_t> smoothing;  // groups that share a normal; twins stand apart
-    std::vector<float> areas;              // the share of level 0's surface that each vertex stands for, mean 1
-    Bounds bounds;                         // of level 0's triangles
+    const Vertices& vertices;
+    std::vector<std::uint32_t> places;
+    std::vector<std::uint32_t> smoothing;
+    std::vector<std::uint32_t> shades;  // empty without colours
+    std::vector<float> areas;           // the share of level 0's surface that each vertex stands for, mean 1
+    Bounds bounds;                      // of level 0's triangles
 };
 
-// `ownCount` of the vertices are the mesh's; `indices` are level 0's triangles. Keeps references to both.
-FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::size_t ownCount,
-                     std::span<const std::uint32_t> indices);
+// `indices` are level 0's triangles. Keeps a reference to `vertices`.
+FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> indices);
 
-// `anchors` holds one entry a vertex of the mesh, which counts by its area, foreshortened on its face; values of
-// vertices that no anchor names stay their own. `indices` are the level's triangles: the fit turns none of them by more
-// than 60° and leaves no part of them outside level 0's box. Vertices at one position stay at one; those whose normals
-// agree within a degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
-LevelFit fitLevel(const FitSource& source, std::span<const Anchor> anchors, std::span<const std::uint32_t> indices);
+// `anchors` holds one entry a vertex of the mesh, which counts by its area, foreshortened on its triangle; vertices
+// that no anchor names keep the values they have from the mesh. The fit turns no triangle by more than 60° and leaves
+// no part of them outside level 0's box. Vertices at one position stay at one; those whose normals agree within a
+// degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
+LevelFit fitLevel(const FitSource& source, const LevelMesh& level, std::span<const Anchor> anchors);
 
 }  // namespace defocus

@@ -1,10 +1,15 @@
 #include "lod/pyramid.h"
 
+#include <meshoptimizer.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <mutex>
 #include <numeric>
+#include <thread>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -28,6 +33,8 @@ constexpr double errorFloor = 1e-6;        // of the box's diagonal
 constexpr std::size_t leastErrorPoints = 256;
 constexpr std::size_t mostErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
+constexpr double mostSpread = 2;  // of numbers, in square roots of the vertices' count
+constexpr std::uint32_t unfitted = 0xffffffffu;
 
 LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertexIds) {
     LevelTriangles level;
@@ -106,62 +113,151 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     }
 }
 
-Pyramid build(const Mesh& mesh, const PyramidOptions& options) {
+// Whether triangles that follow each other, and their corners, have numbers far apart, so that caches are of little
+// help: on a grid in rows they are √n apart.
+bool isScattered(const LevelTriangles& triangles, std::size_t vertexCount) {
+    const std::vector<std::uint32_t>& v = triangles.indices;
+    const auto apart = [](std::uint32_t a, std::uint32_t b) { return a < b ? b - a : a - b; };
+    std::uint64_t sum = 0;
+    for (std::size_t i = 3; i < v.size(); ++i) sum += apart(v[i], v[i - 3]);
+    for (std::size_t i = 0; i < v.size(); i += 3) sum += apart(v[i], v[i + 1]);
+    return static_cast<double>(sum) >
+           mostSpread * std::sqrt(static_cast<double>(vertexCount)) * static_cast<double>(v.size());
+}
+
+// Numbers vertices, and then orders the triangles of each primitive, so that what is near in space is so in memory.
+void sortSpatially(Welded& unique, const std::vector<glm::vec3>& positions) {
+    if (unique.first.empty()) return;
+    std::vector<glm::vec3> places = gathered(positions, unique.first);
+    for (glm::vec3& place : places)
+        if (!isFinite(place)) place = glm::vec3(0);
+    std::vector<std::uint32_t> order(places.size());
+    meshopt_spatialSortRemap(order.data(), &places[0].x, places.size(), sizeof(glm::vec3));
+    for (std::uint32_t& id : unique.id) id = order[id];
+    std::vector<std::uint32_t> first(places.size());
+    for (std::size_t v = 0; v < order.size(); ++v) first[order[v]] = unique.first[v];
+    unique.first = std::move(first);
+}
+
+void sortSpatially(LevelTriangles& triangles) {
+    std::size_t first = 0;
+    std::vector<std::array<std::uint32_t, 4>> sorted;  // the triangle, after the place that it is sorted by
+    for (const std::uint32_t count : triangles.primitiveIndexCounts) {
+        std::uint32_t* const indices = triangles.indices.data() + first;
+        sorted.clear();
+        for (std::size_t i = 0; i < count; i += 3)
+            sorted.push_back(
+                {std::min({indices[i], indices[i + 1], indices[i + 2]}), indices[i], indices[i + 1], indices[i + 2]});
+        std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a[0] < b[0]; });
+        for (std::size_t t = 0; t < sorted.size(); ++t) std::copy_n(sorted[t].begin() + 1, 3, indices + 3 * t);
+        first += count;
+    }
+}
+
+// A level until its vertices are in their final order.
+struct FittedLevel {
+    LevelTriangles triangles;
+    std::vector<std::uint32_t> numbers;  // of its vertices in `triangles`
+    LevelFit fit;                        // of the same
+    std::vector<Cluster> clusters;
+    double error = 0;
+};
+
+// Fits the level's shape and looks to the mesh, measures how far it is from it, and orders its triangles by clusters.
+FittedLevel fitted(const FitSource& source, const Surface& surface, SimplifiedLevel level) {
+    FittedLevel result;
+    result.fit = fitLevel(source, level.mesh, level.anchors);
+    result.error = levelError(surface, prepareSurface(result.fit.positions, level.mesh.indices),
+                              glm::length(source.bounds.size()));
+    result.triangles = {std::move(level.mesh.indices), std::move(level.primitiveIndexCounts)};
+    result.clusters = clusterTriangles(result.triangles, result.fit.positions);
+    for (std::uint32_t& v : result.triangles.indices) v = level.numbers[v];
+    result.numbers = std::move(level.numbers);
+    return result;
+}
+
+// Values of the first `count` vertices in the order of `sources`: the level's where it has any, else the mesh's.
+template <typename T>
+std::vector<T> inOrder(const std::vector<T>& own, const std::vector<T>& fitted,
+                       const std::vector<std::uint32_t>& fittedAt, const std::vector<std::uint32_t>& sources,
+                       std::size_t count) {
+    std::vector<T> result;
+    if (own.empty()) return result;
+    result.reserve(count);
+    for (std::size_t v = 0; v < count; ++v)
+        result.push_back(fittedAt[v] == unfitted ? own[sources[v]] : fitted[fittedAt[v]]);
+    return result;
+}
+
+Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t workers) {
     // Join equal vertices; weld the positions of the rest.
-    const Welded unique = weldVertices(mesh);
-    std::vector<LevelTriangles> triangles = {allTriangles(mesh, unique.id)};
+    Welded unique = weldVertices(mesh);
+    std::vector<FittedLevel> levels(1);
+    levels[0].triangles = allTriangles(mesh, unique.id);
+    if (isScattered(levels[0].triangles, unique.first.size())) {
+        sortSpatially(unique, mesh.vertices.positions);
+        levels[0].triangles = allTriangles(mesh, unique.id);
+        sortSpatially(levels[0].triangles);
+    }
     Vertices vertices = gathered(mesh.vertices, unique.first);
     Welded positions = weldPositions(vertices.positions);
-    if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, triangles.front().indices);
+    const std::vector<std::uint32_t>& indices = levels[0].triangles.indices;
+    if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, indices);
 
-    // Simplify.
+    // Simplify, and fit every level while the next ones are made.
     Pyramid pyramid;
-    std::vector<double> errors = {0};
     Simplification simplification;
-    if (options.mostLevels > 1)
+    if (options.mostLevels > 1) {
+        const FitSource source = prepareFit(vertices, positions, indices);
+        const Surface surface = prepareSurface(vertices.positions, indices);
+        std::mutex mutex;
+        std::vector<FittedLevel> coarser;
+        Tasks tasks(workers);
         simplification =
-            simplify(vertices, positions, triangles.front(), {options.leastTriangles, options.mostLevels - 1});
-    pyramid.repairedFaces = simplification.repairedFaces;
-
-    // Twins are vertices like others from here on; no corner of level 0 uses them.
-    const std::size_t ownCount = vertices.count();
-    std::vector<std::uint32_t> withTwins(ownCount);
-    std::iota(withTwins.begin(), withTwins.end(), 0u);
-    withTwins.insert(withTwins.end(), simplification.twins.begin(), simplification.twins.end());
-    vertices = gathered(vertices, withTwins);
-    for (const std::uint32_t v : simplification.twins) positions.id.push_back(positions.id[v]);
-
-    // Fit the levels' shape and looks to the mesh, and measure how far they are from it.
-    const FitSource source = prepareFit(vertices, positions, ownCount, triangles.front().indices);
-    std::vector<LevelFit> fits = {{vertices.positions, vertices.normals, vertices.colors}};
-    Surface surface;
-    if (!simplification.levels.empty()) surface = prepareSurface(vertices.positions, triangles.front().indices);
-    for (SimplifiedLevel& level : simplification.levels) {
-        fits.push_back(fitLevel(source, level.anchors, level.triangles.indices));
-        const Surface fitted = prepareSurface(fits.back().positions, level.triangles.indices);
-        errors.push_back(levelError(surface, fitted, glm::length(source.bounds.size())));
-        triangles.push_back(std::move(level.triangles));
+            simplify(vertices, positions, levels[0].triangles, {options.leastTriangles, options.mostLevels - 1}, tasks,
+                     [&](std::uint32_t l, SimplifiedLevel level) {
+                         FittedLevel done = fitted(source, surface, std::move(level));
+                         const std::scoped_lock lock(mutex);
+                         if (coarser.size() <= l) coarser.resize(l + 1);
+                         coarser[l] = std::move(done);
+                     });
+        tasks.wait();
+        std::move(coarser.begin(), coarser.end(), std::back_inserter(levels));
     }
+    pyramid.repairedFaces = simplification.repairedFaces;
+    levels[0].clusters = clusterTriangles(levels[0].triangles, vertices.positions);
 
-    // Order triangles by clusters and vertices by survival.
-    std::vector<std::vector<Cluster>> clusters;
-    for (std::size_t l = 0; l < triangles.size(); ++l)
-        clusters.push_back(clusterTriangles(triangles[l], fits[l].positions));
+    // Order vertices by survival. Twins are vertices like others from here on; no corner of level 0 uses them.
+    const std::size_t ownCount = vertices.count();
+    for (const std::uint32_t v : simplification.twins) positions.id.push_back(positions.id[v]);
+    std::vector<LevelTriangles> triangles;
+    for (FittedLevel& level : levels) triangles.push_back(std::move(level.triangles));
     const SurvivalOrder order = sortBySurvival(triangles, positions);
-    pyramid.vertices = gathered(vertices, order.vertices);
-    pyramid.source = gathered(gathered(unique.first, withTwins), order.vertices);
+    std::vector<std::uint32_t> sources;
+    sources.reserve(order.vertices.size());
+    for (const std::uint32_t v : order.vertices)
+        sources.push_back(v < ownCount ? v : simplification.twins[v - ownCount]);
+    pyramid.vertices = gathered(vertices, sources);
+    pyramid.source = gathered(unique.first, sources);
     pyramid.bounds = boundsOf(pyramid.vertices.positions);
 
     // Describe each level.
-    for (std::size_t l = 0; l < triangles.size(); ++l) {
-        PyramidLevel level = appendLevel(pyramid, triangles[l], std::move(clusters[l]), order.vertexCounts[l]);
-        level.error = errors[l];
-        const std::vector<std::uint32_t> prefix(order.vertices.begin(), order.vertices.begin() + level.vertexCount);
-        level.positions = gathered(fits[l].positions, prefix);
-        level.normals = gathered(fits[l].normals, prefix);
-        level.colors = gathered(fits[l].colors, prefix);
+    std::vector<std::uint32_t> fittedAt(ownCount + simplification.twins.size(), unfitted);
+    std::vector<std::uint32_t> inPrefix;
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        FittedLevel& done = levels[l];
+        PyramidLevel level = appendLevel(pyramid, triangles[l], std::move(done.clusters), order.vertexCounts[l]);
+        level.error = done.error;
+        for (std::size_t v = 0; v < done.numbers.size(); ++v) fittedAt[done.numbers[v]] = static_cast<std::uint32_t>(v);
+        inPrefix.clear();
+        for (std::size_t v = 0; v < level.vertexCount; ++v) inPrefix.push_back(fittedAt[order.vertices[v]]);
+        for (const std::uint32_t v : done.numbers) fittedAt[v] = unfitted;
+        level.positions = inOrder(vertices.positions, done.fit.positions, inPrefix, sources, level.vertexCount);
+        level.normals = inOrder(vertices.normals, done.fit.normals, inPrefix, sources, level.vertexCount);
+        level.colors = inOrder(vertices.colors, done.fit.colors, inPrefix, sources, level.vertexCount);
         measureEdges(level, triangles[l].indices);
         pyramid.levels.push_back(std::move(level));
+        done = {};
     }
     separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));
     measureDeformations(pyramid, mesh);
@@ -198,7 +294,7 @@ void measureDeformations(Pyramid& pyramid, const Mesh& mesh) {
 }
 
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options) {
-    return build(mesh, options);
+    return build(mesh, options, 0);
 }
 
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options,
@@ -210,11 +306,15 @@ std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const Pyrami
         return meshes[a].triangleCount() > meshes[b].triangleCount();
     });
 
+    // Cores that have no mesh of their own fit levels of others'.
+    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t workers = std::max<std::size_t>(1, cores / std::max<std::size_t>(1, meshes.size())) - 1;
+
     std::vector<Pyramid> pyramids(meshes.size());
     std::mutex mutex;
     std::uint64_t done = 0;
     parallelFor(meshes.size(), [&](std::size_t i) {
-        pyramids[order[i]] = build(meshes[order[i]], options);
+        pyramids[order[i]] = build(meshes[order[i]], options, workers);
         const std::scoped_lock lock(mutex);
         report(progress, "pyramids", ++done, meshes.size());
     });
@@ -224,7 +324,7 @@ std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const Pyrami
 Pyramid fullDetail(const Mesh& mesh) {
     PyramidOptions options;
     options.mostLevels = 1;
-    return build(mesh, options);
+    return build(mesh, options, 0);
 }
 
 }  // namespace defocus

@@ -12,10 +12,10 @@
 namespace defocus {
 
 struct Quadric {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // A
-    glm::vec3 b{0};
     float c = 0;       // the sum at the vertex itself
     float weight = 0;  // of all planes together
+    glm::vec3 b{0};
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // A
 
     // The plane through the vertex with the unit normal `normal`.
     void addPlane(const glm::vec3& normal, float planeWeight) {

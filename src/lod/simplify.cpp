@@ -5,6 +5,7 @@
 #include "lod/simplify.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "lod/simplify_state.h"
 
@@ -18,6 +19,8 @@ using OpenMesh::VertexHandle;
 
 // A poor collapse is made when good ones cost this much more.
 constexpr float poorPenalty = 10;
+// Up to this many faces every collapse is known at its cost at any time; coarse levels are what one sees best.
+constexpr std::size_t mostFacesToFollow = 8192;
 // A further level must save a quarter of the triangles …
 constexpr double largestShare = 0.75;
 // … but leave this share of those that can still go: where many components are as small as they get, halving all would
@@ -46,7 +49,7 @@ void enqueueBest(Simplifier& s, std::uint32_t v) {
         if (fit == Fit::impossible || (fit == Fit::bad && best.fit < Fit::bad)) return;
         const float cost = collapseCost(s, edge) * (fit == Fit::poor ? poorPenalty : 1);
         if (!(cost < best.cost) && (fit == Fit::bad || best.fit < Fit::bad)) return;
-        best = {edge, cost, fit};
+        best = {edge, index(s.mesh.to_vertex_handle(edge)), cost, fit};
     });
     enqueue(s, v, best);
 }
@@ -57,20 +60,29 @@ void fillQueue(Simplifier& s) {
         if (s.survivors[v] == v) enqueueCheapest(s, v);
 }
 
-// The neighbours of the survivor: only the way to it has a new cost, unless the cheapest way led there or was refused.
-void requeueAround(Simplifier& s, VertexHandle survivor) {
-    enqueueCheapest(s, index(survivor));
+// The survivor, and its neighbours that would have collapsed onto it or onto what is gone, or not at all, look for
+// their best anew. While faces are many, they do so when their turn comes: what they wait for has only become dearer,
+// but for the few to which the survivor is nearer than what is gone.
+void requeueAround(Simplifier& s, VertexHandle survivor, std::uint32_t gone) {
+    const bool atOnce = s.liveFaces <= mostFacesToFollow;
+    const auto outdate = [&](std::uint32_t v) {
+        Candidate& candidate = s.candidates[v];
+        if (!atOnce && candidate.edge.is_valid() && candidate.fit == Fit::good)
+            candidate.outdated = true;
+        else
+            enqueueCheapest(s, v);
+    };
+    outdate(index(survivor));
     forEachOutgoing(s.mesh, survivor, [&](HalfedgeHandle edge) {
         const std::uint32_t v = index(s.mesh.to_vertex_handle(edge));
-        const HalfedgeHandle back = s.mesh.opposite_halfedge_handle(edge);
         const Candidate& candidate = s.candidates[v];
-        const VertexHandle chosen =
-            candidate.edge.is_valid() ? s.mesh.to_vertex_handle(candidate.edge) : VertexHandle();
-        const bool known = candidate.fit == Fit::good && chosen.is_valid() && chosen != survivor;
-        if (!known)
-            enqueueCheapest(s, v);
-        else if (const float cost = collapseCost(s, back); cost < candidate.cost)
-            enqueue(s, v, {back, cost, Fit::good});
+        const bool known = candidate.edge.is_valid() && candidate.fit == Fit::good && candidate.to != gone &&
+                           candidate.to != index(survivor);
+        if (!known) return outdate(v);
+        if (!atOnce || candidate.outdated) return;
+        const HalfedgeHandle back = s.mesh.opposite_halfedge_handle(edge);
+        if (const float cost = collapseCost(s, back); cost < candidate.cost)
+            enqueue(s, v, {back, index(survivor), cost});
     });
 }
 
@@ -85,9 +97,9 @@ void collapse(Simplifier& s, HalfedgeHandle edge) {
         if (s.mesh.face_handle(side).is_valid()) --s.liveFaces;
     for (const Retarget& retarget : s.retargets) {
         const std::uint32_t old = s.corners.wedge[retarget.corner];
-        if (old != retarget.wedge && s.attributeQuadrics[old].squares.weight > 0) {
+        if (old != retarget.wedge && s.wedges[old].quadric.squares.weight > 0) {
             addAttributeQuadric(s, old, retarget.wedge, step);
-            s.attributeQuadrics[old] = {};
+            s.wedges[old].quadric = {};
         }
         s.corners.vertex[retarget.corner] = to;
         s.corners.wedge[retarget.corner] = retarget.wedge;
@@ -95,7 +107,7 @@ void collapse(Simplifier& s, HalfedgeHandle edge) {
     s.quadrics[to].add(s.quadrics[from], step);
     s.survivors[from] = to;
     removeEdge(s.mesh, edge);
-    requeueAround(s, survivor);
+    requeueAround(s, survivor, from);
 }
 
 // Collapses in order of fit and cost until `target` faces are left; false if nothing more is possible before.
@@ -111,6 +123,10 @@ bool collapseTo(Simplifier& s, std::size_t target) {
         }
         const std::uint32_t v = s.queue.takeBest();
         const Candidate candidate = s.candidates[v];
+        if (candidate.outdated) {
+            enqueueCheapest(s, v);
+            continue;
+        }
         if (judgeCollapse(s, candidate.edge) > candidate.fit) {
             enqueueBest(s, v);
             continue;
@@ -121,17 +137,55 @@ bool collapseTo(Simplifier& s, std::size_t target) {
     return true;
 }
 
-SimplifiedLevel snapshot(Simplifier& s, std::size_t primitiveCount) {
-    SimplifiedLevel level;
+std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
+    while (s.survivors[v] != v) v = s.survivors[v] = s.survivors[s.survivors[v]];
+    return v;
+}
+
+Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
+    Snapshot level;
+    std::vector<std::uint32_t> numbers(s.points.size(), 0);
+    for (std::uint32_t v = 0; v < s.points.size(); ++v) {
+        if (s.survivors[v] != v) continue;
+        numbers[v] = static_cast<std::uint32_t>(level.points.size());
+        level.points.push_back(s.points[v]);
+    }
+    level.nearest.reserve(s.points.size());
+    for (std::uint32_t v = 0; v < s.points.size(); ++v) level.nearest.push_back(numbers[survivorOf(s, v)]);
+
     const std::vector<std::uint32_t> wedges = creasedWedges(s);
-    level.triangles.primitiveIndexCounts.assign(primitiveCount, 0);
-    level.triangles.indices.reserve(3 * s.liveFaces);
+    level.primitiveIndexCounts.assign(primitiveCount, 0);
+    level.wedges.reserve(3 * s.liveFaces);
+    level.corners.reserve(3 * s.liveFaces);
     for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
         if (!isAlive(s, face)) continue;
-        for (std::uint32_t i = 0; i < 3; ++i) level.triangles.indices.push_back(wedges[3 * face + i]);
-        level.triangles.primitiveIndexCounts[s.corners.primitive[face]] += 3;
+        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
+            level.wedges.push_back(wedges[corner]);
+            level.corners.push_back(numbers[s.corners.vertex[corner]]);
+        }
+        level.primitiveIndexCounts[s.corners.primitive[face]] += 3;
     }
-    level.anchors = anchors(s, wedges);
+    level.twins = s.twins;
+    return level;
+}
+
+SimplifiedLevel described(const Simplifier& s, const Snapshot& snapshot) {
+    SimplifiedLevel level;
+    level.anchors = anchors(s, snapshot);
+    level.primitiveIndexCounts = snapshot.primitiveIndexCounts;
+    const auto vertexCount = static_cast<std::uint32_t>(s.firstCorner.size());
+    std::vector<std::uint32_t> local(vertexCount + snapshot.twins.size(), EdgeSide::none);
+    level.mesh.indices.reserve(snapshot.wedges.size());
+    for (const std::uint32_t wedge : snapshot.wedges) {
+        if (local[wedge] == EdgeSide::none) {
+            local[wedge] = static_cast<std::uint32_t>(level.numbers.size());
+            const bool twin = wedge >= vertexCount;
+            level.numbers.push_back(wedge);
+            level.mesh.sources.push_back(twin ? snapshot.twins[wedge - vertexCount] : wedge);
+            level.mesh.apart.push_back(twin ? 1 : 0);
+        }
+        level.mesh.indices.push_back(local[wedge]);
+    }
     return level;
 }
 
@@ -169,25 +223,29 @@ std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
 }  // namespace
 
 Simplification simplify(const Vertices& vertices, const Welded& positions, const LevelTriangles& triangles,
-                        const SimplifyOptions& options) {
+                        const SimplifyOptions& options, Tasks& tasks,
+                        const std::function<void(std::uint32_t, SimplifiedLevel)>& take) {
     Simplification result;
-    Simplifier s = prepareSimplifier(vertices, positions, triangles);
-    result.repairedFaces = s.repairedFaces;
-    rememberCorners(s, vertices.count());
+    const auto s = std::make_shared<Simplifier>(prepareSimplifier(vertices, positions, triangles));
+    result.repairedFaces = s->repairedFaces;
+    rememberCorners(*s, vertices.count());
 
     // Collapse, and take a picture whenever half of the triangles are gone.
-    s.candidates.resize(s.points.size());
-    fillQueue(s);
-    while (result.levels.size() < static_cast<std::size_t>(std::max(0, options.mostLevels))) {
-        const std::size_t before = s.liveFaces;
-        const std::size_t target = nextTarget(s, options.leastTriangles);
+    s->candidates.resize(s->points.size());
+    fillQueue(*s);
+    while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
+        const std::size_t before = s->liveFaces;
+        const std::size_t target = nextTarget(*s, options.leastTriangles);
         const auto enough = static_cast<std::size_t>(largestShare * static_cast<double>(before));
         if (target > enough || before == 0) break;
-        const bool reached = collapseTo(s, target);
-        if (s.liveFaces <= enough) result.levels.push_back(snapshot(s, triangles.primitiveIndexCounts.size()));
+        const bool reached = collapseTo(*s, target);
+        if (s->liveFaces <= enough) {
+            const auto picture = std::make_shared<const Snapshot>(snapshot(*s, triangles.primitiveIndexCounts.size()));
+            tasks.add([s, picture, take, l = result.levelCount++] { take(l, described(*s, *picture)); });
+        }
         if (!reached) break;
     }
-    result.twins = std::move(s.twins);
+    result.twins = s->twins;
     return result;
 }
 

@@ -12,8 +12,10 @@
 // a closed surface is closed at every level, and a component ends as a tetrahedron or its like.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "core/parallel.h"
 #include "lod/level_fit.h"
 #include "lod/level_order.h"
 #include "lod/weld.h"
@@ -27,20 +29,26 @@ struct SimplifyOptions {
 };
 
 struct SimplifiedLevel {
-    LevelTriangles triangles;
-    std::vector<Anchor> anchors;  // one a mesh vertex
+    LevelMesh mesh;  // primitive after primitive
+    std::vector<std::uint32_t> primitiveIndexCounts;
+    // For each vertex of `mesh` its number: that of the mesh's vertex, or vertexCount + i for the twin i.
+    std::vector<std::uint32_t> numbers;
+    std::vector<Anchor> anchors;  // one a vertex of the mesh
 };
 
 struct Simplification {
-    std::vector<SimplifiedLevel> levels;  // coarser and coarser, the mesh itself not among them; may be empty
-    // Levels may name more vertices than the mesh has: number `vertexCount + i` is a second one beside the mesh's
-    // vertex twins[i], for the other side of a thin sheet whose rim has collapsed.
+    // A twin is a second vertex beside twins[i] of the mesh, for the other side of a thin sheet whose rim has
+    // collapsed.
     std::vector<std::uint32_t> twins;
+    std::uint32_t levelCount = 0;  // coarser and coarser, the mesh itself not among them; may be 0
     std::uint32_t repairedFaces = 0;
 };
 
-// Each level halves the triangles; the levels end where less than a quarter can be saved.
+// Each level halves the triangles; the levels end where less than a quarter can be saved. Each is given to
+// take(l, level) once, l = 0 … levelCount − 1, by whichever thread of `tasks` has made its anchors; all are when
+// tasks.wait() has returned, which the caller does.
 Simplification simplify(const Vertices& vertices, const Welded& positions, const LevelTriangles& triangles,
-                        const SimplifyOptions& options = {});
+                        const SimplifyOptions& options, Tasks& tasks,
+                        const std::function<void(std::uint32_t, SimplifiedLevel)>& take);
 
 }  // namespace defocus

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "lod/simplify_state.h"
@@ -14,32 +15,54 @@ namespace defocus {
 namespace {
 
 constexpr std::size_t mostSteps = 12;  // vertices whose faces are looked at, on the way to the closest face
+constexpr std::uint32_t noFace = 0xffffffffu;
 
-std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
-    while (s.survivors[v] != v) v = s.survivors[v] = s.survivors[s.survivors[v]];
-    return v;
-}
+// The level's faces, and which lie around each vertex.
+struct FaceRings {
+    const Snapshot& level;
+    std::vector<glm::dvec3> normals;   // of the faces, as long as twice the area
+    std::vector<std::uint32_t> first;  // of each vertex, into `faces`
+    std::vector<std::uint32_t> faces;
 
-bool looksAlong(const Simplifier& s, const std::uint32_t* corner, const glm::dvec3& side) {
-    const glm::dvec3& a = s.points[corner[0]];
-    return glm::dot(glm::cross(s.points[corner[1]] - a, s.points[corner[2]] - a), side) > 0;
+    [[nodiscard]] std::span<const std::uint32_t> around(std::uint32_t v) const {
+        return std::span(faces).subspan(first[v], first[v + 1] - first[v]);
+    }
+    [[nodiscard]] const glm::dvec3& point(std::size_t corner) const { return level.points[level.corners[corner]]; }
+};
+
+FaceRings faceRings(const Snapshot& level) {
+    FaceRings rings{level, {}, {}, {}};
+    const std::vector<std::uint32_t>& corners = level.corners;
+    rings.first.assign(level.points.size() + 1, 0);
+    for (const std::uint32_t v : corners) ++rings.first[v + 1];
+    std::partial_sum(rings.first.begin(), rings.first.end(), rings.first.begin());
+    rings.faces.resize(corners.size());
+    std::vector<std::uint32_t> next(rings.first.begin(), rings.first.end() - 1);
+    rings.normals.reserve(corners.size() / 3);
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+        rings.faces[next[corners[corner]]++] = static_cast<std::uint32_t>(corner / 3);
+        if (corner % 3 != 0) continue;
+        const glm::dvec3& a = rings.point(corner);
+        rings.normals.push_back(glm::cross(rings.point(corner + 1) - a, rings.point(corner + 2) - a));
+    }
+    return rings;
 }
 
 struct Closest {
     double squaredDistance = 0;
-    glm::dvec3 point{0};
-    std::uint32_t face = EdgeSide::none;  // none: the vertex itself is the closest point
+    glm::dvec2 along{0};          // see closestCoordinates
+    std::uint32_t face = noFace;  // none: the vertex itself is the closest point
 };
 
-// The corner of `face` nearest to `p` that isn't among `seen`; EdgeSide::none if all are.
-std::uint32_t nearestUnseen(const Simplifier& s, std::uint32_t face, const glm::dvec3& p,
+// The corner of `face` nearest to `p` that isn't among `seen`; noFace if all are.
+std::uint32_t nearestUnseen(const FaceRings& rings, std::uint32_t face, const glm::dvec3& p,
                             std::span<const std::uint32_t> seen) {
-    std::uint32_t nearest = EdgeSide::none;
+    std::uint32_t nearest = noFace;
     double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
-        const std::uint32_t v = s.corners.vertex[corner];
+    for (std::size_t corner = 3 * std::size_t{face}; corner < 3 * std::size_t{face} + 3; ++corner) {
+        const std::uint32_t v = rings.level.corners[corner];
         if (std::find(seen.begin(), seen.end(), v) != seen.end()) continue;
-        const glm::dvec3 offset = p - s.points[v];
+        const glm::dvec3 offset = p - rings.point(corner);
         if (const double distance = glm::dot(offset, offset); distance < least) {
             least = distance;
             nearest = v;
@@ -48,67 +71,72 @@ std::uint32_t nearestUnseen(const Simplifier& s, std::uint32_t face, const glm::
     return nearest;
 }
 
-// The point of the level's surface closest to vertex `v`, near its survivor: from the faces around one vertex to those
-// around the corners of the closest, as long as that leads closer.
+bool isInside(const glm::dvec2& along) {
+    return along.x > 0 && along.y > 0 && along.x + along.y < 1;
+}
+
+// The point of the level's surface closest to `p`, near the vertex `start`: from the faces around one vertex to those
+// around the corners of the closest, as long as that leads closer and no face lies straight below.
 // Only faces that look to `side` count: a thin fin has two sides in one place.
-Closest closestTo(Simplifier& s, std::uint32_t v, const glm::dvec3& side) {
+Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t start, const glm::dvec3& side) {
     Closest result;
-    const glm::dvec3& p = s.points[v];
-    std::uint32_t nearest = survivorOf(s, v);
-    double least = glm::dot(p - s.points[nearest], p - s.points[nearest]);
+    std::uint32_t nearest = start;
+    const glm::dvec3 away = p - rings.level.points[start];
+    double least = glm::dot(away, away);
     std::array<std::uint32_t, mostSteps> seen;
-    for (std::size_t step = 0; step < mostSteps && least > 0 && nearest != EdgeSide::none; ++step) {
+    for (std::size_t step = 0; step < mostSteps && least > 0 && nearest != noFace; ++step) {
         seen[step] = nearest;
-        facesAround(s, vertexHandle(nearest), s.facesFrom);
-        for (const std::uint32_t face : s.facesFrom) {
-            const std::uint32_t* corner = &s.corners.vertex[3 * std::size_t{face}];
-            const glm::dvec3 point = closestPoint(p, s.points[corner[0]], s.points[corner[1]], s.points[corner[2]]);
-            const glm::dvec3 offset = p - point;
+        for (const std::uint32_t face : rings.around(nearest)) {
+            if (!(glm::dot(rings.normals[face], side) > 0)) continue;
+            const std::size_t corner = 3 * std::size_t{face};
+            const glm::dvec3& a = rings.point(corner);
+            const glm::dvec3& b = rings.point(corner + 1);
+            const glm::dvec3& c = rings.point(corner + 2);
+            const glm::dvec2 along = closestCoordinates(p, a, b, c);
+            const glm::dvec3 offset = p - a - along.x * (b - a) - along.y * (c - a);
             const double distance = glm::dot(offset, offset);
             if (!(distance < least)) continue;  // NaN of a degenerate face is passed over
-            if (!looksAlong(s, corner, side)) continue;
             least = distance;
-            result.point = point;
+            result.along = along;
             result.face = face;
         }
-        if (result.face == EdgeSide::none) break;
-        nearest = nearestUnseen(s, result.face, p, std::span(seen.data(), step + 1));
+        if (result.face == noFace || isInside(result.along)) break;
+        nearest = nearestUnseen(rings, result.face, p, std::span(seen.data(), step + 1));
     }
     result.squaredDistance = least;
     return result;
 }
 
-// Barycentric coordinates of `p`, a point of the triangle.
-glm::vec3 barycentric(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double area = glm::dot(normal, normal);
-    if (!(area > 0)) return glm::vec3(1, 0, 0);
-    const double u = std::clamp(glm::dot(glm::cross(c - b, p - b), normal) / area, 0.0, 1.0);
-    const double v = std::clamp(glm::dot(glm::cross(a - c, p - c), normal) / area, 0.0, 1.0 - u);
-    return {u, v, 1 - u - v};
-}
-
 }  // namespace
 
-std::vector<Anchor> anchors(Simplifier& s, const std::vector<std::uint32_t>& wedges) {
+std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level) {
+    const FaceRings rings = faceRings(level);
+    std::vector<std::uint32_t> cornerOf(s.firstCorner.size(), noFace);  // of each of the mesh's vertices
+    for (std::uint32_t corner = 0; corner < level.wedges.size(); ++corner)
+        if (level.wedges[corner] < cornerOf.size()) cornerOf[level.wedges[corner]] = corner;
+    std::vector<std::uint32_t> firstFaces = {0};  // of each primitive
+    for (const std::uint32_t count : level.primitiveIndexCounts) firstFaces.push_back(firstFaces.back() + count / 3);
+
     std::vector<Anchor> result(s.firstCorner.size());
     for (std::uint32_t wedge = 0; wedge < result.size(); ++wedge) {
         if (s.firstCorner[wedge] == EdgeSide::none) continue;
         Anchor& anchor = result[wedge];
+        const std::uint32_t v = s.firstVertex[wedge];
         const glm::dvec3 side = s.corners.attributes[wedge].normal;
-        const Closest closest = closestTo(s, s.firstVertex[wedge], side);
-        if (closest.face == EdgeSide::none) {
-            if (closest.squaredDistance == 0) anchor = {{wedge, wedge, wedge}, {1, 0, 0}};
+        const Closest closest = closestTo(rings, s.points[v], level.nearest[v], side);
+        if (closest.face == noFace) {
+            const std::uint32_t corner = cornerOf[wedge];
+            if (closest.squaredDistance != 0 || corner == noFace) continue;
+            anchor.triangle = corner / 3;
+            anchor.weight[corner % 3] = 1;
             continue;
         }
-        if (s.corners.primitive[closest.face] != s.corners.primitive[s.firstCorner[wedge] / 3]) continue;
-        const std::size_t corner = 3 * std::size_t{closest.face};
-        const std::uint32_t* v = &s.corners.vertex[corner];
-        const glm::vec3 weights = barycentric(closest.point, s.points[v[0]], s.points[v[1]], s.points[v[2]]);
-        for (int k = 0; k < 3; ++k) {
-            anchor.vertex[k] = wedges[corner + static_cast<std::size_t>(k)];
-            anchor.weight[k] = weights[k];
-        }
+        const std::uint32_t primitive = s.corners.primitive[s.firstCorner[wedge] / 3];
+        if (closest.face < firstFaces[primitive] || closest.face >= firstFaces[primitive + 1]) continue;
+        anchor.triangle = closest.face;
+        anchor.weight[0] = static_cast<float>(1 - closest.along.x - closest.along.y);
+        anchor.weight[1] = static_cast<float>(closest.along.x);
+        anchor.weight[2] = static_cast<float>(closest.along.y);
     }
     return result;
 }

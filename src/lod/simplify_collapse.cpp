@@ -19,8 +19,6 @@ void replaceOuter(TriConnectivity& mesh, HalfedgeHandle outer, HalfedgeHandle in
     if (beyond.is_valid() && mesh.halfedge_handle(beyond) == outer) mesh.set_halfedge_handle(beyond, inner);
     mesh.set_next_halfedge_handle(mesh.prev_halfedge_handle(outer), inner);
     mesh.set_next_halfedge_handle(inner, mesh.next_halfedge_handle(outer));
-    mesh.set_vertex_handle(outer, VertexHandle());
-    mesh.set_vertex_handle(mesh.opposite_halfedge_handle(outer), VertexHandle());
 }
 
 // The face beside `side`, one of the edge's two half-edges, goes; `kept` is its edge at the survivor, `lost` the one at
@@ -73,8 +71,6 @@ void removeEdge(TriConnectivity& mesh, HalfedgeHandle edge) {
     }
     mesh.set_halfedge_handle(to, first);
     mesh.set_halfedge_handle(from, HalfedgeHandle());
-    mesh.set_vertex_handle(edge, VertexHandle());
-    mesh.set_vertex_handle(opposite, VertexHandle());
 }
 
 }  // namespace defocus

@@ -18,7 +18,7 @@ constexpr float edgeWeight = 1e-4f;
 
 AttributeRow change(const Simplifier& s, std::uint32_t from, std::uint32_t to) {
     AttributeRow result;
-    for (std::size_t j = 0; j < attributeCount; ++j) result[j] = s.rows[to][j] - s.rows[from][j];
+    for (std::size_t j = 0; j < attributeCount; ++j) result[j] = s.wedges[to].row[j] - s.wedges[from].row[j];
     return result;
 }
 
@@ -28,7 +28,7 @@ float placeCost(const Simplifier& s, std::uint32_t from, std::uint32_t to, const
 }
 
 float wedgeCost(const Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step) {
-    return s.attributeQuadrics[from].at(step, change(s, from, to)) + s.attributeQuadrics[to].squares.c;
+    return s.wedges[from].quadric.at(step, change(s, from, to)) + s.wedges[to].quadric.squares.c;
 }
 
 glm::vec3 stepBetween(const Simplifier& s, std::uint32_t from, std::uint32_t to) {
@@ -87,6 +87,7 @@ Candidate cheapestCollapse(Simplifier& s, std::uint32_t v) {
             cost += wedgeCost(s, other.wedge, other.farWedge, step);
         if (cost < best.cost) {
             best.edge = spoke.edge;
+            best.to = spoke.to;
             best.cost = cost;
         }
     }
@@ -94,7 +95,7 @@ Candidate cheapestCollapse(Simplifier& s, std::uint32_t v) {
 }
 
 void addAttributeQuadric(Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step) {
-    s.attributeQuadrics[to].add(s.attributeQuadrics[from], step, change(s, from, to));
+    s.wedges[to].quadric.add(s.wedges[from].quadric, step, change(s, from, to));
 }
 
 }  // namespace defocus

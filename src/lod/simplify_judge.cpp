@@ -41,7 +41,7 @@ Fit judgeMovedFace(const Simplifier& s, std::uint32_t face, std::uint32_t from, 
     return quality < sliverQuality && quality * edges(a) < lengthBefore ? Fit::poor : Fit::good;
 }
 
-bool isBorder(const Simplifier& s, VertexHandle v) {
+bool isOnBorder(const Simplifier& s, VertexHandle v) {
     return !s.mesh.face_handle(s.mesh.halfedge_handle(v)).is_valid();
 }
 
@@ -69,9 +69,9 @@ bool keepsTopology(Simplifier& s, HalfedgeHandle edge) {
     const VertexHandle to = s.mesh.to_vertex_handle(edge);
     const VertexHandle left = apex(s, edge);
     const VertexHandle right = apex(s, opposite);
-    const bool inside = !isBorder(s, from) && !isBorder(s, to);
+    const bool inside = !isOnBorder(s, from) && !isOnBorder(s, to);
     if (left == right || isFlap(s, edge) || isFlap(s, opposite)) return false;
-    if (left.is_valid() && right.is_valid() && isBorder(s, from) && isBorder(s, to)) return false;
+    if (left.is_valid() && right.is_valid() && isOnBorder(s, from) && isOnBorder(s, to)) return false;
 
     s.marks.resize(s.points.size(), 0);
     ++s.markNumber;
@@ -119,7 +119,7 @@ Fit judgeCollapse(Simplifier& s, HalfedgeHandle edge) {
     Fit worst = retargetWedges(s.corners, question, s.retargets);
 
     const bool alongBorder = !s.mesh.face_handle(edge).is_valid() || !s.mesh.face_handle(opposite).is_valid();
-    if (isBorder(s, from) && !alongBorder) worst = std::max(worst, Fit::poor);
+    if (isOnBorder(s, from) && !alongBorder) worst = std::max(worst, Fit::poor);
     for (const std::uint32_t face : s.facesFrom)
         if (face != question.sides[0].face && face != question.sides[1].face)
             worst = std::max(worst, judgeMovedFace(s, face, question.from, s.points[question.to]));

@@ -110,25 +110,25 @@ double rimConstraint(const Simplifier& s, const Manifold& manifold, std::uint32_
 
 // Attributes in lengths of the unit frame.
 void buildAttributeRows(Simplifier& s) {
-    s.rows.reserve(s.corners.attributes.size());
-    for (const WedgeAttributes& a : s.corners.attributes) {
+    s.wedges.resize(s.corners.attributes.size());
+    for (std::size_t w = 0; w < s.wedges.size(); ++w) {
+        const WedgeAttributes& a = s.corners.attributes[w];
         const glm::vec3 normal = normalWeight * a.normal;
         const glm::vec3 color = colorWeight * a.color;
         const glm::vec2 uv = uvWeight * a.uv;
-        s.rows.push_back({normal.x, normal.y, normal.z, color.x, color.y, color.z, uv.x, uv.y});
+        s.wedges[w].row = {normal.x, normal.y, normal.z, color.x, color.y, color.z, uv.x, uv.y};
     }
 }
 
 void buildAttributeQuadrics(Simplifier& s) {
     buildAttributeRows(s);
-    s.attributeQuadrics.resize(s.rows.size());
     for (std::size_t first = 0; first < s.corners.vertex.size(); first += 3) {
         const glm::dvec3* points[3];
         const AttributeRow* rows[3];
         double squaredEdges = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             points[i] = &s.points[s.corners.vertex[first + i]];
-            rows[i] = &s.rows[s.corners.wedge[first + i]];
+            rows[i] = &s.wedges[s.corners.wedge[first + i]].row;
             const glm::dvec3 edge = s.points[s.corners.vertex[first + (i + 1) % 3]] - *points[i];
             squaredEdges += glm::dot(edge, edge);
         }
@@ -136,7 +136,7 @@ void buildAttributeQuadrics(Simplifier& s) {
         if (!(doubleArea > leastQuality * squaredEdges)) continue;  // its gradients would be noise
         const AttributeGradients gradients = attributeGradients(points, rows);
         for (std::size_t i = 0; i < 3; ++i)
-            s.attributeQuadrics[s.corners.wedge[first + i]].addFace(gradients, static_cast<float>(doubleArea / 6));
+            s.wedges[s.corners.wedge[first + i]].quadric.addFace(gradients, static_cast<float>(doubleArea / 6));
     }
 }
 

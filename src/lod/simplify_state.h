@@ -19,8 +19,10 @@ namespace defocus {
 // The collapse that a vertex waits for in the queue.
 struct Candidate {
     OpenMesh::HalfedgeHandle edge;  // from the vertex to the survivor; invalid: none
+    std::uint32_t to = 0;           // the survivor
     float cost = std::numeric_limits<float>::infinity();
-    Fit fit = Fit::good;  // as far as it has been looked at
+    Fit fit = Fit::good;    // as far as it has been looked at
+    bool outdated = false;  // no longer its best, or not at this cost
 };
 
 // An edge out of a vertex, and the face that it runs along.
@@ -33,14 +35,18 @@ struct Spoke {
     std::uint32_t farWedge = EdgeSide::none;  // of the face's third vertex
 };
 
+struct WedgeQuadric {
+    AttributeRow row;  // attributes as lengths that weigh as much as distances do
+    AttributeQuadric quadric;
+};
+
 struct Simplifier {
     OpenMesh::TriConnectivity mesh;  // vertex and face numbers are those of the manifold
     Corners corners;
     std::vector<glm::dvec3> points;  // of the vertices; the mesh's longest side is 1
     double scale = 0;                // object units per unit of `points`; 0: nothing to simplify
     std::vector<Quadric> quadrics;
-    std::vector<AttributeRow> rows;  // attributes of each mesh vertex, as lengths that weigh as much as distances do
-    std::vector<AttributeQuadric> attributeQuadrics;  // of each mesh vertex
+    std::vector<WedgeQuadric> wedges;      // of each mesh vertex
     std::vector<std::uint32_t> survivors;  // for each vertex the one it collapsed onto, itself while it lives
     std::vector<Candidate> candidates;
     CollapseQueue queue;
@@ -100,14 +106,24 @@ Candidate cheapestCollapse(Simplifier& s, std::uint32_t v);
 void addAttributeQuadric(Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step);
 
 // simplify_collapse.cpp: takes the vertex that `edge` leaves and the faces beside the edge out of the mesh, which the
-// link condition allows. Half-edges that are gone lead to an invalid vertex.
+// link condition allows.
 void removeEdge(OpenMesh::TriConnectivity& mesh, OpenMesh::HalfedgeHandle edge);
-
-// simplify_anchors.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive;
-// `wedges` (one a corner) are the vertices that they name.
-std::vector<Anchor> anchors(Simplifier& s, const std::vector<std::uint32_t>& wedges);
 
 // simplify_creases.cpp: the wedges of all corners, split into two where the faces around one look opposite ways.
 std::vector<std::uint32_t> creasedWedges(Simplifier& s);
+
+// A level as it was when the collapses had come to it, for what is found out about it while they go on.
+struct Snapshot {
+    std::vector<std::uint32_t> wedges;   // three a face; numbers from the mesh's vertex count on are twins
+    std::vector<std::uint32_t> corners;  // the same in vertices of the level's surface, numbered from 0
+    std::vector<std::uint32_t> primitiveIndexCounts;
+    std::vector<glm::dvec3> points;      // of the level's surface
+    std::vector<std::uint32_t> nearest;  // for each vertex of the mesh's surface, the level's that it collapsed onto
+    std::vector<std::uint32_t> twins;
+};
+
+// simplify_anchors.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive.
+// Reads nothing of `s` that collapses change.
+std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level);
 
 }  // namespace defocus

@@ -33,15 +33,15 @@ OneTriangle oneTriangle() {
         for (int j = 0; i + j <= 10; ++j) {
             const bool corner = i == 10 || j == 10 || i + j == 0;
             if (corner) continue;
-            Anchor anchor{{0, 1, 2}, {0.1f * float(i), 0.1f * float(j), 1 - 0.1f * float(i + j)}};
+            Anchor anchor{0, {0.1f * float(i), 0.1f * float(j), 1 - 0.1f * float(i + j)}};
             result.anchors.push_back(anchor);
         }
-    std::vector<Anchor> corners = {{{0, 0, 0}, {1, 0, 0}}, {{1, 1, 1}, {1, 0, 0}}, {{2, 2, 2}, {1, 0, 0}}};
+    std::vector<Anchor> corners = {{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}};
     result.anchors.insert(result.anchors.begin(), corners.begin(), corners.end());
     const glm::vec3 corner[3] = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}};
     for (const Anchor& anchor : result.anchors) {
         glm::vec3 position(0);
-        for (int k = 0; k < 3; ++k) position += anchor.weight[k] * corner[anchor.vertex[k]];
+        for (int k = 0; k < 3; ++k) position += anchor.weight[k] * corner[k];
         result.vertices.positions.push_back(position);
         result.vertices.normals.push_back(up);
         result.vertices.colors.emplace_back(0, 0, 0, 255);
@@ -49,13 +49,17 @@ OneTriangle oneTriangle() {
     return result;
 }
 
-defocus::LevelFit fitOf(const OneTriangle& t) {
-    const std::vector<std::uint32_t> indices = {0, 1, 2};
+// The level is the triangle, and as many more of the vertices behind it as `indices` name.
+defocus::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& indices = {0, 1, 2}) {
     const Welded positions = weldPositions(t.vertices.positions);
-    FitSource source = prepareFit(t.vertices, positions, t.anchors.size(), indices);
+    FitSource source = prepareFit(t.vertices, positions, indices);
     source.areas.assign(t.anchors.size(), 1);  // level 0's triangles are nowhere written down: all alike
     source.bounds.extend({0, 0, 1});
-    return fitLevel(source, t.anchors, indices);
+    LevelMesh level;
+    level.indices = indices;
+    for (std::uint32_t v = 0; v < indices.size(); ++v) level.sources.push_back(v);
+    level.apart.assign(indices.size(), 0);
+    return fitLevel(source, level, t.anchors);
 }
 
 TEST(LevelFit, flatTriangleStaysWhereItIs) {
@@ -92,7 +96,7 @@ TEST(LevelFit, colourThatIsLinearOverTheTriangleIsKept) {
     const float corner[3] = {40, 120, 220};
     for (std::size_t v = 0; v < t.anchors.size(); ++v) {
         float value = 0;
-        for (int k = 0; k < 3; ++k) value += t.anchors[v].weight[k] * corner[t.anchors[v].vertex[k]];
+        for (int k = 0; k < 3; ++k) value += t.anchors[v].weight[k] * corner[k];
         t.vertices.colors[v].r = static_cast<std::uint8_t>(std::lround(value));
     }
     const defocus::LevelFit fitted = fitOf(t);
@@ -126,11 +130,30 @@ TEST(LevelFit, equalNormalsStayUnitLength) {
 
 TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     OneTriangle t = oneTriangle();
-    t.vertices.colors[7] = {9, 8, 7, 6};
-    t.vertices.normals[7] = right;
-    const defocus::LevelFit fitted = fitOf(t);
-    EXPECT_EQ(fitted.colors[7], t.vertices.colors[7]);
-    EXPECT_EQ(fitted.normals[7], right);
+    t.vertices.colors[4] = {9, 8, 7, 6};
+    t.vertices.normals[4] = right;
+    t.vertices.positions[4] = {2, 3, 0};
+    const defocus::LevelFit fitted = fitOf(t, {0, 1, 2, 3, 4, 5});
+    EXPECT_EQ(fitted.positions[4], t.vertices.positions[4]);
+    EXPECT_EQ(fitted.colors[4], t.vertices.colors[4]);
+    EXPECT_EQ(fitted.normals[4], right);
+}
+
+// Two vertices at one place with one normal: one of them a twin, which only its own anchors move.
+TEST(LevelFit, aTwinHasANormalOfItsOwn) {
+    OneTriangle t = oneTriangle();
+    for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)
+        t.vertices.normals[v] = glm::normalize(glm::vec3(0.2f, 0, 1));
+    for (std::size_t v = 0; v < 3; ++v) t.vertices.normals[v] = up;
+    const Welded positions = weldPositions(t.vertices.positions);
+    const std::vector<std::uint32_t> indices = {0, 1, 2};
+    FitSource source = prepareFit(t.vertices, positions, indices);
+    source.areas.assign(t.anchors.size(), 1);
+    const LevelMesh level{{0, 1, 2, 3, 1, 2}, {0, 1, 2, 0}, {0, 0, 0, 1}};
+    const defocus::LevelFit fitted = fitLevel(source, level, t.anchors);
+    EXPECT_EQ(fitted.positions[3], fitted.positions[0]);
+    EXPECT_GT(fitted.normals[0].x, 0.05f);
+    EXPECT_EQ(fitted.normals[3], up);
 }
 
 }  // namespace
