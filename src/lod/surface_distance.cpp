@@ -5,7 +5,6 @@
 #include "lod/surface_distance.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,7 +18,10 @@ namespace defocus {
 
 namespace {
 
-constexpr std::size_t mostTrianglesPerLeaf = 4;
+constexpr std::size_t mostTrianglesPerLeaf = 2;
+constexpr std::size_t arity = 4;  // of the tree
+// What single precision may be off by at a coordinate, as a share of the largest of both sides.
+constexpr float rounding = 2.5e-7f;
 constexpr double mortonCells = 1023;  // an axis: 10 bits each
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // 1/g and 1/g², g³ = g + 1.
@@ -32,6 +34,11 @@ double areaOf(const Triangle& t) {
     const glm::dvec3 a = t[0];
     return 0.5 * glm::length(glm::cross(glm::dvec3(t[1]) - a, glm::dvec3(t[2]) - a));
 }
+
+struct Box {
+    glm::vec3 minimum{std::numeric_limits<float>::infinity()};
+    glm::vec3 maximum{-std::numeric_limits<float>::infinity()};
+};
 
 Box around(const Box& a, const Box& b) {
     return {glm::min(a.minimum, b.minimum), glm::max(a.maximum, b.maximum)};
@@ -61,7 +68,7 @@ std::uint32_t spread(std::uint32_t bits) {
 }
 
 std::vector<Triangle> inMortonOrder(const std::vector<Triangle>& triangles) {
-    Box whole{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(-std::numeric_limits<float>::infinity())};
+    Box whole;
     for (const Triangle& t : triangles) whole = around(whole, boxOf(t));
     const glm::dvec3 size = glm::dvec3(whole.maximum) - glm::dvec3(whole.minimum);
     const double longest = std::max({size.x, size.y, size.z});
@@ -81,30 +88,52 @@ std::vector<Triangle> inMortonOrder(const std::vector<Triangle>& triangles) {
     return sorted;
 }
 
+std::size_t leafCount(const Surface& surface) {
+    return (arity - 1) * surface.nodes.size() + 1;
+}
+
 // The first triangle of a leaf; the leaf after the last gives the end.
 std::size_t leafStart(const Surface& surface, std::size_t leaf) {
-    return leaf * surface.triangles.size() / (surface.boxes.size() / 2);
+    return leaf * surface.triangles.size() / leafCount(surface);
 }
 
-void buildBoxes(Surface& surface) {
-    const std::size_t leaves =
-        std::bit_ceil((surface.triangles.size() + mostTrianglesPerLeaf - 1) / mostTrianglesPerLeaf);
-    surface.boxes.resize(2 * leaves);
-    for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
-        const std::size_t first = leafStart(surface, leaf);
-        Box box = boxOf(surface.triangles[first]);
-        for (std::size_t t = first + 1; t < leafStart(surface, leaf + 1); ++t)
-            box = around(box, boxOf(surface.triangles[t]));
-        surface.boxes[leaves + leaf] = box;
+void buildNodes(Surface& surface) {
+    std::size_t leaves = arity;
+    std::size_t inner = 1;
+    while (leaves * mostTrianglesPerLeaf < surface.triangles.size()) {
+        inner += leaves;
+        leaves *= arity;
     }
-    for (std::size_t i = leaves - 1; i > 0; --i)
-        surface.boxes[i] = around(surface.boxes[2 * i], surface.boxes[2 * i + 1]);
+    surface.nodes.resize(inner);
+    std::vector<Box> boxes(inner + leaves);  // of the nodes, then of the leaves
+    for (std::size_t leaf = 0; leaf < leaves; ++leaf)
+        for (std::size_t t = leafStart(surface, leaf); t < leafStart(surface, leaf + 1); ++t)
+            boxes[inner + leaf] = around(boxes[inner + leaf], boxOf(surface.triangles[t]));
+    for (std::size_t i = inner; i-- > 0;)
+        for (std::size_t k = 0; k < arity; ++k) {
+            const Box& child = boxes[arity * i + 1 + k];
+            boxes[i] = around(boxes[i], child);
+            for (glm::length_t axis = 0; axis < 3; ++axis) {
+                surface.nodes[i].minimum[axis][k] = child.minimum[axis];
+                surface.nodes[i].maximum[axis][k] = child.maximum[axis];
+            }
+        }
+    const glm::vec3 extent = glm::max(glm::abs(boxes[0].minimum), glm::abs(boxes[0].maximum));
+    surface.extent = std::max({extent.x, extent.y, extent.z});
 }
 
-double squaredDistance(const Box& box, const glm::dvec3& p) {
-    const glm::dvec3 outside =
-        glm::max(glm::max(glm::dvec3(box.minimum) - p, p - glm::dvec3(box.maximum)), glm::dvec3(0));
-    return glm::dot(outside, outside);
+// To the four boxes, squared; no more than it is. `slack` is what coordinates may be off by.
+Four squaredDistances(const BoxNode& node, const glm::vec3& p, float slack) {
+    const Four zero{};
+    Four sums{};
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+        const Four below = node.minimum[axis] - p[axis];
+        const Four above = p[axis] - node.maximum[axis];
+        const Four outside = (below > above ? below : above) - slack;
+        const Four distance = outside > zero ? outside : zero;
+        sums += distance * distance;
+    }
+    return sums;
 }
 
 double squaredDistance(const Triangle& t, const glm::dvec3& p) {
@@ -120,30 +149,39 @@ struct Nearest {
 // `guess`: a triangle that is likely near.
 Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t guess) {
     struct Entry {
+        float squaredDistance;
         std::size_t node;
-        double squaredDistance;
     };
-    std::array<Entry, 66> stack;  // one for each level of the tree, at most 64, and one
+    std::array<Entry, 3 * 32 + arity> stack;  // three for each level of the tree, at most 32, and what is on top
     std::size_t size = 0;
-    const std::size_t leaves = surface.boxes.size() / 2;
     Nearest nearest{squaredDistance(surface.triangles[guess], p), guess};
     if (!std::isfinite(nearest.squaredDistance)) nearest.squaredDistance = infinity;
-    stack[size++] = {1, squaredDistance(surface.boxes[1], p)};
+    const glm::vec3 place(p);
+    const float slack = rounding * std::max({surface.extent, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+    // A little more than it is, as sums of squares in single precision may be off too.
+    const auto bound = [&] { return static_cast<float>(nearest.squaredDistance * (1 + 1e-6)); };
+    float most = bound();
+    stack[size++] = {0, 0};
     while (size > 0) {
         const Entry entry = stack[--size];
-        if (!(entry.squaredDistance < nearest.squaredDistance)) continue;
-        if (entry.node >= leaves) {
-            const std::size_t leaf = entry.node - leaves;
+        if (!(entry.squaredDistance < most)) continue;
+        if (entry.node >= surface.nodes.size()) {
+            const std::size_t leaf = entry.node - surface.nodes.size();
             for (std::size_t t = leafStart(surface, leaf); t < leafStart(surface, leaf + 1); ++t)
                 if (const double squared = squaredDistance(surface.triangles[t], p); squared < nearest.squaredDistance)
                     nearest = {squared, t};
+            most = bound();
             continue;
         }
-        Entry nearer{2 * entry.node, squaredDistance(surface.boxes[2 * entry.node], p)};
-        Entry farther{2 * entry.node + 1, squaredDistance(surface.boxes[2 * entry.node + 1], p)};
-        if (farther.squaredDistance < nearer.squaredDistance) std::swap(nearer, farther);
-        if (farther.squaredDistance < nearest.squaredDistance) stack[size++] = farther;
-        if (nearer.squaredDistance < nearest.squaredDistance) stack[size++] = nearer;
+        // The nearest child on top.
+        const Four squared = squaredDistances(surface.nodes[entry.node], place, slack);
+        const std::size_t first = size;
+        for (std::size_t k = 0; k < arity; ++k) {
+            if (!(squared[k] < most)) continue;
+            std::size_t at = size++;
+            for (; at > first && stack[at - 1].squaredDistance < squared[k]; --at) stack[at] = stack[at - 1];
+            stack[at] = {squared[k], arity * entry.node + 1 + k};
+        }
     }
     return nearest;
 }
@@ -175,7 +213,7 @@ Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std
     double area = 0;
     surface.areas.reserve(surface.triangles.size());
     for (const Triangle& t : surface.triangles) surface.areas.push_back(area += areaOf(t));
-    buildBoxes(surface);
+    buildNodes(surface);
     return surface;
 }
 

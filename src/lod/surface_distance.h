@@ -16,18 +16,23 @@
 
 namespace defocus {
 
-struct Box {
-    glm::vec3 minimum;
-    glm::vec3 maximum;
+// Four numbers that GCC and Clang compute with at once.
+using Four = float __attribute__((vector_size(16)));
+
+// Boxes around the four children of a node.
+struct BoxNode {
+    Four minimum[3];  // x, y, z
+    Four maximum[3];
 };
 
 // Made by prepareSurface, then only read (from any number of threads).
 struct Surface {
     std::vector<std::array<glm::vec3, 3>> triangles;  // sorted along a Morton curve: neighbours are near in space
     std::vector<double> areas;                        // of the triangles up to and with each one
-    // A complete binary tree, root at 1, children of i at 2i and 2i + 1; the last half are leaves of up to 4 triangles,
-    // which share the triangles evenly in their order.
-    std::vector<Box> boxes;
+    // A complete tree, root at 0, children of i at 4i + 1 … 4i + 4; those beyond the last node are leaves, of up to 2
+    // triangles, which share the triangles evenly in their order.
+    std::vector<BoxNode> nodes;
+    float extent = 0;  // the largest absolute coordinate
 
     [[nodiscard]] bool empty() const { return triangles.empty(); }
 };
