@@ -51,8 +51,9 @@ public:
     }
 
     // Of a queue that isn't empty.
+    [[nodiscard]] std::uint32_t best() const { return static_cast<std::uint32_t>(heap_.front()); }
     std::uint32_t takeBest() {
-        const auto vertex = static_cast<std::uint32_t>(heap_.front());
+        const std::uint32_t vertex = best();
         take(vertex);
         return vertex;
     }

@@ -110,6 +110,15 @@ void collapse(Simplifier& s, HalfedgeHandle edge) {
     requeueAround(s, survivor, from);
 }
 
+// What looking at the vertex's collapses begins with.
+void prefetchVertex(const Simplifier& s, std::uint32_t v) {
+    prefetch(&s.candidates[v]);
+    prefetch(&s.points[v]);
+    prefetch(&s.quadrics[v]);
+    const HalfedgeHandle edge = s.mesh.halfedge_handle(vertexHandle(v));
+    prefetch(&s.mesh.halfedge(edge));
+}
+
 // Collapses in order of fit and cost until `target` faces are left; false if nothing more is possible before.
 bool collapseTo(Simplifier& s, std::size_t target) {
     bool collapsed = true;
@@ -122,6 +131,7 @@ bool collapseTo(Simplifier& s, std::size_t target) {
             continue;
         }
         const std::uint32_t v = s.queue.takeBest();
+        if (!s.queue.empty()) prefetchVertex(s, s.queue.best());
         const Candidate candidate = s.candidates[v];
         if (candidate.outdated) {
             enqueueCheapest(s, v);

@@ -39,6 +39,8 @@ Spoke spokeAlong(const Simplifier& s, HalfedgeHandle edge, std::uint32_t v) {
     Spoke spoke;
     spoke.edge = edge;
     spoke.to = index(s.mesh.to_vertex_handle(edge));
+    prefetch(&s.points[spoke.to]);
+    prefetch(&s.quadrics[spoke.to]);
     const FaceHandle face = s.mesh.face_handle(edge);
     if (!face.is_valid()) return spoke;
     spoke.face = index(face);
@@ -46,6 +48,7 @@ Spoke spokeAlong(const Simplifier& s, HalfedgeHandle edge, std::uint32_t v) {
         const std::uint32_t at = s.corners.vertex[corner];
         (at == v ? spoke.wedge : at == spoke.to ? spoke.toWedge : spoke.farWedge) = s.corners.wedge[corner];
     }
+    prefetch(&s.wedges[spoke.toWedge]);
     return spoke;
 }
 
