@@ -1,9 +1,11 @@
 // Pyramids against their peers: how long they take, and how well their levels stand for the mesh.
 //
-// Time. Held equal: the mesh, one thread, levels of half the triangles each down to 64. "pyramid" is all that
-// buildPyramid does (repair, collapses, errors, order for the cache, fitted positions, normals and colours);
+// Time, of the processor. Held equal: the mesh, one thread, levels of half the triangles each down to 64. "pyramid" is
+// all that buildPyramid does (repair, collapses, errors, order for the cache, fitted positions, normals and colours);
 // "meshoptimizer" is meshopt_simplify from level to level, "DecimaterT" OpenMesh's decimater with its quadric module on
 // a mesh of welded positions; neither of these two makes attributes.
+// "bytes each" is the memory that buildPyramid takes at its peak, for each of the mesh's triangles, its result
+// included.
 //
 // Distance. Held equal: the mesh, joined by position, and the triangle count of each level, which meshoptimizer gets
 // from level 0 at once. The mean distance to level 0 and from it, the larger of the two, over the diagonal of the
@@ -15,17 +17,19 @@
 // meshopt_simplify alone.
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <meshoptimizer.h>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <span>
@@ -51,10 +55,33 @@ constexpr std::size_t leastTriangles = 64;
 constexpr std::uint32_t lensSamples = 32;
 constexpr std::size_t distancePoints = 40'000;  // on each surface
 
+// Of this thread's own work, whatever else the machine does.
 double secondsOf(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto now = [] {
+        timespec time{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    };
+    const double start = now();
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return now() - start;
+}
+
+// A line of /proc/self/status in bytes; 0 where the system has none.
+double memory(const std::string& line) {
+    std::ifstream status("/proc/self/status");
+    for (std::string text; std::getline(status, text);)
+        if (text.starts_with(line)) return 1024 * std::atof(text.c_str() + line.size() + 1);
+    return 0;
+}
+
+// What the process holds at most during `work` beyond what it held before.
+double peakBytesOf(const std::function<void()>& work) {
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+    const double before = memory("VmRSS");
+    work();
+    return memory("VmHWM") - before;
 }
 
 // The surface joined by position, which is all that either peer can use.
@@ -115,9 +142,11 @@ void timeRow(const std::string& name, const Mesh& mesh) {
     const JoinedSurface surface = joinedSurface(mesh);
     Pyramid pyramid;
     std::size_t meshoptimizerLeft = 0;
-    const double own = secondsOf([&] { pyramid = buildPyramid(mesh); });
+    double own = 0;
+    const double peak = peakBytesOf([&] { own = secondsOf([&] { pyramid = buildPyramid(mesh); }); });
     const double meshoptimizer = secondsOf([&] { meshoptimizerLeft = meshoptimizerChain(surface); });
-    fmt::print("{:<20} {:>9} {:>8.3f} {:>6} {:>8.3f} {:>6}", name, mesh.triangleCount(), own,
+    const auto triangles = static_cast<double>(mesh.triangleCount());
+    fmt::print("{:<20} {:>9} {:>6.0f} {:>8.3f} {:>6} {:>8.3f} {:>6}", name, mesh.triangleCount(), peak / triangles, own,
                pyramid.levels.back().triangleCount, meshoptimizer, meshoptimizerLeft);
     if (pyramid.repairedFaces > 0) {
         fmt::print("  (DecimaterT cannot hold this mesh)\n");
@@ -289,10 +318,10 @@ int run(int argc, char** argv) {
     scenes.emplace_back("fish", fishSchool({.fishCount = 1}));
     for (const auto& file : files) scenes.emplace_back(file.stem().string(), loadGltf(file));
 
-    fmt::print("{:<20} {:>9} {:>15} {:>15} {:>15} {:>8}\n", "seconds, one thread", "", "pyramid", "meshoptimizer",
-               "DecimaterT", "times as");
-    fmt::print("{:<20} {:>9} {:>8} {:>6} {:>8} {:>6} {:>8} {:>6} {:>8}\n", "mesh", "triangles", "s", "left", "s",
-               "left", "s", "left", "fast");
+    fmt::print("{:<20} {:>9} {:>6} {:>15} {:>15} {:>15} {:>8}\n", "seconds, one thread", "", "bytes", "pyramid",
+               "meshoptimizer", "DecimaterT", "times as");
+    fmt::print("{:<20} {:>9} {:>6} {:>8} {:>6} {:>8} {:>6} {:>8} {:>6} {:>8}\n", "mesh", "triangles", "each", "s",
+               "left", "s", "left", "s", "left", "fast");
     for (const auto& [name, scene] : scenes) timeRow(name, largestMesh(scene));
     if (million) timeRow("fish", fishSchool({.fishCount = 1, .trianglesPerFish = 1'000'000}).meshes.front());
 

@@ -33,7 +33,8 @@ constexpr double errorFloor = 1e-6;        // of the box's diagonal
 constexpr std::size_t leastErrorPoints = 256;
 constexpr std::size_t mostErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
-constexpr double mostSpread = 2;  // of numbers, in square roots of the vertices' count
+constexpr std::size_t mostPossibleLevels = 128;  // each leaves three quarters of at most 2³² triangles
+constexpr double mostSpread = 2;                 // of numbers, in square roots of the vertices' count
 constexpr std::uint32_t unfitted = 0xffffffffu;
 
 LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertexIds) {
@@ -156,24 +157,26 @@ void sortSpatially(LevelTriangles& triangles) {
 
 // A level until its vertices are in their final order.
 struct FittedLevel {
-    LevelTriangles triangles;
-    std::vector<std::uint32_t> numbers;  // of its vertices in `triangles`
+    LevelTriangles triangles;            // first in numbers of its own vertices, then in those of `numbers`
+    std::vector<std::uint32_t> numbers;  // of its vertices, see SimplifiedLevel
     LevelFit fit;                        // of the same
     std::vector<Cluster> clusters;
     double error = 0;
 };
 
-// Fits the level's shape and looks to the mesh, measures how far it is from it, and orders its triangles by clusters.
-FittedLevel fitted(const FitSource& source, const Surface& surface, SimplifiedLevel level) {
+FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     FittedLevel result;
     result.fit = fitLevel(source, level.mesh, level.anchors);
-    result.error = levelError(surface, prepareSurface(result.fit.positions, level.mesh.indices),
-                              glm::length(source.bounds.size()));
     result.triangles = {std::move(level.mesh.indices), std::move(level.primitiveIndexCounts)};
-    result.clusters = clusterTriangles(result.triangles, result.fit.positions);
-    for (std::uint32_t& v : result.triangles.indices) v = level.numbers[v];
     result.numbers = std::move(level.numbers);
     return result;
+}
+
+// Measures how far the level is from the mesh, and orders its triangles by clusters.
+void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
+    level.error = levelError(mesh, prepareSurface(level.fit.positions, level.triangles.indices), diagonal);
+    level.clusters = clusterTriangles(level.triangles, level.fit.positions);
+    for (std::uint32_t& v : level.triangles.indices) v = level.numbers[v];
 }
 
 // Values of the first `count` vertices in the order of `sources`: the level's where it has any, else the mesh's.
@@ -201,31 +204,37 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
     }
     Vertices vertices = gathered(mesh.vertices, unique.first);
     Welded positions = weldPositions(vertices.positions);
-    const std::vector<std::uint32_t>& indices = levels[0].triangles.indices;
-    if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, indices);
+    if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, levels[0].triangles.indices);
 
     // Simplify, and fit every level while the next ones are made.
     Pyramid pyramid;
     Simplification simplification;
+    double diagonal = 0;
     if (options.mostLevels > 1) {
-        const FitSource source = prepareFit(vertices, positions, indices);
-        const Surface surface = prepareSurface(vertices.positions, indices);
-        std::mutex mutex;
-        std::vector<FittedLevel> coarser;
+        const FitSource source = prepareFit(vertices, positions, levels[0].triangles.indices);
+        diagonal = glm::length(source.bounds.size());
+        std::vector<FittedLevel> coarser(
+            std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
         Tasks tasks(workers);
         simplification =
             simplify(vertices, positions, levels[0].triangles, {options.leastTriangles, options.mostLevels - 1}, tasks,
-                     [&](std::uint32_t l, SimplifiedLevel level) {
-                         FittedLevel done = fitted(source, surface, std::move(level));
-                         const std::scoped_lock lock(mutex);
-                         if (coarser.size() <= l) coarser.resize(l + 1);
-                         coarser[l] = std::move(done);
-                     });
+                     [&](std::uint32_t l, SimplifiedLevel level) { coarser[l] = fitted(source, std::move(level)); });
         tasks.wait();
+        coarser.resize(simplification.levelCount);
         std::move(coarser.begin(), coarser.end(), std::back_inserter(levels));
     }
     pyramid.repairedFaces = simplification.repairedFaces;
-    levels[0].clusters = clusterTriangles(levels[0].triangles, vertices.positions);
+
+    // Measure and cluster them; all that simplifying took has been given back.
+    Surface surface;
+    if (levels.size() > 1) surface = prepareSurface(vertices.positions, levels[0].triangles.indices);
+    {
+        Tasks tasks(workers);
+        tasks.add([&] { levels[0].clusters = clusterTriangles(levels[0].triangles, vertices.positions); });
+        for (std::size_t l = 1; l < levels.size(); ++l) tasks.add([&, l] { measure(levels[l], surface, diagonal); });
+        tasks.wait();
+    }
+    surface = {};
 
     // Order vertices by survival. Twins are vertices like others from here on; no corner of level 0 uses them.
     const std::size_t ownCount = vertices.count();

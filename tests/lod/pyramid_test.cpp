@@ -360,15 +360,17 @@ TEST(Pyramid, SameMeshGivesTheSameBitsAloneAndAmongOthers) {
     const Mesh mesh = decorated(sphere(48, 24, 0.1));
     const Pyramid first = buildPyramid(mesh);
     std::uint64_t reported = 0;
-    const std::vector<Pyramid> many = buildPyramids({torus(24, 12), mesh, Mesh{}, mesh, sphere(16, 8)}, {},
-                                                    [&](std::string_view, std::uint64_t done, std::uint64_t total) {
-                                                        EXPECT_EQ(total, 5u);
-                                                        EXPECT_EQ(done, ++reported);
-                                                    });
+    std::vector<Pyramid> many = buildPyramids({torus(24, 12), mesh, Mesh{}, mesh, sphere(16, 8)}, {},
+                                              [&](std::string_view, std::uint64_t done, std::uint64_t total) {
+                                                  EXPECT_EQ(total, 5u);
+                                                  EXPECT_EQ(done, ++reported);
+                                              });
     EXPECT_EQ(reported, 5u);
     ASSERT_EQ(many.size(), 5u);
     EXPECT_EQ(many[0].levels[0].triangleCount, 576u);
-    for (const std::size_t i : {1u, 3u}) {
+    // The last one alone, with all cores for its levels.
+    many.push_back(std::move(buildPyramids({mesh}).front()));
+    for (const std::size_t i : {1u, 3u, 5u}) {
         EXPECT_TRUE(sameBits(many[i].indices, first.indices));
         EXPECT_TRUE(sameBits(many[i].vertices.positions, first.vertices.positions));
         EXPECT_TRUE(sameBits(many[i].source, first.source));
