@@ -256,6 +256,8 @@ Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>
     surface.turned.assign(count, 0);
     surface.repaired.assign(count, 0);
     surface.twins.assign(3 * count, Manifold::none);
+    surface.at.reserve(3 * count);
+    surface.primitives.reserve(count);
     for (const std::uint32_t face : manifold.faces) {
         for (std::size_t i = 0; i < 3; ++i) surface.at.push_back(triangles.positions[3 * std::size_t{face} + i]);
         surface.primitives.push_back(triangles.primitives[face]);

@@ -39,6 +39,7 @@ constexpr std::uint32_t unfitted = 0xffffffffu;
 
 LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertexIds) {
     LevelTriangles level;
+    level.indices.reserve(3 * mesh.triangleCount());
     for (const Primitive& primitive : mesh.primitives) {
         const std::size_t count = primitive.indices.size() / 3 * 3;
         for (std::size_t i = 0; i < count; ++i) {

@@ -155,6 +155,7 @@ std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
     Snapshot level;
     std::vector<std::uint32_t> numbers(s.points.size(), 0);
+    level.points.reserve(s.liveFaces / 2 + 2);  // of a closed surface
     for (std::uint32_t v = 0; v < s.points.size(); ++v) {
         if (s.survivors[v] != v) continue;
         numbers[v] = static_cast<std::uint32_t>(level.points.size());

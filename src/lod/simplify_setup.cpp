@@ -195,6 +195,7 @@ Triangles weldedTriangles(const std::vector<glm::dvec3>& points, const Welded& p
         const bool proper = std::isfinite(sum.x + sum.y + sum.z);
         for (const std::uint32_t corner : p) triangles.positions.push_back(proper ? corner : p[0]);
     }
+    triangles.primitives.reserve(indices.size() / 3);
     for (std::uint32_t p = 0; p < input.primitiveIndexCounts.size(); ++p)
         triangles.primitives.insert(triangles.primitives.end(), input.primitiveIndexCounts[p] / 3, p);
     return triangles;
@@ -238,14 +239,17 @@ Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions, 
         points[p] = (glm::dvec3(vertices.positions[positions.first[p]]) - frame.centre) / frame.scale;
 
     // Make a manifold of it.
-    const Triangles welded = weldedTriangles(points, positions, triangles);
-    const Manifold manifold = buildManifold(welded, points);
+    Triangles welded = weldedTriangles(points, positions, triangles);
+    Manifold manifold = buildManifold(welded, points);
     s.repairedFaces = manifold.repairedFaces;
     s.liveFaces = manifold.faces.size();
+    s.points.reserve(manifold.positions.size());
     for (const std::uint32_t position : manifold.positions) s.points.push_back(points[position]);
 
     // Describe it: corners with their wedges, half-edges, quadrics.
     s.corners.vertex = manifold.corners;
+    s.corners.wedge.reserve(manifold.corners.size());
+    s.corners.primitive.reserve(manifold.faces.size());
     for (const std::uint32_t face : manifold.faces) {
         for (std::size_t i = 0; i < 3; ++i) s.corners.wedge.push_back(triangles.indices[3 * std::size_t{face} + i]);
         s.corners.primitive.push_back(welded.primitives[face]);
@@ -253,6 +257,9 @@ Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions, 
     s.corners.attributes = scaledAttributes(vertices, triangles.indices, frame);
     buildConnectivity(s, manifold);
     buildQuadrics(s, manifold);
+    manifold = {};  // before what takes the most memory
+    welded = {};
+    points = {};
     buildAttributeQuadrics(s);
     s.survivors.resize(s.points.size());
     std::iota(s.survivors.begin(), s.survivors.end(), 0u);
