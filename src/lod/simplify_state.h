@@ -58,9 +58,9 @@ struct Simplifier {
     std::vector<std::uint32_t> twins;                         // see Simplification
     std::unordered_map<std::uint32_t, std::uint32_t> twinOf;  // mesh vertex → the number of its twin
 
-    std::vector<Spoke> spokes;                      // scratch of spokesAround
+    std::vector<Spoke> spokes;                      // scratch of cheapestCollapse
     std::vector<std::uint32_t> facesFrom, facesTo;  // scratch of judgeCollapse
-    std::vector<std::uint32_t> marks;               // the same, one a vertex: of a neighbour the number of the question
+    std::vector<std::uint32_t> marks;               // the same, one a vertex: the markNumber that it has been seen with
     std::uint32_t markNumber = 0;
     std::vector<Retarget> retargets;  // the wedges that the collapse judged last hands over
 };
