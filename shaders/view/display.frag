@@ -7,17 +7,20 @@ layout(binding = 1) uniform sampler2D secondImage;
 layout(binding = 2) uniform sampler2D cocImage;      // signed px
 layout(binding = 3) uniform sampler2D levelImage;    // λ, −1 where nothing is
 layout(binding = 4) uniform sampler2D wireImage;     // encoded
-layout(binding = 6) uniform sampler2D levelColours;  // linear
+layout(binding = 5) uniform sampler2D workImage;     // triangles, summed over lens samples
+layout(binding = 6) uniform sampler2D mapColours;    // of the overlay, linear
 
 layout(location = 0) uniform vec4 size;        // of the output, px; z: exposure gain, w: gain of the difference
 layout(location = 1) uniform ivec4 choices;    // curve; overlay; flags; unused
 layout(location = 2) uniform float divider;    // share of the width that the first image has
 layout(location = 3) uniform float cocScale;   // px of the output to a px of cocImage
+layout(location = 4) uniform vec2 workScale;   // 1 / lens samples in workImage; 1 / the largest log2 that is told apart
 
 layout(location = 0) out vec4 display;
 
 const int OVERLAY_COC = 1;
 const int OVERLAY_LEVEL = 2;
+const int OVERLAY_WORK = 3;
 const int FLAG_DIFFERENCE = 1;
 const int FLAG_PEAKING = 2;
 const int FLAG_FOCUS_PLANE = 4;
@@ -56,7 +59,11 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
     if (choices.y == OVERLAY_LEVEL) {
         float level = texture(levelImage, uv).r;
         if (level < 0.0) return 0.35 * vec3(grey);
-        return srgbEncoded(texture(levelColours, vec2(level / 8.0, 0.5)).rgb) * (0.35 + 0.75 * grey);
+        return srgbEncoded(texture(mapColours, vec2(level / 8.0, 0.5)).rgb) * (0.35 + 0.75 * grey);
+    }
+    if (choices.y == OVERLAY_WORK) {
+        float work = log2(1.0 + texture(workImage, uv).r * workScale.x) * workScale.y;
+        return srgbEncoded(texture(mapColours, vec2(work, 0.5)).rgb);
     }
     return colour;
 }

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include "image/colour_map.h"
@@ -83,35 +85,61 @@ void drawDivider(const HudContext& context, const ViewState& state) {
     label(context, {top.x + gap, top.y + gap}, 0, 0, right, white);
 }
 
-// A strip of colours with words at its ends, at the bottom right.
+// What the colours of an overlay mean.
+struct Legend {
+    const char* title;
+    glm::vec3 (*colour)(float) = viridis;  // 0 … 1, linear
+    std::array<const char*, 5> marks;      // at even places
+};
+
+// As shaders/view/display.frag has it.
+glm::vec3 cocColour(float t) {
+    const float side = 2 * t - 1;
+    const glm::vec3 colour = side < 0 ? glm::vec3(1, 0.55f, 0.10f) : glm::vec3(0.2f, 0.55f, 1);
+    const glm::vec3 encoded = glm::mix(glm::vec3(0.6f), colour, glm::smoothstep(0.0f, 0.5f, std::abs(side)));
+    return {srgbDecode(encoded.r), srgbDecode(encoded.g), srgbDecode(encoded.b)};
+}
+
+std::optional<Legend> legendOf(const ViewState& state) {
+    switch (state.display.overlay) {
+        case DisplayOverlay::coc:
+            return Legend{"blur, px: in front – behind", cocColour, {"63", "7", "0", "7", "63"}};
+        case DisplayOverlay::work:
+            return Legend{"triangles a pixel and lens sample", magma, {"0", "1", "3", "7", "15 +"}};
+        case DisplayOverlay::level:
+            break;
+        case DisplayOverlay::none:
+            if (!state.display.wireframe) return std::nullopt;
+    }
+    return Legend{"level of detail", viridis, {"0", "2", "4", "6", "8 +"}};
+}
+
+// A strip of colours with its title and numbers, at the bottom right.
 void drawLegend(const HudContext& context, const ViewState& state) {
-    const DisplayOverlay overlay = state.display.overlay;
-    if (overlay == DisplayOverlay::none && !state.display.wireframe) return;
+    const std::optional<Legend> legend = legendOf(state);
+    if (!legend) return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = context.scale;
+    const float pad = 9 * s;
+    const float line = ImGui::GetFontSize();
+    const ImVec2 size(std::max(190 * s, ImGui::CalcTextSize(legend->title).x), 10 * s);
     const ImVec2 end = corner(context, 1, 1);
-    const ImVec2 size(170 * s, 10 * s);
-    const ImVec2 at(end.x - size.x - 18 * s, end.y - 50 * s);
-    list.AddRectFilled({at.x - 9 * s, at.y - 9 * s}, {end.x - 9 * s, end.y - 10 * s}, plate, 4 * s);
-    constexpr int steps = 85;
+    const ImVec2 at(end.x - size.x - 8 * s - pad, end.y - 8 * s - pad - line - 4 * s - size.y);
+    list.AddRectFilled({at.x - pad, at.y - line - 5 * s - pad}, {end.x - 8 * s, end.y - 8 * s}, plate, 4 * s);
+    list.AddText({at.x, at.y - line - 5 * s}, white, legend->title);
+    constexpr int steps = 95;
     for (int i = 0; i < steps; ++i) {
-        const float t = (static_cast<float>(i) + 0.5f) / steps;
-        glm::vec3 color = viridis(t);
+        glm::vec3 color = legend->colour((static_cast<float>(i) + 0.5f) / steps);
         for (int c = 0; c < 3; ++c) color[c] = srgbEncode(color[c]);
-        if (overlay == DisplayOverlay::coc) {
-            const float signedShare = 2 * t - 1;
-            const glm::vec3 side = signedShare < 0 ? glm::vec3(1, 0.55f, 0.10f) : glm::vec3(0.2f, 0.55f, 1);
-            color = glm::mix(glm::vec3(0.6f), side, std::min(1.0f, 2 * std::abs(signedShare)));
-        }
-        const float x = at.x + size.x * static_cast<float>(i) / steps;
-        list.AddRectFilled({x, at.y}, {x + size.x / steps + 1, at.y + size.y},
+        const float left = at.x + size.x * static_cast<float>(i) / steps;
+        const float right = at.x + size.x * static_cast<float>(i + 1) / steps;
+        list.AddRectFilled({std::floor(left), at.y}, {std::floor(right), at.y + size.y},
                            ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1}));
     }
-    const bool coc = overlay == DisplayOverlay::coc;
-    const char* words[3] = {coc ? "−64 px" : "level 0", coc ? "sharp" : "4", coc ? "64 px" : "8"};
-    for (int i = 0; i < 3; ++i) {
-        const float width = ImGui::CalcTextSize(words[i]).x;
-        list.AddText({at.x + 0.5f * static_cast<float>(i) * (size.x - width), at.y + 14 * s}, white, words[i]);
+    for (std::size_t i = 0; i < legend->marks.size(); ++i) {
+        const float share = static_cast<float>(i) / (legend->marks.size() - 1);
+        const float width = ImGui::CalcTextSize(legend->marks[i]).x;
+        list.AddText({at.x + share * (size.x - width), at.y + size.y + 3 * s}, quiet, legend->marks[i]);
     }
 }
 

@@ -33,7 +33,7 @@ constexpr KeyHelp keys[] = {
     {"Space", "play or pause the animation"},
     {", .", "one frame back, ahead"},
     {"P, O", "focus peaking, focus plane"},
-    {"C, L, Z", "blur, level, wireframe overlay"},
+    {"C, L, N, Z", "blur, level, work, wireframe overlay"},
     {"X", "compare: next method on the right"},
     {"M", "difference on the right"},
     {"B", "popping test"},
@@ -99,6 +99,9 @@ void handlePlainKey(int code, const InputContext& context, ViewState& state, Vie
             break;
         case 'L':
             toggleOverlay(state, DisplayOverlay::level);
+            break;
+        case 'N':
+            toggleOverlay(state, DisplayOverlay::work);
             break;
         case 'Z':
             state.display.wireframe = !state.display.wireframe;

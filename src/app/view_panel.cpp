@@ -178,9 +178,9 @@ void levelSection(ViewState& state) {
 
 void seeSection(const PanelContext& context, ViewState& state) {
     if (!section("See why", false)) return;
-    rowLabel("Overlay", "Blur (C) or level (L)");
+    rowLabel("Overlay", "Blur (C), level (L), or work: how many triangles touch each pixel in a lens sample (N)");
     int overlay = static_cast<int>(state.display.overlay);
-    if (ImGui::Combo("##overlay", &overlay, "none\0circle of confusion\0level of detail\0"))
+    if (ImGui::Combo("##overlay", &overlay, "none\0circle of confusion\0level of detail\0work\0"))
         state.display.overlay = static_cast<DisplayOverlay>(overlay);
     rowLabel("Wireframe", "The triangles that are drawn, coloured by level (Z)");
     ImGui::Checkbox("##wireframe", &state.display.wireframe);

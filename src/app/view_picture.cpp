@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lens/lens_fields.h"
 
@@ -91,6 +92,8 @@ bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     lastDisplayKey_ = shown;
 
     // Draw a frame, wait until hands are still, or let the image grow.
+    const double growth = std::max(budget.milliseconds, software_ ? softwareGrowth : 0.0);
+    showsWork_ = request.display.overlay == DisplayOverlay::work;
     if (changed) {
         ++changes_;
         drawMoving(request, budget);
@@ -101,8 +104,12 @@ bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     } else if (!growing_ && !request.fixedQuality && Clock::now() >= settlesAt_) {
         beginGrowing(request);
     } else if (growing_ && grows_) {
-        grow(std::max(budget.milliseconds, software_ ? softwareGrowth : 0.0));
+        grow(growth);
         presents = presents || fewestSamples() >= static_cast<std::uint32_t>(nextShown * presentedSamples_) || !grows_;
+    }
+    if (showsWork_ && !changed && (!workCurrent_ || workGrows_)) {
+        growWork(growth);
+        presents = true;
     }
     const bool tooFew = growing_ && grows_ && fewestSamples() < firstShownSample;
     if (!presents || tooFew) return false;
@@ -144,6 +151,8 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     settings.thresholds.size *= quality.thresholdBias;
     first_->drawFrame(view, settingsOf(settings, request.first));
     if (second_) second_->drawFrame(view, settingsOf(settings, *request.second));
+    workCurrent_ = workGrows_ = false;
+    if (showsWork_) growWork(std::numeric_limits<double>::infinity());
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     if (!fresh_ && !request.fixedQuality) budget = adapted(budget, milliseconds);
     fresh_ = false;
@@ -162,7 +171,7 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
         second_->begin(request.view, settingsOf(request.settings, *request.second), request.thresholdsFollow,
                        request.mostSamples);
     nextPsnr_ = Clock::now() + psnrEvery;
-    aovsCurrent_ = false;
+    aovsCurrent_ = workCurrent_ = workGrows_ = false;
 }
 
 void ViewPicture::grow(double milliseconds) {
@@ -189,6 +198,13 @@ void ViewPicture::drawAovs() {
     wireframeCurrent_ = false;
 }
 
+void ViewPicture::growWork(double milliseconds) {
+    if (!work_) work_.emplace(*world_, options_.shaderFolder);
+    if (!workCurrent_) work_->begin(first_->plan());
+    workCurrent_ = true;
+    workGrows_ = work_->grow(milliseconds);
+}
+
 void ViewPicture::present(const PictureRequest& request) {
     const DisplaySettings& display = request.display;
     if (display.needsAovs() && !aovsCurrent_) drawAovs();
@@ -203,6 +219,10 @@ void ViewPicture::present(const PictureRequest& request) {
         inputs.coc = &aovs_->coc();
         inputs.level = &aovs_->level();
         if (wireframeCurrent_) inputs.wireframe = &aovs_->wireframe();
+    }
+    if (workCurrent_) {
+        inputs.work = &work_->work();
+        inputs.workSamples = std::max(1u, work_->samples());
     }
     if (second_ && growing_ && Clock::now() >= nextPsnr_) {
         psnr_ = display_.psnr(*inputs.first, *inputs.second);

@@ -9,6 +9,7 @@
 #include "render/aov.h"
 #include "render/display_pass.h"
 #include "render/progressive_image.h"
+#include "render/work.h"
 
 namespace defocus {
 
@@ -49,11 +50,13 @@ public:
     [[nodiscard]] const GlTexture& texture() const { return display_.texture(); }
     [[nodiscard]] bool moving() const { return !growing_; }
     // Nothing is left to do until something changes.
-    [[nodiscard]] bool finished() const { return growing_ && !grows_; }
+    [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
     [[nodiscard]] std::uint32_t samples() const { return first_ ? first_->samples() : 0; }
     [[nodiscard]] const FramePlan& plan() const { return first_->plan(); }
     [[nodiscard]] const FramePlan* secondPlan() const { return second_ ? &second_->plan() : nullptr; }
     [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // of the two sides, dB
+    // Lens samples in the heat map of work; 0 before it is asked for.
+    [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
     // Of the latest frame: waves by timer queries, the rest by the clock.
     [[nodiscard]] const std::vector<PassShare>& passes() const { return passes_; }
     // Times that things have changed since the scene was there.
@@ -70,6 +73,7 @@ private:
     void present(const PictureRequest& request);
     void notePasses();
     void drawAovs();
+    void growWork(double milliseconds);
 
     const World* world_;
     RendererOptions options_;
@@ -78,6 +82,10 @@ private:
     std::optional<AovPass> aovs_;
     bool aovsCurrent_ = false;
     bool wireframeCurrent_ = false;
+    std::optional<WorkPass> work_;
+    bool workCurrent_ = false;  // is of this view
+    bool workGrows_ = false;
+    bool showsWork_ = false;
     std::optional<ProgressiveImage> first_, second_;
     std::optional<PictureSide> firstSide_, secondSide_;
     std::vector<double> lastKey_;

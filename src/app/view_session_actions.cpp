@@ -171,6 +171,8 @@ void ViewSession::writeStats() {
                          : ""},
         {"time", state_.animation.time},
         {"playing", state_.animation.playing},
+        {"overlay", static_cast<int>(state_.display.overlay)},
+        {"workSamples", picture_ ? picture_->workSamples() : 0},
         {"comparison", static_cast<int>(state_.comparison)},
         {"divider", state_.display.divider},
         {"psnr", picture_ && picture_->psnr() && std::isfinite(*picture_->psnr())

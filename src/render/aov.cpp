@@ -9,6 +9,7 @@
 
 #include "gl/read_back.h"
 #include "image/colour_map.h"
+#include "render/colour_texture.h"
 #include "render/pinhole_pass.h"
 
 namespace defocus {
@@ -66,7 +67,7 @@ void AovPass::drawWireframe() {
         wireframe_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
         wireTarget_ = Target({&wireframe_}, &depthBuffer_);
     }
-    if (!levelColours_) levelColours_ = levelColourTexture();
+    if (!levelColours_) levelColours_ = colourMapTexture(viridis);
     wireTarget_.bind();
     constexpr float nothing[4] = {};
     glClearNamedFramebufferfv(wireTarget_.name(), GL_COLOR, 0, nothing);
@@ -94,19 +95,6 @@ Image levelColourMap(const Image& level) {
         for (glm::length_t c = 0; c < 3; ++c) colours.pixels[i * 3 + static_cast<std::size_t>(c)] = colour[c];
     }
     return colours;
-}
-
-GlTexture levelColourTexture() {
-    constexpr int width = 256;
-    std::vector<float> rgba;
-    for (int i = 0; i < width; ++i) {
-        const glm::vec3 colour = viridis(static_cast<float>(i) / (width - 1));
-        rgba.insert(rgba.end(), {colour.r, colour.g, colour.b, 1.0f});
-    }
-    GlTexture texture({.format = TextureFormat::rgba16f, .width = width, .height = 1});
-    texture.upload(0, width, 1, rgba.data());
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-    return texture;
 }
 
 }  // namespace defocus

@@ -54,7 +54,4 @@ inline constexpr float coarsestShownLevel = 8;
 // is.
 Image levelColourMap(const Image& level);
 
-// The same colours for λ from 0 (left) to 8 (right), 256 x 1.
-GlTexture levelColourTexture();
-
 }  // namespace defocus

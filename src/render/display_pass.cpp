@@ -5,7 +5,8 @@
 
 #include "core/error.h"
 #include "gl/read_back.h"
-#include "render/aov.h"
+#include "render/colour_texture.h"
+#include "render/work.h"
 
 namespace defocus {
 
@@ -22,7 +23,8 @@ int flagsOf(const DisplaySettings& settings) {
 DisplayPass::DisplayPass(std::filesystem::path shaderFolder)
     : shaderFolder_(std::move(shaderFolder)),
       program_({{fullscreenShader, "view/display.frag"}, {}, shaderFolder_}),
-      levelColours_(levelColourTexture()),
+      levelColours_(colourMapTexture(viridis)),
+      workColours_(colourMapTexture(magma)),
       black_({.format = TextureFormat::rgba8, .width = 1, .height = 1}) {
     constexpr unsigned char pixel[4] = {0, 0, 0, 255};
     black_.upload(0, 1, 1, pixel);
@@ -35,9 +37,10 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
         target_ = Target({&texture_});
     }
     target_.bind();
-    const GlTexture* textures[] = {inputs.first, inputs.second, inputs.coc, inputs.level, inputs.wireframe};
-    for (GLuint unit = 0; unit < 5; ++unit) (textures[unit] != nullptr ? *textures[unit] : black_).attach(unit);
-    levelColours_.attach(6);
+    const GlTexture* textures[] = {inputs.first, inputs.second,    inputs.coc,
+                                   inputs.level, inputs.wireframe, inputs.work};
+    for (GLuint unit = 0; unit < 6; ++unit) (textures[unit] != nullptr ? *textures[unit] : black_).attach(unit);
+    (settings.overlay == DisplayOverlay::work ? workColours_ : levelColours_).attach(6);
     const GLuint program = program_.name();
     glProgramUniform4f(program, 0, static_cast<float>(width), static_cast<float>(height),
                        static_cast<float>(std::exp2(settings.exposure)), static_cast<float>(settings.differenceGain));
@@ -46,6 +49,8 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
     glProgramUniform1f(program, 2, inputs.second != nullptr ? static_cast<float>(settings.divider) : 2.0f);
     const int cocWidth = inputs.coc != nullptr ? inputs.coc->info().width : width;
     glProgramUniform1f(program, 3, static_cast<float>(width) / static_cast<float>(cocWidth));
+    glProgramUniform2f(program, 4, 1 / static_cast<float>(inputs.workSamples),
+                       1 / std::log2(1 + static_cast<float>(mostShownWork)));
     fullscreen_.draw(program_);
 }
 

@@ -2,6 +2,7 @@
 // The last step to a window: a linear image on the GPU becomes display values (exposure, tone map, sRGB), beside a
 // second image where two are compared, with overlays that say why it looks as it does. No pixel is read back.
 
+#include <cstdint>
 #include <filesystem>
 
 #include "gl/fullscreen.h"
@@ -14,6 +15,7 @@ enum class DisplayOverlay {
     none,
     coc,    // circle of confusion: orange in front of the focus plane, blue behind
     level,  // objects by their level λ, dark violet (0) to yellow (8)
+    work,   // triangles that touch a pixel in a lens sample: black (none) to pale yellow (mostShownWork), logarithmic
 };
 
 struct DisplaySettings {
@@ -28,7 +30,8 @@ struct DisplaySettings {
     double differenceGain = 4;
 
     [[nodiscard]] bool needsAovs() const {
-        return overlay != DisplayOverlay::none || focusPeaking || focusPlane || wireframe;
+        return overlay == DisplayOverlay::coc || overlay == DisplayOverlay::level || focusPeaking || focusPlane ||
+               wireframe;
     }
 };
 
@@ -39,6 +42,8 @@ struct DisplayInputs {
     const GlTexture* coc = nullptr;  // of AovPass
     const GlTexture* level = nullptr;
     const GlTexture* wireframe = nullptr;
+    const GlTexture* work = nullptr;  // of WorkPass
+    std::uint32_t workSamples = 1;    // that are in it
 };
 
 class DisplayPass {
@@ -56,7 +61,7 @@ public:
 private:
     std::filesystem::path shaderFolder_;
     Program program_, squaredError_;
-    GlTexture texture_, levelColours_, black_;
+    GlTexture texture_, levelColours_, workColours_, black_;
     Target target_;
     Fullscreen fullscreen_;
 };

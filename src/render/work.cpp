@@ -1,35 +1,63 @@
 #include "render/work.h"
 
+#include <epoxy/gl.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "core/stopwatch.h"
 #include "gl/read_back.h"
-#include "gl/target.h"
 #include "image/colour_map.h"
-#include "render/surface_pass.h"
 
 namespace defocus {
 
-Image renderWork(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder) {
-    const GlTexture work({.format = TextureFormat::r32f, .width = plan.view.width, .height = plan.view.height});
-    const Target target({&work});
-    constexpr float nothing[4] = {};
-    glClearNamedFramebufferfv(target.name(), GL_COLOR, 0, nothing);
+WorkPass::WorkPass(const World& world, std::filesystem::path shaderFolder)
+    : scene_(world),
+      surfaces_(scene_, {.fragmentShader = "aov/work.frag",
+                         .defines = {},
+                         .shaded = false,
+                         .vertexShaderLayers = vertexShaderMayPickLayer(),
+                         .shaderFolder = std::move(shaderFolder)}) {}
 
-    GpuScene scene(world);
-    FrameUniforms frame;
-    SurfacePass surfaces(scene, {.fragmentShader = "aov/work.frag",
-                                 .defines = {},
-                                 .shaded = false,
-                                 .vertexShaderLayers = vertexShaderMayPickLayer(),
-                                 .shaderFolder = shaderFolder});
-    scene.prepare(plan);
-    frame.upload(world, plan, 1);
-    surfaces.prepare(plan, frame);
-    target.bind();
-    surfaces.drawTouched(0, static_cast<std::uint32_t>(plan.samples.size()));
-    return readBack(work, 1);
+void WorkPass::begin(const FramePlan& plan) {
+    const int width = plan.view.width;
+    const int height = plan.view.height;
+    if (!work_ || work_.info().width != width || work_.info().height != height) {
+        work_ = GlTexture({.format = TextureFormat::r32f, .width = width, .height = height});
+        work_.sampling(GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+        target_ = Target({&work_});
+    }
+    constexpr float nothing[4] = {};
+    glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, nothing);
+    scene_.prepare(plan);
+    frame_.upload(scene_.world(), plan, 1);
+    surfaces_.prepare(plan, frame_);
+    samples_ = 0;
+    sampleTotal_ = static_cast<std::uint32_t>(plan.samples.size());
+}
+
+bool WorkPass::grow(double milliseconds) {
+    constexpr std::uint32_t atOnce = 4;
+    const Clock::time_point start = Clock::now();
+    target_.bind();
+    while (samples_ < sampleTotal_) {
+        const Clock::time_point stepStart = Clock::now();
+        const std::uint32_t count = std::min(atOnce, sampleTotal_ - samples_);
+        surfaces_.drawTouched(samples_, count);
+        samples_ += count;
+        glFinish();
+        if (millisecondsSince(start) + millisecondsSince(stepStart) > milliseconds) break;
+    }
+    return samples_ < sampleTotal_;
+}
+
+Image renderWork(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder) {
+    WorkPass pass(world, shaderFolder);
+    pass.begin(plan);
+    pass.grow(std::numeric_limits<double>::infinity());
+    return readBack(pass.work(), 1);
 }
 
 Image workColourMap(const Image& work, std::uint32_t samples) {

@@ -4,10 +4,36 @@
 
 #include <filesystem>
 
+#include "gl/target.h"
 #include "image/image.h"
-#include "plan/frame_plan.h"
+#include "render/surface_pass.h"
 
 namespace defocus {
+
+// The same as renderWork below as a texture, a few lens samples at a time, for frame after frame of one world. Needs a
+// current GL context.
+class WorkPass {
+public:
+    // `world` must outlive it.
+    explicit WorkPass(const World& world, std::filesystem::path shaderFolder = {});
+
+    // Clears the sum; draws nothing yet.
+    void begin(const FramePlan& plan);
+    // Adds further samples of the plan for about `milliseconds`, at least some. False once all are in.
+    bool grow(double milliseconds);
+    [[nodiscard]] std::uint32_t samples() const { return samples_; }  // in the sum
+    // Triangles a pixel over samples() lens samples: r32f, row 0 at the bottom.
+    [[nodiscard]] const GlTexture& work() const { return work_; }
+
+private:
+    GpuScene scene_;
+    SurfacePass surfaces_;
+    FrameUniforms frame_;
+    GlTexture work_;
+    Target target_;
+    std::uint32_t samples_ = 0;
+    std::uint32_t sampleTotal_ = 0;
+};
 
 // One channel: in each lens sample of the plan, a triangle that covers the pixel's centre counts one, whether or not
 // another hides it and before any alpha test; triangles whose culled back shows don't. It is what the accumulation

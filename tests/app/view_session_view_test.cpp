@@ -89,6 +89,20 @@ TEST_F(View, dividerMovesUnderTheHandAndPsnrIsShown) {
     })) << state();
 }
 
+TEST_F(View, workIsCountedInAllSamplesOfTheViewAndAnewAfterAChange) {
+    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
+    EXPECT_EQ(state().at("workSamples"), 0);  // not before it is asked for
+    key("n");
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("overlay") == 3 && s.at("workSamples") == 64; })) << state();
+    const double changes = number("changes");
+    key("bracketright");
+    ASSERT_TRUE(reaches([&](const json& s) {
+        return s.at("changes") > changes && s.at("moving") == false && s.at("workSamples") == 64;
+    })) << state();
+    key("n");
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("overlay") == 0; })) << state();
+}
+
 TEST_F(View, badFileReportsAndTheOldSceneStays) {
     openTwoQuads();
     std::ofstream(folder() / "bad.glb") << "no glTF";

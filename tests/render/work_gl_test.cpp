@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "gl/context.h"
+#include "gl/read_back.h"
+#include "image/tone_map.h"
+#include "render/display_pass.h"
 #include "render/work.h"
 #include "small_world.h"
 
@@ -105,6 +110,46 @@ TEST_F(Work, rectangleSumsToThePixelCentresInsideItInEachSample) {
     // A centre within 1/256 px of an edge may fall on either side of it: of 48 samples, one row or column in a sample.
     EXPECT_NEAR(sum, expected, 2 * half.x * perMetre * 2);
     EXPECT_NEAR(sum / samples, 4 * half.x * half.y * perMetre * perMetre, 0.01 * sum / samples);
+}
+
+// A window draws a few samples a frame: in the end they are all there, once each, whatever was drawn before.
+TEST_F(Work, growsToTheSameSumForViewAfterView) {
+    const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
+                                   unlitMaterial(glm::vec4(1)));
+    WorkPass pass(small->world);
+    for (const double focus : {2.0, 0.7}) {
+        small->view.lens.focusDistance = focus;
+        const FramePlan plan = planFrame(small->world, small->view, manySamples());
+        pass.begin(plan);
+        EXPECT_EQ(pass.samples(), 0u);
+        std::uint32_t steps = 1;
+        while (pass.grow(0)) ++steps;
+        EXPECT_GT(steps, 1u);
+        EXPECT_EQ(pass.samples(), samples);
+        EXPECT_EQ(readBack(pass.work(), 1).pixels, renderWork(small->world, plan).pixels);
+    }
+}
+
+// The window's colours are those of the heat map's file.
+TEST_F(Work, isShownInTheColoursOfItsFile) {
+    const auto small = facingQuads({quadAt(0.6, {0.014, -0.01}, {0.08, 0.05}), quadAt(3, {0, 0}, {0.9, 0.2})},
+                                   unlitMaterial(glm::vec4(1)));
+    WorkPass pass(small->world);
+    pass.begin(planFrame(small->world, small->view, manySamples()));
+    pass.grow(std::numeric_limits<double>::infinity());
+    DisplayPass display;
+    DisplaySettings settings;
+    settings.overlay = DisplayOverlay::work;
+    display.draw({.first = &pass.work(), .work = &pass.work(), .workSamples = samples}, settings, 96, 72);
+    const Image shown = readBack(display.texture(), 3);
+    const Image expected = workColourMap(readBack(pass.work(), 1), samples);
+    ASSERT_EQ(shown.pixels.size(), expected.pixels.size());
+    float brightest = 0;
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+        EXPECT_NEAR(shown.pixels[i], srgbEncode(expected.pixels[i]), 0.02f) << i;
+        brightest = std::max(brightest, shown.pixels[i]);
+    }
+    EXPECT_GT(brightest, 0.4f);
 }
 
 TEST_F(Work, coloursAndSummaryFollowTheNumbers) {

@@ -1,0 +1,12 @@
+#pragma once
+// A colour map (image/colour_map.h) for shaders.
+
+#include "gl/texture.h"
+#include "image/colour_map.h"
+
+namespace defocus {
+
+// `map` from 0 (left) to 1 (right): 256 x 1, linear RGBA.
+GlTexture colourMapTexture(glm::vec3 (*map)(float));
+
+}  // namespace defocus
