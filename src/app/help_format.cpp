@@ -44,6 +44,14 @@ std::string HelpFormat::make_option(const CLI::Option* option, bool isPositional
                      get_column_width());
 }
 
+// A flag that can be given both ways: "--dof,--no-dof".
+std::string HelpFormat::make_option_name(const CLI::Option* option, bool isPositional) const {
+    std::string name = CLI::Formatter::make_option_name(option, isPositional);
+    const std::string mark = "{false}";
+    if (const std::size_t at = name.find(mark); at != std::string::npos) name.erase(at, mark.size());
+    return name;
+}
+
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
     const bool takesValue = option->get_type_size() != 0 && !option->get_positional();
     const std::string type = option->get_type_name();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -12,10 +11,9 @@
 
 #include "app/command.h"
 #include "app/film_settings.h"
-#include "app/option_text.h"
 #include "app/prepared_frame.h"
+#include "app/render_options.h"
 #include "app/render_report.h"
-#include "app/scene_options.h"
 #include "capture/partial.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -32,36 +30,6 @@ namespace defocus {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-struct AovRequest {
-    bool depth = false;
-    bool coc = false;
-    bool level = false;
-    bool work = false;
-    [[nodiscard]] bool surfaces() const { return depth || coc || level; }
-    [[nodiscard]] bool any() const { return surfaces() || work; }
-};
-
-struct RenderArguments {
-    SceneOptions scene;
-    std::vector<std::filesystem::path> outputs;
-    std::filesystem::path stats;
-    AovRequest aovs;
-    ToneMap toneMap = ToneMap::none;
-    std::optional<double> exposure;      // EV, of .png and .jpg; none: the lens's
-    std::optional<SampleRange> samples;  // only these, for `merge`
-};
-
-void parseAovs(const std::string& text, AovRequest& aovs) {
-    const std::vector<std::string> names = {"depth", "coc", "level", "work"};
-    const std::array<bool*, 4> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work};
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        *wanted[parseChoice(text.substr(begin, end - begin), names)] = true;
-        begin = end + 1;
-    }
-}
 
 // out.exr and "depth.exr" → out.depth.exr
 std::filesystem::path derivedPath(const std::filesystem::path& output, const std::string& ending) {
@@ -206,48 +174,12 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     if (!global.quiet) printSummary(arguments, report);
 }
 
-void addOutputs(CLI::App& command, RenderArguments& arguments) {
-    const char* group = "Output";
-    arguments.outputs = {"out.exr"};
-    command
-        .add_option("-o,--output", arguments.outputs,
-                    "Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. Can be given "
-                    "several times")
-        ->allow_extra_args(false)
-        ->type_name("FILE")
-        ->default_str("out.exr")
-        ->group(group);
-    addNumber(command, "--exposure", arguments.exposure, {-60, 60}, "EV",
-              "Of .png and .jpg; without it, what --exposure-time, --iso and the f-number make, else 0")
-        ->group(group);
-    addChoice<ToneMap>(command, "--tonemap", arguments.toneMap,
-                       {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
-                       "Film curve of .png and .jpg")
-        ->group(group);
-    addParsed(command, "--aov", "depth,coc,level,work",
-              "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
-              "out.level.png (level of detail) and out.work.exr with out.work.png (triangles that touch each pixel, "
-              "summed over the lens samples of the accumulation, hidden ones too)",
-              [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
-        ->group(group);
-    addParsed(command, "--sample-range", "FIRST:END",
-              "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
-              [&arguments](const std::string& text) { arguments.samples = parseSampleRange(text); })
-        ->group(group);
-    command.add_option("--stats", arguments.stats, "Write times, triangles and memory as JSON")
-        ->type_name("FILE")
-        ->group(group);
-}
-
 }  // namespace
 
 void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = program.add_subcommand("render", "Render a glTF scene with the depth of field of a real lens");
-    addOutputs(*command, *arguments);
-    addSceneOptions(*command, arguments->scene);
-    excludeExposure(*command);
-    addMethodSettings(*command, arguments->scene);
+    addRenderOptions(*command, *arguments);
     command->footer(
         "Examples:\n"
         "  defocus render -o fish.exr -o fish.png\n"

@@ -20,6 +20,9 @@ struct RenderCommandText {
 // Options that have their standard value are left out.
 std::string renderCommand(const RenderCommandText& text);
 
+// The command that films a shot which was recorded in a view: with what no shot file says.
+std::string captureCommand(const std::filesystem::path& shot, const SceneOptions& options);
+
 // A word as a shell reads it back: as it is, or in single quotes.
 std::string shellWord(const std::string& word);
 

@@ -162,11 +162,11 @@ CLI::Option* addLensField(CLI::App& command, SceneOptions& options, const LensFi
         setLensField(scratch, field, value);
         options.lens[field.name] = value;
     };
-    if (std::holds_alternative<bool Lens::*>(field.member)) {
-        const bool standard = lensFieldValue(Lens{}, field) != 0;
+    if (std::holds_alternative<bool Lens::*>(field.member)) {  // both ways: a file's camera may have it on or off
         const std::string name = field.option;
-        return command.add_flag_callback(
-            standard ? "--no-" + name.substr(2) : name, [set, standard] { set(!standard); }, field.description);
+        return command.add_flag_function(
+            name + ",!--no-" + name.substr(2), [set](std::int64_t count) { set(count > 0 ? 1 : 0); },
+            field.description);
     }
     const bool whole = std::holds_alternative<int Lens::*>(field.member);
     return addParsed(command, field.option, field.unit, field.description,

@@ -5,6 +5,7 @@
 #include "app/command.h"
 #include "app/option_text.h"
 #include "app/view_session.h"
+#include "core/error.h"
 #include "core/file.h"
 
 namespace defocus {
@@ -13,6 +14,8 @@ namespace {
 
 void runView(const SessionOptions& options, const GlobalOptions& global) {
     static_cast<void>(chosenMethod(options.scene));
+    if (options.scene.exposure.exactMotion)
+        fail("--motion-segments exact: a window shows any number of samples; give a number, such as 16");
     if (!options.screenshot.empty()) {
         checkImageExtension(options.screenshot);
         checkWritable(options.screenshot);

@@ -181,6 +181,11 @@ double focusTerm(const ViewState& state, const PictureArea& area, const glm::dve
     return std::max(1e-3, 1 + coc.curvature * radius2 + glm::dot(coc.tilt, ndc));
 }
 
+void zoom(ViewState& state, double notches) {
+    state.followsCamera = false;
+    state.camera = zoomed(state.camera, std::pow(zoomNotch, notches));
+}
+
 double farFocus(const ViewState& state) {
     return state.pull ? state.pull->to : state.lens.focusDistance;
 }
@@ -248,7 +253,7 @@ void ViewInput::handle(const WindowEvent& event, const InputContext& context, Vi
             else if (event.shift)  // some systems turn the wheel sideways with Shift
                 state.lens.fStop = steppedStop(state.lens.fStop, event.scroll.y + event.scroll.x > 0 ? -1 : 1);
             else
-                state.camera = zoomed(state.camera, std::pow(zoomNotch, event.scroll.y));
+                zoom(state, event.scroll.y);
             break;
         case WindowEvent::Type::key:
             hold(event, context);

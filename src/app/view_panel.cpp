@@ -74,6 +74,25 @@ void sceneSection(const PanelContext& context, ViewState& state, ViewActions& ac
     if (ImGui::Button("Frame selection")) actions.frameSelection = true;
 }
 
+// Motion blur.
+void shutterRows(Exposure& exposure) {
+    rowLabel("Shutter", "How long it stays open: what moves meanwhile is blurred (--shutter)");
+    const double shut = 0;
+    const double longest = 10;
+    const char* format = exposure.seconds > 0 ? "%.4f s" : "one moment";
+    ImGui::DragScalar("##shutter", ImGuiDataType_Double, &exposure.seconds, 0.0005f, &shut, &longest, format,
+                      ImGuiSliderFlags_AlwaysClamp);
+    if (!(exposure.seconds > 0)) return;
+    rowLabel("Shutter position", "Where the time lies in the exposure (--shutter-position)");
+    int position = static_cast<int>(exposure.position);
+    if (ImGui::Combo("##position", &position, "start\0centre\0end\0"))
+        exposure.position = static_cast<ShutterPosition>(position);
+    rowLabel("Motion segments", "Straight lines that a vertex's way is cut into (--motion-segments)");
+    int segments = static_cast<int>(exposure.motionSegments);
+    if (ImGui::SliderInt("##segments", &segments, 1, 64, "%d", ImGuiSliderFlags_AlwaysClamp))
+        exposure.motionSegments = static_cast<std::uint32_t>(segments);
+}
+
 void animationSection(const PanelContext& context, ViewState& state) {
     const std::vector<AnimationClip>& clips = context.frame->scene->clips;
     if (clips.empty() || !section("Animation", true)) return;
@@ -99,6 +118,7 @@ void animationSection(const PanelContext& context, ViewState& state) {
     const double slowest = 0.1;
     const double fastest = 4;
     ImGui::SliderScalar("##speed", ImGuiDataType_Double, &animation.speed, &slowest, &fastest, "%.2f");
+    shutterRows(state.options.exposure);
 }
 
 void lensSections(const PanelContext& context, ViewState& state) {

@@ -64,8 +64,9 @@ ViewSession::~ViewSession() {
         settings_.interfaceScale = state_.interfaceScale;
         settings_.budgetMilliseconds = state_.budget.milliseconds;
         if (options_.frames == 0) {
-            settings_.width = window_.size().x;
-            settings_.height = window_.size().y;
+            const glm::dvec2 size = glm::dvec2(window_.size()) / window_.contentScale();
+            settings_.width = static_cast<int>(std::lround(size.x));
+            settings_.height = static_cast<int>(std::lround(size.y));
         }
         writeViewSettings(viewSettingsPath(), settings_);
     } catch (const std::exception& error) {
@@ -171,6 +172,7 @@ View ViewSession::currentView() const {
     const glm::ivec2 size = pictureSize();
     view.width = size.x;
     view.height = size.y;
+    if (state_.followsCamera) view.shutterCameras = shutterCameras_;
     return view;
 }
 

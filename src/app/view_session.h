@@ -65,6 +65,7 @@ private:
     [[nodiscard]] WriteOptions writeOptions() const;
     [[nodiscard]] InputContext inputContext() const;
     [[nodiscard]] PictureRequest request() const;
+    [[nodiscard]] std::optional<PlacedCamera> followedCamera() const;
     [[nodiscard]] std::string sideLabel(const PictureSide& side) const;
     [[nodiscard]] double waitingTime() const;
 
@@ -85,6 +86,8 @@ private:
     std::uint64_t poseVersion_ = 0;
     double posedTime_ = 0;
     int posedClip_ = 0;
+    Exposure posedExposure_;
+    std::vector<glm::dmat4> shutterCameras_;  // of a camera of the file that moves while the shutter is open
     Clock::time_point begin_ = Clock::now();
     double lastFrame_ = 0;
     double statsWrittenAt_ = -1;

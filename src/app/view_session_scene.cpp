@@ -6,10 +6,21 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
+#include "app/exposure.h"
 #include "app/view_session.h"
 #include "scene/animation.h"
 
 namespace defocus {
+
+namespace {
+
+// What --clip calls a clip: its name, or its number where another has that name.
+std::string clipText(const Scene& scene, int clip) {
+    const std::string& name = scene.clips[static_cast<std::size_t>(clip)].name;
+    return !name.empty() && clipNamed(scene, name) == clip ? name : std::to_string(clip);
+}
+
+}  // namespace
 
 void ViewSession::takeScene() {
     std::optional<LoadedScene> loaded = loader_.take();
@@ -42,6 +53,8 @@ void ViewSession::adoptScene(LoadedScene scene) {
     state_.animation = {.clip = clip, .time = scene.options.time, .speed = state_.animation.speed, .playing = false};
     posedTime_ = state_.animation.time;
     posedClip_ = clip;
+    posedExposure_ = state_.options.exposure;
+    shutterCameras_ = frame_->view.shutterCameras;
     state_.selected = -1;
     state_.shotKeys.clear();
     state_.poppingSince.reset();
@@ -52,7 +65,7 @@ void ViewSession::adoptScene(LoadedScene scene) {
     const double depth =
         bounds.empty() ? 0 : -(glm::inverse(frame_->view.worldFromCamera) * glm::dvec4(bounds.centre(), 1)).z;
     state_.camera.pivotDistance = depth > 0 ? depth : std::min(state_.lens.focusDistance, 1e6);
-    state_.followsCamera = !scene.options.cameraPosition && !scene.options.cameraTarget;
+    state_.followsCamera = !scene.options.cameraPosition && !scene.options.cameraTarget && !scene.options.cameraUp;
     state_.nearPlane = wanderingNearPlane(frame_->view.nearPlane, bounds);
     for (const std::string& line : frame_->refusedLensValues)
         say(fmt::format("camera '{}': {}; not used", frame_->cameraName, line), true);
@@ -82,27 +95,40 @@ void ViewSession::moveThings(double seconds) {
         std::max(1e-3, static_cast<double>(clips[static_cast<std::size_t>(animation.clip)].duration));
     if (animation.playing) animation.time += animation.speed * std::min(seconds, 0.25);
     if (animation.playing || animation.time < 0) animation.time -= std::floor(animation.time / duration) * duration;
-    if (animation.time != posedTime_ || animation.clip != posedClip_) poseScene();
+    const bool posed =
+        animation.time == posedTime_ && animation.clip == posedClip_ && state_.options.exposure == posedExposure_;
+    if (!posed) poseScene();
 }
 
 void ViewSession::poseScene() {
     if (export_) return;  // the still that is being rendered stands
     const AnimationState& animation = state_.animation;
+    const Scene& scene = *frame_->scene;
     World& world = frame_->world;
-    world.pose = poseAt(*frame_->scene, animation.time, animation.clip);
-    world.shutter = {};  // of another moment
-    state_.options.clip = animation.clip == 0 ? "" : std::to_string(animation.clip);
+    state_.options.time = animation.time;
+    state_.options.clip = animation.clip == 0 ? "" : clipText(scene, animation.clip);
+    world.pose = exposedPose(state_.options, scene);
     if (!world.pose.lights.empty()) world.lights = world.pose.lights;
-    if (state_.followsCamera) {
-        const glm::ivec2 size = pictureSize();
-        const PlacedCamera placed = defocus::chooseCamera(*frame_->scene, world.pose, state_.options.camera,
-                                                          static_cast<double>(size.x) / size.y);
-        if (placed.camera.name != "auto") state_.camera.worldFromCamera = placed.worldFromCamera;
-    }
+    PlacedCamera standing;
+    standing.worldFromCamera = state_.camera.worldFromCamera;
+    const PlacedCamera camera = followedCamera().value_or(standing);
+    state_.camera.worldFromCamera = camera.worldFromCamera;
+    View view = currentView();
+    exposeMotion(state_.options, camera, chosenSettings(state_.options), world, view);
+    shutterCameras_ = view.shutterCameras;
     posedTime_ = animation.time;
     posedClip_ = animation.clip;
-    state_.options.time = animation.time;
+    posedExposure_ = state_.options.exposure;
     ++poseVersion_;
+}
+
+// The file's camera at this time, where it is what the view follows.
+std::optional<PlacedCamera> ViewSession::followedCamera() const {
+    if (!state_.followsCamera) return std::nullopt;
+    const glm::ivec2 size = pictureSize();
+    PlacedCamera placed = defocus::chooseCamera(*frame_->scene, frame_->world.pose, state_.options.camera,
+                                                static_cast<double>(size.x) / size.y);
+    return placed.camera.name == "auto" ? std::nullopt : std::optional(std::move(placed));
 }
 
 void ViewSession::chooseCamera(const std::string& name) {
@@ -125,6 +151,8 @@ void ViewSession::chooseCamera(const std::string& name) {
     state_.camera = {frame_->view.worldFromCamera, std::clamp(frame_->view.lens.focusDistance, 1e-3, 1e6)};
     state_.nearPlane = wanderingNearPlane(frame_->view.nearPlane, frame_->world.pose.bounds);
     state_.followsCamera = true;
+    shutterCameras_.clear();
+    if (!frame_->scene->clips.empty()) poseScene();
 }
 
 void ViewSession::frameBounds(bool selection) {

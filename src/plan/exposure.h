@@ -16,6 +16,7 @@ struct Exposure {
     ShutterPosition position = ShutterPosition::centre;
     std::uint32_t motionSegments = 1;  // straight lines that a vertex's way is cut into, 1 … 64
     bool exactMotion = false;          // a pose of its own for each sample instead
+    bool operator==(const Exposure&) const = default;
 };
 
 // The middle of the exposure, s from the frame's time.
