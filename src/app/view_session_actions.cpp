@@ -67,12 +67,15 @@ void ViewSession::share(const ViewActions& actions) {
         say("The command is on the clipboard.");
     }
     if (actions.recordKey) {
-        state_.shotKeys.push_back({exportView(), state_.camera.pivotDistance});
+        state_.shotKeys.push_back({exportView(), state_.camera.pivotDistance, state_.animation.time});
         say(fmt::format("Key {} is recorded; save the shot in the panel's Export.", state_.shotKeys.size()));
     }
     if (actions.saveShot && !state_.shotKeys.empty()) {
-        writeFile(state_.shotPath, shotJson(state_.options, state_.shotKeys, writeOptions()));
-        say(fmt::format("Written: {}; film it with: defocus capture {}", state_.shotPath, shellWord(state_.shotPath)));
+        writeFile(state_.shotPath, shotJson({state_.options, frame_->cameraLens, state_.shotKeys,
+                                             state_.animation.speed, writeOptions()}));
+        const std::string command = captureCommand(state_.shotPath, state_.options);
+        window_.setClipboard(command);
+        say(fmt::format("Written: {}; film it with (on the clipboard): {}", state_.shotPath, command));
     }
     if (actions.cancelExport && export_) {
         export_.reset();
@@ -161,6 +164,7 @@ void ViewSession::writeStats() {
         {"budgetMilliseconds", state_.budget.milliseconds},
         {"quality", state_.budget.rung},
         {"picture", {picture.origin.x, picture.origin.y, picture.size.x, picture.size.y}},
+        {"scale", scale()},
         {"cameraPosition", {position.x, position.y, position.z}},
         {"focusDistance",
          std::isfinite(state_.lens.focusDistance) ? nlohmann::ordered_json(state_.lens.focusDistance) : nullptr},

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <map>
 #include <numbers>
@@ -35,19 +35,6 @@ std::vector<Key<glm::dvec3>> pointsOf(const std::vector<Key<Place>>& keys, const
     return points;
 }
 
-// Looks from `position` to `target`, upright; straight up or down, the image's top lies at −z.
-glm::dmat4 lookingAt(const glm::dvec3& position, const glm::dvec3& target) {
-    const glm::dvec3 backward = position - target;
-    const double distance = glm::length(backward);
-    if (!(distance > 0) || !std::isfinite(distance)) fail("the camera's position and target are the same point");
-    const glm::dvec3 z = backward / distance;
-    glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), z);
-    if (glm::length(x) < 1e-9) x = glm::cross(glm::dvec3(0, 0, z.y > 0 ? -1 : 1), z);
-    x = glm::normalize(x);
-    const glm::dvec3 y = glm::cross(z, x);
-    return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
-}
-
 // How much of a movement is done at `frame`, 0 at its first and 1 at its last.
 double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, double frame) {
     const FrameRange range = own.value_or(shot);
@@ -67,9 +54,12 @@ View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, dou
     const Scene& scene = *base.scene;
     if (const auto placed = cameraOfFile(base, pose); placed && !base.cameraStands)
         view.worldFromCamera = placed->worldFromCamera;
-    if (const auto* keys = std::get_if<CameraKeys>(&shot.camera.movement))
-        view.worldFromCamera = lookingAt(valueAt(pointsOf(keys->positions, scene, pose), keys->easing, frame),
-                                         valueAt(pointsOf(keys->targets, scene, pose), keys->easing, frame));
+    if (const auto* keys = std::get_if<CameraKeys>(&shot.camera.movement)) {
+        const glm::dmat4 upright = lookingAt(valueAt(pointsOf(keys->positions, scene, pose), keys->easing, frame),
+                                             valueAt(pointsOf(keys->targets, scene, pose), keys->easing, frame));
+        const double roll = glm::radians(valueAt(keys->rolls, keys->easing, frame));
+        view.worldFromCamera = roll == 0 ? upright : glm::rotate(upright, roll, glm::dvec3(0, 0, 1));
+    }
     if (const auto* turntable = std::get_if<Turntable>(&shot.camera.movement)) {
         const glm::dvec3 centre = turntable->centre ? pointOf(*turntable->centre, scene, pose) : base.centre;
         const double turns = turntable->turns * placeIn(turntable->frames, shot.range, frame);

@@ -56,6 +56,7 @@ struct FocusTrack {
 struct CameraKeys {
     std::vector<Key<Place>> positions;
     std::vector<Key<Place>> targets;  // as many, at the same frames; what the camera looks at
+    std::vector<Key<double>> rolls;   // as many too: degrees about the view axis, counter-clockwise from behind
     Easing easing = Easing::smooth;
 };
 

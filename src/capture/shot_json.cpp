@@ -80,9 +80,11 @@ std::vector<std::pair<double, JsonReader>> keysOf(const JsonReader& reader, cons
 
 CameraKeys cameraKeysOf(const JsonReader& camera) {
     CameraKeys result;
-    for (const auto& [frame, key] : keysOf(camera.at("keys"), {"frame", "position", "target"})) {
+    for (const auto& [frame, key] : keysOf(camera.at("keys"), {"frame", "position", "target", "roll"})) {
         result.positions.push_back({frame, placeOf(key.at("position"))});
         result.targets.push_back({frame, placeOf(key.at("target"))});
+        const auto roll = key.find("roll");
+        result.rolls.push_back({frame, roll ? roll->number(-36'000, 36'000) : 0});
     }
     result.easing = easingOf(camera);
     return result;

@@ -1,8 +1,24 @@
 #include "plan/camera_path.h"
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/error.h"
+
 namespace defocus {
+
+glm::dmat4 lookingAt(const glm::dvec3& position, const glm::dvec3& target) {
+    const glm::dvec3 backward = position - target;
+    const double distance = glm::length(backward);
+    if (!(distance > 0) || !std::isfinite(distance)) fail("the camera's position and target are the same point");
+    const glm::dvec3 z = backward / distance;
+    glm::dvec3 x = glm::cross(glm::dvec3(0, 1, 0), z);
+    if (glm::length(x) < 1e-9) x = glm::cross(glm::dvec3(0, 0, z.y > 0 ? -1 : 1), z);
+    x = glm::normalize(x);
+    const glm::dvec3 y = glm::cross(z, x);
+    return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
+}
 
 View dollied(const View& view, double forward) {
     View result = view;

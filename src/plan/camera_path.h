@@ -5,6 +5,10 @@
 
 namespace defocus {
 
+// worldFromCamera that looks from `position` to `target`, upright; straight up or down, the image's top lies at −z or
+// +z. Throws Error where both are the same point.
+glm::dmat4 lookingAt(const glm::dvec3& position, const glm::dvec3& target);
+
 // The view from `forward` m further along its own axis; the lens stays as it is.
 View dollied(const View& view, double forward);
 

@@ -79,6 +79,18 @@ TEST_F(FrameSequence, cameraKeysLookFromPositionToTarget) {
                  Error);
 }
 
+// From +z, 90° counter-clockwise: the camera's right is up.
+TEST_F(FrameSequence, cameraKeysRoll) {
+    const char* shot = R"({"camera": {"interpolation": "linear", "keys": [
+        {"frame": 0, "position": [0, 0, 2], "target": [0, 0, 0]},
+        {"frame": 10, "position": [0, 0, 2], "target": [0, 0, 0], "roll": 180}]}})";
+    expectNear(glm::dvec3(frame(shot, 0).view.worldFromCamera[0]), {1, 0, 0});
+    expectNear(glm::dvec3(frame(shot, 5).view.worldFromCamera[0]), {0, 1, 0});
+    expectNear(glm::dvec3(frame(shot, 5).view.worldFromCamera[1]), {-1, 0, 0});
+    expectNear(forwardOf(frame(shot, 5)), {0, 0, -1});
+    expectNear(glm::dvec3(frame(shot, 10).view.worldFromCamera[1]), {0, -1, 0});
+}
+
 TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
     const char* shot = R"({"range": [10, 50], "camera": {"turntable": {"centre": "Still"}}})";
     expectNear(placeOf(frame(shot, 10)), {0, 0, 0});

@@ -100,7 +100,7 @@ json fullShot() {
         "animation": {"clip": 1, "start": 0.5, "speed": 2, "loop": true},
         "camera": {"name": "Main", "interpolation": "linear",
                    "keys": [{"frame": 0, "position": [1, 2, 3], "target": "Fish 1"},
-                            {"frame": 12.5, "position": [1, 2, 4], "target": [0, 0, 0]}]},
+                            {"frame": 12.5, "position": [1, 2, 4], "target": [0, 0, 0], "roll": -30}]},
         "focus": {"keys": [{"frame": 0, "node": "Fish 1"}, {"frame": 24, "distance": 3}], "interpolation": "smooth"},
         "lens": {"fStop": {"keys": [{"frame": 0, "value": 1.4}, {"frame": 9, "value": 4}], "interpolation": "linear"},
                  "bladeCount": 7, "focusBreathing": true},
@@ -156,7 +156,8 @@ std::vector<json> shots() {
     other["focus"] = json::parse(R"({"distance": 4})");
     other["output"] = "####.jpg";
     other.erase("exposure");
-    other["lens"]["exposureTime"] = json::parse(R"({"keys": [{"frame": 0, "value": 0.01}, {"frame": 9, "value": 0.1}]})");
+    other["lens"]["exposureTime"] =
+        json::parse(R"({"keys": [{"frame": 0, "value": 0.01}, {"frame": 9, "value": 0.1}]})");
     other["lens"]["iso"] = 400;
     result.push_back(other);
     other["focus"] = json::parse(R"({"pixel": [160, 16383]})");
