@@ -151,7 +151,9 @@ double Window::contentScale() const {
     float x = 1;
     float y = 1;
     glfwGetWindowContentScale(window_, &x, &y);
-    return std::clamp(static_cast<double>(x), 0.5, 4.0);
+    // Where window units are not pixels they follow the screen already.
+    const double pixels = static_cast<double>(framebufferSize().x) / std::max(1, size().x);
+    return std::clamp(pixels > 0 ? static_cast<double>(x) / pixels : 1.0, 0.5, 4.0);
 }
 
 void Window::beginFrame(const glm::vec3& color) {

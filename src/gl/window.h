@@ -49,7 +49,7 @@ struct WindowEvent {
 };
 
 struct WindowOptions {
-    int width = 1280;  // window units
+    int width = 1280;  // units of the interface: on a dense screen the window has more px
     int height = 800;
     std::string title = "defocus";
 };
@@ -70,7 +70,7 @@ public:
 
     [[nodiscard]] glm::ivec2 size() const;             // window units
     [[nodiscard]] glm::ivec2 framebufferSize() const;  // px; 0 x 0 while minimised
-    [[nodiscard]] double contentScale() const;         // px a unit of the interface, 1 on a plain screen
+    [[nodiscard]] double contentScale() const;         // window units to one of the interface, 1 on a plain screen
 
     // Clears the window's framebuffer to display values and makes it the render target.
     void beginFrame(const glm::vec3& color);

@@ -31,7 +31,8 @@ protected:
         if (server_ == 0) {
             ::dup2(ends[1], 3);
             silence();
-            ::execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp", nullptr);
+            ::execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp",
+                     nullptr);
             ::_exit(97);
         }
         ::close(ends[1]);
@@ -123,6 +124,7 @@ protected:
     void key(const std::string& name) const { act("key " + name); }
 
     static void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+    [[nodiscard]] static const std::string& display() { return display_; }
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     [[nodiscard]] std::string textOf(const char* name) const {
         std::ifstream file(folder_ / name);

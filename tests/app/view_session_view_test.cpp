@@ -6,6 +6,9 @@
 #include "app/two_quads.h"
 #include "app/view_program.h"
 #include "image/image_io.h"
+#ifdef DEFOCUS_XCB
+#include "app/drop_source.h"
+#endif
 
 namespace defocus {
 namespace {
@@ -120,6 +123,53 @@ TEST_F(View, openedFileReplacesTheScene) {
     act("mousemove 500 45 sleep 0.2 click 1 sleep 0.3 type --delay 30 other.gltf");
     key("Return");
     EXPECT_TRUE(showsScene("other.gltf")) << state();
+}
+
+#ifdef DEFOCUS_XCB
+TEST_F(View, droppedFileReplacesTheScene) {
+    openTwoQuads();
+    writeTwoQuads(folder() / "two words.gltf");
+    DropSource hand(display());
+    const std::string uri = "file://" + (folder() / "two%20words.gltf").string();
+    ASSERT_TRUE(hand.drop(uri + "\r\n", 120, 100));
+    EXPECT_TRUE(showsScene("two words.gltf")) << state();
+    // What is no scene is reported, and the old one stays.
+    std::ofstream(folder() / "notes.txt") << "no glTF";
+    ASSERT_TRUE(hand.drop("file://" + (folder() / "notes.txt").string() + "\r\n", 120, 100));
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("fault") != ""; })) << state();
+    EXPECT_NE(state().at("fault").get<std::string>().find("notes.txt"), std::string::npos);
+    EXPECT_EQ(state().at("scene"), "two words.gltf");
+}
+#endif
+
+// The interface is as large as the screen's resolution asks for: panel, fonts and window grow with it.
+TEST_F(View, interfaceFollowsTheScreensResolution) {
+    if (std::system("command -v xrdb >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "xrdb is needed (Debian: x11-xserver-utils)";
+    writeTwoQuads(folder() / "quads.gltf");
+    const auto setDpi = [](int dpi) {
+        const std::string line = "echo 'Xft.dpi: " + std::to_string(dpi) + "' | DISPLAY=" + display() + " xrdb -merge";
+        EXPECT_EQ(std::system(line.c_str()), 0);
+    };
+    for (const double scale : {1.0, 1.5, 2.0}) {
+        SCOPED_TRACE(scale);
+        setDpi(static_cast<int>(96 * scale));
+        const std::string shot = "window" + std::to_string(static_cast<int>(10 * scale)) + ".png";
+        start({"quads.gltf", "--size", "250x150", "--screenshot", shot, "--frames", "3"});
+        ASSERT_EQ(ended(), 0) << textOf("stderr");
+        EXPECT_EQ(state().at("scale"), scale);
+        const Image image = readImage(folder() / shot);
+        const auto scaled = [&](double units) { return static_cast<int>(std::lround(units * scale)); };
+        ASSERT_EQ(image.width, scaled(614));
+        ASSERT_EQ(image.height, scaled(150));
+        // The panel's ground begins where the picture ends.
+        const float* ground = image.at(scaled(250) + 2, scaled(3));
+        EXPECT_NEAR(ground[0], 0.016f, 0.004f);
+        EXPECT_EQ(ground[0], ground[2]);
+        const float* picture = image.at(scaled(250) - 2, scaled(3));
+        EXPECT_GT(std::abs(picture[0] - ground[0]) + std::abs(picture[2] - ground[2]), 0.02f);
+    }
+    setDpi(96);
 }
 
 TEST_F(View, exportedStillIsThatOfTheCommand) {
