@@ -1,6 +1,7 @@
 #pragma once
 // The panel beside the picture: everything of ViewState that people set by numbers and names.
 
+#include "app/input_latency.h"
 #include "app/prepared_frame.h"
 #include "app/view_picture.h"
 #include "app/view_state.h"
@@ -18,6 +19,7 @@ struct PanelContext {
     ImVec2 origin, size;                                    // of the panel, window units
     const std::vector<float>* frameMilliseconds = nullptr;  // of the latest frames
     double interfaceMilliseconds = 0;
+    InputLatency::Summary latency;
     bool exporting = false;
     double exportShare = 0;
     glm::ivec2 pictureSize{0};  // px

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "lens/lens_fields.h"
 
@@ -92,8 +93,9 @@ bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     lastDisplayKey_ = shown;
 
     // Draw a frame, wait until hands are still, or let the image grow.
-    const double growth = std::max(budget.milliseconds, software_ ? softwareGrowth : 0.0);
     showsWork_ = request.display.overlay == DisplayOverlay::work;
+    const bool shares = showsWork_ && growing_ && grows_ && (!workCurrent_ || workGrows_);  // the image and its work
+    const double growth = std::max(budget.milliseconds, software_ ? softwareGrowth : 0.0) * (shares ? 0.5 : 1);
     if (changed) {
         ++changes_;
         drawMoving(request, budget);
@@ -113,7 +115,7 @@ bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     }
     const bool tooFew = growing_ && grows_ && fewestSamples() < firstShownSample;
     if (!presents || tooFew) return false;
-    presentedSamples_ = fewestSamples();
+    presentedSamples_ = shownSamples_ = fewestSamples();
     present(request);
     return true;
 }
@@ -154,16 +156,20 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     workCurrent_ = workGrows_ = false;
     if (showsWork_) growWork(std::numeric_limits<double>::infinity());
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    if (!fresh_ && !request.fixedQuality) budget = adapted(budget, milliseconds);
+    // The picture may have half of the budget at least: no interface is worth another rung.
+    const double rest = std::min(request.restOfFrame, 0.5 * budget.milliseconds);
+    if (!fresh_ && !request.fixedQuality) budget = adapted(budget, milliseconds + rest);
     fresh_ = false;
     aovsCurrent_ = false;
     psnr_.reset();
+    passTotals_.clear();
     notePasses();
 }
 
 void ViewPicture::beginGrowing(const PictureRequest& request) {
     growing_ = true;
     grows_ = true;
+    passTotals_.clear();
     presentedSamples_ = firstShownSample - 1;
     first_->begin(request.view, settingsOf(request.settings, request.first), request.thresholdsFollow,
                   request.mostSamples);
@@ -183,17 +189,29 @@ void ViewPicture::grow(double milliseconds) {
     notePasses();
 }
 
+// The renderer's times are sums since its frame was started, which a growing image shares between many frames.
 void ViewPicture::notePasses() {
     const RenderStats stats = first_->stats();
-    passes_.clear();
-    for (const PassTime& pass : stats.passes) passes_.push_back({pass.name, pass.milliseconds});
-    if (passes_.empty()) passes_.push_back({"waves", stats.gpuMilliseconds});
-    passes_.push_back({"set-up", stats.setupMilliseconds});
+    std::vector<PassShare> totals;
+    for (const PassTime& pass : stats.passes) totals.push_back({pass.name, pass.milliseconds});
+    if (totals.empty()) totals.push_back({"waves", stats.gpuMilliseconds});
+    passes_ = totals;
+    if (passTotals_.size() == totals.size())
+        for (std::size_t i = 0; i < totals.size(); ++i) passes_[i].milliseconds -= passTotals_[i].milliseconds;
+    passTotals_ = std::move(totals);
+    const bool setUp = std::exchange(setupTotal_, stats.setupMilliseconds) != stats.setupMilliseconds;
+    passes_.push_back({"set-up", setUp ? stats.setupMilliseconds : 0});
+    // Overlays and display are those of the frame before: nobody waits for them.
+    if (const double overlays = overlayTimer_.milliseconds(); overlays > 0) passes_.push_back({"overlays", overlays});
+    overlayTimer_.reset();
+    passes_.push_back({"display", displayTimer_.milliseconds()});
 }
 
 void ViewPicture::drawAovs() {
     if (!aovs_) aovs_.emplace(*world_, options_.shaderFolder);
+    overlayTimer_.begin();
     aovs_->draw(first_->plan());
+    overlayTimer_.end();
     aovsCurrent_ = true;
     wireframeCurrent_ = false;
 }
@@ -202,14 +220,18 @@ void ViewPicture::growWork(double milliseconds) {
     if (!work_) work_.emplace(*world_, options_.shaderFolder);
     if (!workCurrent_) work_->begin(first_->plan());
     workCurrent_ = true;
+    overlayTimer_.begin();
     workGrows_ = work_->grow(milliseconds);
+    overlayTimer_.end();
 }
 
 void ViewPicture::present(const PictureRequest& request) {
     const DisplaySettings& display = request.display;
     if (display.needsAovs() && !aovsCurrent_) drawAovs();
     if (display.wireframe && !wireframeCurrent_) {
+        overlayTimer_.begin();
         aovs_->drawWireframe();
+        overlayTimer_.end();
         wireframeCurrent_ = true;
     }
     DisplayInputs inputs;
@@ -228,7 +250,14 @@ void ViewPicture::present(const PictureRequest& request) {
         psnr_ = display_.psnr(*inputs.first, *inputs.second);
         nextPsnr_ = Clock::now() + psnrEvery;
     }
-    display_.draw(inputs, display, request.view.width, request.view.height);
+    displayTimer_.reset();
+    displayTimer_.begin();
+    // A frame of a movement is enlarged last, with the window: on a CPU each pixel of this pass counts.
+    const TextureInfo& image = inputs.first->info();
+    const bool whole = growing_ || display.wireframe;
+    display_.draw(inputs, display, whole ? request.view.width : image.width,
+                  whole ? request.view.height : image.height);
+    displayTimer_.end();
 }
 
 }  // namespace defocus

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/frame_budget.h"
+#include "gl/timer.h"
 #include "render/aov.h"
 #include "render/display_pass.h"
 #include "render/progressive_image.h"
@@ -32,6 +33,7 @@ struct PictureRequest {
     DisplaySettings display;
     std::uint32_t mostSamples = 4096;
     std::optional<FrameQuality> fixedQuality;  // instead of the budget's, and no growing
+    double restOfFrame = 0;                    // ms that the budget's frame takes beside the picture, as of late
 };
 
 struct PassShare {
@@ -52,12 +54,13 @@ public:
     // Nothing is left to do until something changes.
     [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
     [[nodiscard]] std::uint32_t samples() const { return first_ ? first_->samples() : 0; }
+    [[nodiscard]] std::uint32_t shownSamples() const { return shownSamples_; }  // in the texture
     [[nodiscard]] const FramePlan& plan() const { return first_->plan(); }
     [[nodiscard]] const FramePlan* secondPlan() const { return second_ ? &second_->plan() : nullptr; }
     [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // of the two sides, dB
     // Lens samples in the heat map of work; 0 before it is asked for.
     [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
-    // Of the latest frame: waves by timer queries, the rest by the clock.
+    // Of the latest frame: passes by timer queries, set-up by the clock.
     [[nodiscard]] const std::vector<PassShare>& passes() const { return passes_; }
     // Times that things have changed since the scene was there.
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
@@ -93,11 +96,14 @@ private:
     Clock::time_point settlesAt_;
     Clock::time_point nextPsnr_;
     std::uint32_t presentedSamples_ = 0;
+    std::uint32_t shownSamples_ = 0;
     bool growing_ = false;
     bool grows_ = false;
     bool fresh_ = true;  // the next frame uploads: its time says nothing
     std::optional<double> psnr_;
-    std::vector<PassShare> passes_;
+    GpuTimer overlayTimer_, displayTimer_;
+    std::vector<PassShare> passes_, passTotals_;
+    double setupTotal_ = 0;
     std::uint64_t changes_ = 0;
 };
 

@@ -87,7 +87,7 @@ void ViewSession::run() {
 // ---- a frame ------------------------------------------------------------------------------------
 
 void ViewSession::frame() {
-    const std::vector<WindowEvent> events = window_.poll(waitingTime());
+    const std::vector<WindowEvent> events = fetchEvents();
     const glm::ivec2 framebuffer = window_.framebufferSize();
     if (framebuffer.x < 1 || framebuffer.y < 1) {  // minimised
         takeScene();
@@ -99,6 +99,7 @@ void ViewSession::frame() {
     const double elapsed = time - std::exchange(lastFrame_, time);
     interface_.beginFrame(state_.dark, scale(), events);
     takeScene();
+    const std::uint64_t changesBefore = picture_ ? picture_->changes() : 0;
     handleEvents(events);
     moveThings(elapsed);
     updatePicture();
@@ -112,6 +113,7 @@ void ViewSession::frame() {
     if (last && !options_.screenshot.empty()) takeScreenshot(options_.screenshot);
     if (actions_.screenshot) takeScreenshot({});
     window_.endFrame();
+    noteLatency(changesBefore);
     interfaceMilliseconds_ = millisecondsSince(interfaceBegin);
     act();
     if (picture_ && !draft_) ++framesWithScene_;
@@ -119,6 +121,26 @@ void ViewSession::frame() {
     frameTimes_.push_back(static_cast<float>(frameMilliseconds_));
     if (frameTimes_.size() > shownFrameTimes) frameTimes_.erase(frameTimes_.begin());
     writeStats();
+}
+
+// What has happened; sleeps until something does where there is nothing to do.
+std::vector<WindowEvent> ViewSession::fetchEvents() {
+    Clock::time_point earliest = fetchedAt_;  // they may have come at once after the fetch before
+    std::vector<WindowEvent> events = window_.poll(0);
+    if (const double seconds = waitingTime(); events.empty() && seconds > 0) {
+        events = window_.poll(seconds);
+        earliest = Clock::now();
+    }
+    fetchedAt_ = Clock::now();
+    if (!events.empty()) latency_.arrived(earliest);
+    return events;
+}
+
+void ViewSession::noteLatency(std::uint64_t changesBefore) {
+    if (picture_ && picture_->changes() > changesBefore)
+        latency_.shown(Clock::now());
+    else if (!state_.pull)  // whose first step comes with the next frame
+        latency_.forget();
 }
 
 // Nothing moves and nothing grows: sleep until something happens.
@@ -213,6 +235,7 @@ void ViewSession::drawInterface() {
     panel.size = {static_cast<float>(window_.size().x) - end.x, end.y};
     panel.frameMilliseconds = &frameTimes_;
     panel.interfaceMilliseconds = interfaceMilliseconds_;
+    panel.latency = latency_.summary();
     panel.exporting = export_.has_value();
     panel.exportShare = export_ ? export_->share() : 0;
     panel.pictureSize = pictureSize();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/input_latency.h"
 #include "app/scene_loader.h"
 #include "app/still_export.h"
 #include "app/view_hud.h"
@@ -40,6 +41,8 @@ private:
     void takeScene();
     void adoptScene(LoadedScene scene);
     void refineScene(PreparedFrame& frame);
+    std::vector<WindowEvent> fetchEvents();
+    void noteLatency(std::uint64_t changesBefore);
     void handleEvents(const std::vector<WindowEvent>& events);
     void moveThings(double seconds);
     void poseScene();
@@ -92,6 +95,8 @@ private:
     double lastFrame_ = 0;
     double statsWrittenAt_ = -1;
     std::string statsWritten_;
+    Clock::time_point fetchedAt_ = Clock::now();
+    InputLatency latency_;
     double interfaceMilliseconds_ = 0;
     double frameMilliseconds_ = 0;
     std::vector<float> frameTimes_;

@@ -152,6 +152,10 @@ void ViewSession::writeStats() {
     statsWrittenAt_ = now();
     const PictureArea picture = area();
     const glm::dvec3 position = state_.camera.position();
+    nlohmann::ordered_json passes = {{"interface", interfaceMilliseconds_}};
+    if (picture_)
+        for (const PassShare& pass : picture_->passes()) passes[pass.name] = pass.milliseconds;
+    const InputLatency::Summary latency = latency_.summary();
     nlohmann::ordered_json json = {
         {"scene", frame_ ? frame_->sceneName : ""},
         {"loading", loader_.busy()},
@@ -161,6 +165,9 @@ void ViewSession::writeStats() {
         {"moving", picture_ && picture_->moving()},
         {"changes", picture_ ? picture_->changes() : 0},
         {"frameMilliseconds", frameMilliseconds_},
+        {"passMilliseconds", passes},
+        {"inputMilliseconds",
+         {{"count", latency.count}, {"latest", latency.latest}, {"median", latency.median}, {"worst", latency.worst}}},
         {"budgetMilliseconds", state_.budget.milliseconds},
         {"quality", state_.budget.rung},
         {"picture", {picture.origin.x, picture.origin.y, picture.size.x, picture.size.y}},

@@ -20,6 +20,7 @@ PictureRequest ViewSession::request() const {
     result.display = state_.display;
     result.display.exposure = shownExposure(state_);
     result.mostSamples = state_.mostSamples;
+    result.restOfFrame = interfaceMilliseconds_;
     const MethodUse accumulation = parseMethodUse("accumulation");
     switch (state_.comparison) {
         case Comparison::none:

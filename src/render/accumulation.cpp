@@ -39,7 +39,7 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        for (GpuTimer* timer : {&surfaceTimer_, &sumTimer_}) timer->reset();
+        for (GpuTimer* timer : {&opaqueTimer_, &skyTimer_, &blendedTimer_, &sumTimer_}) timer->reset();
         prepareDraws();
     }
 
@@ -80,7 +80,10 @@ public:
         clock_.fill(stats);
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
-        stats.passes = {{"surfaces", surfaceTimer_.milliseconds()}, {"sum", sumTimer_.milliseconds()}};
+        stats.passes = {{"opaque", opaqueTimer_.milliseconds()}};
+        if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
+        if (surfaces_->hasBlended()) stats.passes.push_back({"blended", blendedTimer_.milliseconds()});
+        stats.passes.push_back({"sum", sumTimer_.milliseconds()});
         return stats;
     }
 
@@ -113,17 +116,25 @@ private:
         sum_->reset();
     }
 
+    // Simpler skies are composed when layers are added.
+    [[nodiscard]] bool drawsSky() const {
+        return scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha;
+    }
+
+    static void timed(GpuTimer& timer, const auto& pass) {
+        timer.begin();
+        pass();
+        timer.end();
+    }
+
     void drawWave(std::uint32_t first, std::uint32_t count) {
-        surfaceTimer_.begin();
-        sum_->beginWave();
-        surfaces_->drawOpaque(first, count);
-        if (scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha)
-            surfaces_->drawSky(first, count);
-        surfaces_->drawBlended(first, count);
-        surfaceTimer_.end();
-        sumTimer_.begin();
-        sum_->endWave(frame_, first, count);
-        sumTimer_.end();
+        timed(opaqueTimer_, [&] {
+            sum_->beginWave();
+            surfaces_->drawOpaque(first, count);
+        });
+        if (drawsSky()) timed(skyTimer_, [&] { surfaces_->drawSky(first, count); });
+        if (surfaces_->hasBlended()) timed(blendedTimer_, [&] { surfaces_->drawBlended(first, count); });
+        timed(sumTimer_, [&] { sum_->endWave(frame_, first, count); });
         for (const ObjectPlan& object : plan_.objects)
             for (const LevelDraw& draw : {object.coarse, object.fine}) {
                 const std::uint32_t begin = std::max(first, draw.firstSample);
@@ -141,7 +152,7 @@ private:
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> surfaces_;
     mutable FrameClock clock_;
-    mutable GpuTimer surfaceTimer_, sumTimer_;
+    mutable GpuTimer opaqueTimer_, skyTimer_, blendedTimer_, sumTimer_;
     RenderStats stats_;
 };
 

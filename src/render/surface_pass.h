@@ -33,6 +33,7 @@ public:
     void drawOpaque(std::uint32_t first, std::uint32_t count);
     // The same for alpha-blended surfaces, back to front (blending onto premultiplied colours).
     void drawBlended(std::uint32_t first, std::uint32_t count);
+    [[nodiscard]] bool hasBlended() const { return !blended_.empty(); }
     // Only the depth of the alpha-blended surfaces, and what the shader writes beside the colour.
     void drawBlendedDepth(std::uint32_t first, std::uint32_t count);
     // All surfaces, blended ones too, as if they were opaque.
