@@ -59,7 +59,7 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
     if (choices.y == OVERLAY_LEVEL) {
         float level = texture(levelImage, uv).r;
         if (level < 0.0) return 0.35 * vec3(grey);
-        return srgbEncoded(texture(mapColours, vec2(level / 8.0, 0.5)).rgb) * (0.35 + 0.75 * grey);
+        return srgbEncoded(texture(mapColours, vec2(level / 8.0, 0.5)).rgb) * (0.55 + 0.65 * grey);
     }
     if (choices.y == OVERLAY_WORK) {
         float work = log2(1.0 + texture(workImage, uv).r * workScale.x) * workScale.y;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
+#include <vector>
 
 #include "image/colour_map.h"
 #include "image/tone_map.h"
@@ -42,24 +44,40 @@ std::string distanceText(double metres) {
     return metres < 1 ? fmt::format("{:.1f} cm", 100 * metres) : fmt::format("{:.2f} m", metres);
 }
 
-void drawStatus(const HudContext& context, const ViewState& state) {
-    if (context.picture == nullptr) return;
+float labelWidth(const HudContext& context, const std::string& text) {
+    return ImGui::CalcTextSize(text.c_str()).x + 12 * context.scale;
+}
+
+// Lens and samples at the bottom left: side by side, one above the other where the picture is narrow. Returns the
+// corner at their top right.
+ImVec2 drawStatus(const HudContext& context, const ViewState& state) {
+    const float gap = 8 * context.scale;
+    const ImVec2 at = corner(context, 0, 1);
+    if (context.picture == nullptr) return at;
     const Lens& lens = state.lens;
     const std::string optics = lens.dofEnabled ? fmt::format("{:.3g} mm   f/{:.3g}   {}", lens.focalLength, lens.fStop,
                                                              distanceText(lens.focusDistance))
                                                : fmt::format("{:.3g} mm   pinhole", lens.focalLength);
     const View& view = context.picture->plan().view;
-    const std::string work =
-        fmt::format("{} samples{}   {} × {}   {:.0f} ms", context.picture->samples(),
-                    context.picture->finished() ? " ✓" : "", view.width, view.height, context.frameMilliseconds);
-    const float gap = 8 * context.scale;
-    const ImVec2 at = corner(context, 0, 1);
-    const ImVec2 size = label(context, {at.x + gap, at.y - gap}, 0, 1, optics, white);
-    label(context, {at.x + 1.5f * gap + size.x, at.y - gap}, 0, 1, work, quiet);
-    if (state.navigation == Navigation::fly) {
-        const ImVec2 right = corner(context, 1, 1);
-        label(context, {right.x - gap, right.y - gap}, 1, 1, "fly", white);
+    const std::string samples =
+        fmt::format("{} {}{}", context.picture->samples(), context.picture->samples() == 1 ? "sample" : "samples",
+                    context.picture->finished() ? " ✓" : "");
+    const std::string whole =
+        fmt::format("{}   {} × {}   {:.0f} ms", samples, view.width, view.height, context.frameMilliseconds);
+    const float room = static_cast<float>(context.area.size.x) - 2 * gap;
+    const std::string& work = labelWidth(context, whole) <= room ? whole : samples;
+    std::vector<std::pair<std::string, ImU32>> labels = {{optics, white}, {work, quiet}};
+    if (state.navigation == Navigation::fly) labels.emplace_back("fly", white);
+    ImVec2 next(at.x + gap, at.y - gap);
+    ImVec2 end = next;
+    for (const auto& [text, color] : labels) {
+        if (next.x > at.x + gap && next.x + labelWidth(context, text) > at.x + gap + room)
+            next = {at.x + gap, end.y - 0.5f * gap};
+        const ImVec2 size = label(context, next, 0, 1, text, color);
+        next.x += size.x + 0.5f * gap;
+        end = {std::max(end.x, next.x), next.y - size.y};
     }
+    return end;
 }
 
 void drawDivider(const HudContext& context, const ViewState& state) {
@@ -77,12 +95,18 @@ void drawDivider(const HudContext& context, const ViewState& state) {
         list.AddTriangleFilled({middle.x + side * 7 * s, middle.y}, {middle.x + side * 2.5f * s, middle.y - 4 * s},
                                {middle.x + side * 2.5f * s, middle.y + 4 * s}, white);
     const float gap = 10 * s;
-    label(context, {top.x - gap, top.y + gap}, 1, 0, context.leftLabel, white);
+    const float left = corner(context, 0, 0).x + gap;
+    const float end = corner(context, 1, 0).x - gap;
+    const float leftWidth = labelWidth(context, context.leftLabel);
+    label(context, {std::max(left, top.x - gap - leftWidth), top.y + gap}, 0, 0, context.leftLabel, white);
     std::string right = context.rightLabel;
     if (state.display.difference) right = fmt::format("{:.0f} × difference to {}", state.display.differenceGain, right);
     const auto psnr = context.picture->psnr();
     if (psnr) right += std::isfinite(*psnr) ? fmt::format("   {:.1f} dB", *psnr) : "   equal";
-    label(context, {top.x + gap, top.y + gap}, 0, 0, right, white);
+    // Where a side is too narrow its words reach over, the right ones a row lower.
+    const float x = std::min(top.x + gap, end - labelWidth(context, right));
+    const bool meet = x < top.x || left + leftWidth > top.x;
+    label(context, {std::max(left, x), top.y + (meet ? gap + 2 * ImGui::GetFontSize() : gap)}, 0, 0, right, white);
 }
 
 // What the colours of an overlay mean.
@@ -114,16 +138,18 @@ std::optional<Legend> legendOf(const ViewState& state) {
     return Legend{"level of detail", viridis, {"0", "2", "4", "6", "8 +"}};
 }
 
-// A strip of colours with its title and numbers, at the bottom right.
-void drawLegend(const HudContext& context, const ViewState& state) {
+// A strip of colours with its title and numbers, at the bottom right; above `status` where there is no room beside it.
+void drawLegend(const HudContext& context, const ViewState& state, const ImVec2& status) {
     const std::optional<Legend> legend = legendOf(state);
     if (!legend) return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = context.scale;
     const float pad = 9 * s;
     const float line = ImGui::GetFontSize();
-    const ImVec2 size(std::max(190 * s, ImGui::CalcTextSize(legend->title).x), 10 * s);
-    const ImVec2 end = corner(context, 1, 1);
+    const float room = static_cast<float>(context.area.size.x) - 16 * s - 2 * pad;
+    const ImVec2 size(std::min(room, std::max(190 * s, ImGui::CalcTextSize(legend->title).x)), 10 * s);
+    ImVec2 end = corner(context, 1, 1);
+    if (end.x - size.x - 2 * pad - 16 * s < status.x) end.y = status.y;
     const ImVec2 at(end.x - size.x - 8 * s - pad, end.y - 8 * s - pad - line - 4 * s - size.y);
     list.AddRectFilled({at.x - pad, at.y - line - 5 * s - pad}, {end.x - 8 * s, end.y - 8 * s}, plate, 4 * s);
     list.AddText({at.x, at.y - line - 5 * s}, white, legend->title);
@@ -245,6 +271,8 @@ void drawHelp(const HudContext& context, ViewState& state) {
     if (!state.help) return;
     const ImVec2 centre = corner(context, 0.5, 0.5);
     ImGui::SetNextWindowPos(centre, ImGuiCond_Always, {0.5f, 0.5f});
+    const ImVec2 window = ImGui::GetIO().DisplaySize;  // small ones scroll
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {window.x, std::max(64.0f, window.y - 16 * context.scale)});
     ImGui::Begin("Keys", &state.help,
                  ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings);
@@ -264,9 +292,9 @@ void drawHelp(const HudContext& context, ViewState& state) {
 }  // namespace
 
 void drawHud(const HudContext& context, ViewState& state) {
-    drawStatus(context, state);
     drawDivider(context, state);
-    if (context.picture != nullptr) drawLegend(context, state);
+    const ImVec2 status = drawStatus(context, state);
+    if (context.picture != nullptr) drawLegend(context, state, status);
     drawHover(context, state);
     drawLoading(context);
     drawMessages(context, state);

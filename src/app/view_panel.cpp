@@ -8,6 +8,8 @@
 #include <functional>
 
 #include "app/view_input.h"
+#include "app/view_lens_rows.h"
+#include "app/view_method_panel.h"
 
 namespace defocus {
 
@@ -30,20 +32,6 @@ void fieldRows(ViewState& state, const std::function<bool(std::string_view)>& wa
         const bool changed = lensFieldRow(state.lens, field);
         if (changed && field.name == std::string_view("focusDistance")) state.pull.reset();
     }
-}
-
-bool section(const char* title, bool open) {
-    return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-}
-
-// A combo over names; the chosen place, or −1.
-int combo(const char* id, const std::vector<std::string>& names, const std::string& current) {
-    int chosen = -1;
-    if (!ImGui::BeginCombo(id, current.c_str())) return chosen;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (ImGui::Selectable(names[i].c_str(), names[i] == current)) chosen = static_cast<int>(i);
-    ImGui::EndCombo();
-    return chosen;
 }
 
 void sceneSection(const PanelContext& context, ViewState& state, ViewActions& actions) {
@@ -79,8 +67,8 @@ void shutterRows(Exposure& exposure) {
     rowLabel("Shutter", "How long it stays open: what moves meanwhile is blurred (--shutter)");
     const double shut = 0;
     const double longest = 10;
-    const char* format = exposure.seconds > 0 ? "%.4f s" : "one moment";
-    ImGui::DragScalar("##shutter", ImGuiDataType_Double, &exposure.seconds, 0.0005f, &shut, &longest, format,
+    const std::string format = exposure.seconds > 0 ? secondsFormat(exposure.seconds) : "one moment";
+    ImGui::DragScalar("##shutter", ImGuiDataType_Double, &exposure.seconds, 0.0005f, &shut, &longest, format.c_str(),
                       ImGuiSliderFlags_AlwaysClamp);
     if (!(exposure.seconds > 0)) return;
     rowLabel("Shutter position", "Where the time lies in the exposure (--shutter-position)");
@@ -138,6 +126,7 @@ void lensSections(const PanelContext& context, ViewState& state) {
     }
     if (section("Aperture", false)) {
         aperturePreview(state.lens, context.scale);
+        if (state.lens.apertureImage) ImGui::TextDisabled("The shape is an image's.");
         fieldRows(state, [](std::string_view name) { return holds(apertureFields, name); });
     }
 }
@@ -158,42 +147,9 @@ void imageSection(ViewState& state) {
     if (ImGui::Combo("##tonemap", &toneMap, "none\0ACES\0AgX\0")) state.display.toneMap = static_cast<ToneMap>(toneMap);
 }
 
-// Levels of detail; the thresholds follow the number of samples unless they are set.
-void levelSection(ViewState& state) {
-    if (!section("Level of detail", false)) return;
-    SceneOptions& options = state.options;
-    rowLabel("Mode", "How levels are drawn (--lod)");
-    int mode = static_cast<int>(options.lod);
-    if (ImGui::Combo("##lod", &mode, "fractional\0continuous\0nearest\0off\0"))
-        options.lod = static_cast<LodMode>(mode);
-    rowLabel("Metric", "What levels are chosen by (--lod-metric)");
-    int metric = static_cast<int>(options.metric);
-    if (ImGui::Combo("##metric", &metric, "size\0error\0")) options.metric = static_cast<LodMetric>(metric);
-    bool own = options.blurThreshold.has_value() || options.sizeThreshold.has_value();
-    rowLabel("Own thresholds", "Otherwise they follow the number of samples");
-    if (ImGui::Checkbox("##own", &own)) {
-        const LodThresholds standard = defaultThresholds(options.metric, options.samples);
-        options.blurThreshold = own ? std::optional(standard.blur) : std::nullopt;
-        options.sizeThreshold = own ? std::optional(standard.size) : std::nullopt;
-    }
-    const double least = 0;
-    const double most = 1e3;
-    for (const auto& [label, threshold] :
-         {std::pair{"Blur threshold", &options.blurThreshold}, std::pair{"Size threshold", &options.sizeThreshold}}) {
-        if (!threshold->has_value()) continue;
-        ImGui::PushID(label);
-        rowLabel(label);
-        ImGui::DragScalar("##value", ImGuiDataType_Double, &**threshold, 0.01f, &least, &most, "%.3g");
-        ImGui::PopID();
-    }
-    std::vector<std::string> names;
-    for (const Method& method : methods()) names.push_back(method.name);
-    rowLabel("Method", "How the image is made (--method)");
-    const int method = combo("##method", names, options.method.substr(0, options.method.find(':')));
-    if (method >= 0) {
-        options.method = names[static_cast<std::size_t>(method)];
-        options.methodSettings.clear();
-    }
+std::string countText(double count) {
+    if (count >= 1e6) return fmt::format("{:.2f} M", 1e-6 * count);
+    return count >= 1e4 ? fmt::format("{:.0f} k", 1e-3 * count) : fmt::format("{:.0f}", count);
 }
 
 void seeSection(const PanelContext& context, ViewState& state) {
@@ -209,13 +165,13 @@ void seeSection(const PanelContext& context, ViewState& state) {
     const double share = plan.trianglesAtFullDetail > 0 ? 100.0 * static_cast<double>(plan.trianglesDrawn) /
                                                               static_cast<double>(plan.trianglesAtFullDetail)
                                                         : 100;
+    rowLabel("Objects drawn");
     ImGui::TextUnformatted(
-        fmt::format("{} of {} objects drawn", plan.objects.size(), context.frame->world.pose.objects.size()).c_str());
-    ImGui::TextUnformatted(fmt::format("{:.2f} M triangles a sample, {:.0f} % of full detail",
-                                       1e-6 * static_cast<double>(plan.trianglesDrawn) /
-                                           static_cast<double>(std::max<std::size_t>(plan.samples.size(), 1)),
-                                       share)
-                               .c_str());
+        fmt::format("{} of {}", plan.objects.size(), context.frame->world.pose.objects.size()).c_str());
+    rowLabel("Triangles", "Drawn for each lens sample, and their share of full detail");
+    const double triangles =
+        static_cast<double>(plan.trianglesDrawn) / static_cast<double>(std::max<std::size_t>(plan.samples.size(), 1));
+    ImGui::TextUnformatted(fmt::format("{}, {:.0f} %", countText(triangles), share).c_str());
     if (!ImGui::TreeNode("left out", "Left out (%d)", static_cast<int>(plan.leftOut.size()))) return;
     for (const LeftOut& entry : plan.leftOut) ImGui::TextWrapped("%s: %s", entry.what.c_str(), entry.reason.c_str());
     ImGui::TreePop();
@@ -276,6 +232,11 @@ void performanceSection(const PanelContext& context, ViewState& state) {
         timeBar(parts, state.budget.milliseconds, context.colors, context.scale);
     }
     timeGraph(*context.frameMilliseconds, state.budget.milliseconds, context.colors, context.scale);
+    if (context.latency.count > 0) {
+        rowLabel("Input to picture", "From an event to the end of the frame that shows it: median and worst");
+        ImGui::TextUnformatted(
+            fmt::format("{:.0f} ms, at most {:.0f} ms", context.latency.median, context.latency.worst).c_str());
+    }
     ImGui::TextDisabled("%s", context.device->c_str());
 }
 
@@ -330,6 +291,7 @@ void drawPanel(const PanelContext& context, ViewState& state, ViewActions& actio
         lensSections(context, state);
         imageSection(state);
         levelSection(state);
+        methodSection(state);
         seeSection(context, state);
         compareSection(context, state, actions);
         performanceSection(context, state);

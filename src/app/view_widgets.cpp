@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "app/photographic_stops.h"
-#include "core/error.h"
 #include "lens/lens_samples.h"
 
 namespace defocus {
@@ -77,77 +76,20 @@ double limitOfFocus(const FramePlan& plan, double lastDioptre) {
     return 1 / inside;
 }
 
-const char* unitText(const LensField& field) {
-    const std::string_view unit = field.unit;
-    return unit == "MM"    ? " mm"
-           : unit == "M"   ? " m"
-           : unit == "DEG" ? "°"
-           : unit == "PX"  ? " px"
-           : unit == "D"   ? " D"
-           : unit == "S"   ? " s"
-                           : "";
-}
-
-double dragStep(const LensField& field, double value) {
-    const std::string_view unit = field.unit;
-    if (unit == "DEG") return 0.25;
-    if (unit == "PX") return 0.5;
-    if (unit == "R") return 0.005;
-    if (unit == "S") return std::max(1e-5, 0.005 * value);
-    return std::max(1e-3, 0.005 * std::abs(value));
-}
-
-// Sets the field if the lens stays possible with it.
-bool trySet(Lens& lens, const LensField& field, double value) {
-    Lens changed = lens;
-    try {
-        setLensField(changed, field, std::clamp(value, field.least, field.most));
-        checkLens(changed);
-    } catch (const Error&) {
-        return false;
-    }
-    lens = changed;
-    return true;
-}
-
-bool countRow(Lens& lens, const LensField& field, double value) {
-    int count = static_cast<int>(value);
-    const int before = count;
-    if (!ImGui::SliderInt("##value", &count, 0, 16, count == 0 ? "round" : "%d")) return false;
-    if (count == 1 || count == 2) count = before >= 3 ? 0 : 3;  // no polygon has fewer than three corners
-    return trySet(lens, field, count);
-}
-
-bool numberRow(Lens& lens, const LensField& field, double value) {
-    const bool hasNone = std::isinf(lensFieldValue(Lens{}, field));
-    bool changed = false;
-    if (hasNone) {
-        bool limited = std::isfinite(value);
-        if (ImGui::Checkbox("##limited", &limited)) {
-            lens.*std::get<double Lens::*>(field.member) = limited ? 16 : lensFieldValue(Lens{}, field);
-            return true;
-        }
-        if (!limited) {
-            ImGui::SameLine();
-            ImGui::TextDisabled("none");
-            return false;
-        }
-        ImGui::SameLine();
-        ImGui::SetNextItemWidth(-1);
-    }
-    double edited = value;
-    const std::string format = std::string(std::abs(value) >= 100 ? "%.1f" : "%.3g") + unitText(field);
-    const bool bounded = field.most <= 1 && field.least >= -1;
-    if (bounded)
-        changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &edited, &field.least, &field.most, "%.2f");
-    else
-        changed =
-            ImGui::DragScalar("##value", ImGuiDataType_Double, &edited, static_cast<float>(dragStep(field, value)),
-                              &field.least, &field.most, format.c_str());
-    return changed && trySet(lens, field, edited);
-}
-
 }  // namespace
+
+bool section(const char* title, bool open) {
+    return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+int combo(const char* id, const std::vector<std::string>& names, const std::string& current) {
+    int chosen = -1;
+    if (!ImGui::BeginCombo(id, current.c_str())) return chosen;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (ImGui::Selectable(names[i].c_str(), names[i] == current)) chosen = static_cast<int>(i);
+    ImGui::EndCombo();
+    return chosen;
+}
 
 void tooltip(const std::string& text) {
     if (!ImGui::IsItemHovered()) return;
@@ -164,36 +106,6 @@ void rowLabel(const char* label, const char* help) {
     if (help != nullptr) tooltip(help);
     ImGui::SameLine(ImGui::GetFontSize() * 10.2f);
     ImGui::SetNextItemWidth(-1);
-}
-
-std::string fieldLabel(std::string_view name) {
-    std::string label;
-    for (const char letter : name) {
-        const bool capital = letter >= 'A' && letter <= 'Z';
-        if (capital) label += ' ';
-        label += capital ? static_cast<char>(letter - 'A' + 'a') : letter;
-    }
-    if (label == "f stop") return "f-stop";
-    if (label == "dof enabled") return "Depth of field";
-    if (label == "axial chromatic aberration") return "Axial colour";
-    if (!label.empty() && label[0] >= 'a' && label[0] <= 'z') label[0] = static_cast<char>(label[0] - 'a' + 'A');
-    return label;
-}
-
-bool lensFieldRow(Lens& lens, const LensField& field) {
-    const double value = lensFieldValue(lens, field);
-    ImGui::PushID(field.name);
-    rowLabel(fieldLabel(field.name).c_str(), fmt::format("{} ({})", field.description, field.option).c_str());
-    bool changed = false;
-    if (std::holds_alternative<bool Lens::*>(field.member)) {
-        bool on = value != 0;
-        if (ImGui::Checkbox("##value", &on)) changed = trySet(lens, field, on ? 1 : 0);
-    } else {
-        changed = std::holds_alternative<int Lens::*>(field.member) ? countRow(lens, field, value)
-                                                                    : numberRow(lens, field, value);
-    }
-    ImGui::PopID();
-    return changed;
 }
 
 bool stopRing(double& fStop, const InterfaceColors& colors, float scale) {
@@ -327,7 +239,8 @@ void depthDiagram(const FramePlan& plan, const InterfaceColors& colors, float sc
 void timeBar(std::span<const BarPart> parts, double budget, const InterfaceColors& colors, float scale) {
     static constexpr ImU32 palette[] = {IM_COL32(84, 148, 217, 255),  IM_COL32(240, 160, 60, 255),
                                         IM_COL32(104, 178, 120, 255), IM_COL32(180, 130, 200, 255),
-                                        IM_COL32(200, 200, 110, 255), IM_COL32(150, 150, 150, 255)};
+                                        IM_COL32(200, 200, 110, 255), IM_COL32(100, 190, 195, 255),
+                                        IM_COL32(210, 120, 140, 255), IM_COL32(150, 150, 150, 255)};
     double total = 0;
     for (const BarPart& part : parts) total += part.milliseconds;
     const double most = std::max({total, 1.25 * budget, 1e-3});

@@ -8,23 +8,20 @@
 #include <vector>
 
 #include "app/view_interface.h"
-#include "lens/lens_fields.h"
 #include "plan/frame_plan.h"
 
 namespace defocus {
 
+// A header that opens and closes what follows: whether it is open.
+bool section(const char* title, bool open);
+// A combo over names; the chosen place, or −1.
+int combo(const char* id, const std::vector<std::string>& names, const std::string& current);
 // A label on the left; the widget that follows takes the rest of the row.
 void rowLabel(const char* label, const char* tooltip = nullptr);
 void tooltip(const std::string& text);
 
 // A ring of standard stops to turn (drag, wheel) or click. True when `fStop` was changed.
 bool stopRing(double& fStop, const InterfaceColors& colors, float scale);
-
-// A row for a field of the table. True when the lens was changed; it stays possible (checkLens).
-bool lensFieldRow(Lens& lens, const LensField& field);
-
-// "Blade rotation" of "bladeRotation".
-std::string fieldLabel(std::string_view name);
 
 // Points on the aperture, as the lens samples lie.
 void aperturePreview(const Lens& lens, float scale);
