@@ -6,6 +6,7 @@
 #include "app/two_quads.h"
 #include "app/view_program.h"
 #include "image/image_io.h"
+#include "image/metrics.h"
 #ifdef DEFOCUS_XCB
 #include "app/drop_source.h"
 #endif
@@ -182,6 +183,28 @@ TEST_F(View, exportedStillIsThatOfTheCommand) {
                                 "' --quiet --size 400x300 --samples 4 --fstop 1.4 --focus-distance 4";
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_EQ(readImage(folder() / "still.png").pixels, readImage(folder() / "render.png").pixels);
+}
+
+// One frame on, with the shutter open: what the window exports is what the command renders.
+TEST_F(View, shutterStaysOpenAtAnotherTime) {
+    const std::string scene = std::string(DEFOCUS_SOURCE_DIR) + "/meshes/swimmers.glb";
+    start({scene, "--size", "260x150", "--samples", "4", "--lod", "off", "--time", "0.5", "--shutter", "0.2"});
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("samples") > 0 && s.at("draft") == false; })) << state();
+    key("period");
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("time") > 0.51; })) << state();
+    key("ctrl+e");
+    ASSERT_TRUE(
+        reaches([&](const json& s) { return fs::exists(folder() / "still.png") && s.at("exporting") == false; }));
+    const auto rendered = [&](const std::string& name, const std::string& more) {
+        const std::string command =
+            std::string(DEFOCUS_PROGRAM) + " render '" + scene + "' -o '" + (folder() / name).string() +
+            "' --quiet --size 260x150 --samples 4 --lod off --time " + state().at("time").dump() + more;
+        EXPECT_EQ(std::system(command.c_str()), 0);
+        return readImage(folder() / name);
+    };
+    const Image still = readImage(folder() / "still.png");
+    EXPECT_GT(compareImages(rendered("blurred.png", " --shutter 0.2"), still).psnr, 50);
+    EXPECT_LT(compareImages(rendered("sharp.png", ""), still).psnr, 45);
 }
 
 TEST_F(View, recordedKeyIsCounted) {
