@@ -98,6 +98,27 @@ Lens lensAtKey(const Shot& shot, std::size_t key, Lens lens) {
     return lens;
 }
 
+// What a shot file says of them.
+void expectSameOfShot(const SceneOptions& read, const SceneOptions& options) {
+    EXPECT_EQ(read.path.filename(), options.path);
+    EXPECT_EQ(read.time, options.time);
+    EXPECT_EQ(read.clip, options.clip);
+    EXPECT_EQ(read.loop, options.loop);
+    EXPECT_EQ(read.exposure, options.exposure);
+    EXPECT_EQ(read.background, options.background);
+    EXPECT_EQ(read.backgroundColor, options.backgroundColor);
+    EXPECT_EQ(read.camera, options.camera);
+    EXPECT_EQ(read.samples, options.samples);
+    EXPECT_EQ(read.sequence, options.sequence);
+    EXPECT_EQ(read.seed, options.seed);
+    EXPECT_EQ(read.lod, options.lod);
+    EXPECT_EQ(read.metric, options.metric);
+    EXPECT_EQ(read.blurThreshold, options.blurThreshold);
+    EXPECT_EQ(read.sizeThreshold, options.sizeThreshold);
+    EXPECT_EQ(chosenMethod(read).text(), chosenMethod(options).text());
+    EXPECT_EQ(read.layerFormat, options.layerFormat);
+}
+
 TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
         SCOPED_TRACE(seed);
@@ -124,25 +145,9 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
         const Shot shot = parseShot(text, "x.json");
         SceneOptions read;
         applyShot(shot, read);
-        EXPECT_EQ(read.path.filename(), options.path);
-        EXPECT_EQ(read.time, options.time);
-        EXPECT_EQ(read.clip, options.clip);
-        EXPECT_EQ(read.loop, options.loop);
-        EXPECT_EQ(read.exposure, options.exposure);
-        EXPECT_EQ(read.background, options.background);
-        EXPECT_EQ(read.backgroundColor, options.backgroundColor);
-        EXPECT_EQ(read.camera, options.camera);
+        expectSameOfShot(read, options);
         EXPECT_EQ(read.width, keys.back().view.width);
         EXPECT_EQ(read.height, keys.back().view.height);
-        EXPECT_EQ(read.samples, options.samples);
-        EXPECT_EQ(read.sequence, options.sequence);
-        EXPECT_EQ(read.seed, options.seed);
-        EXPECT_EQ(read.lod, options.lod);
-        EXPECT_EQ(read.metric, options.metric);
-        EXPECT_EQ(read.blurThreshold, options.blurThreshold);
-        EXPECT_EQ(read.sizeThreshold, options.sizeThreshold);
-        EXPECT_EQ(chosenMethod(read).text(), chosenMethod(options).text());
-        EXPECT_EQ(read.layerFormat, options.layerFormat);
         EXPECT_EQ(shot.toneMap, write.toneMap);
         const bool ofLens =
             std::ranges::any_of(keys, [](const ShotKey& key) { return key.view.lens.exposureTime > 0; });
