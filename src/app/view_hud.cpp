@@ -112,6 +112,7 @@ void drawDivider(const HudContext& context, const ViewState& state) {
 // What the colours of an overlay mean.
 struct Legend {
     const char* title;
+    const char* brief;                     // where the picture is narrow
     glm::vec3 (*colour)(float) = viridis;  // 0 … 1, linear
     std::array<const char*, 5> marks;      // at even places
 };
@@ -127,15 +128,15 @@ glm::vec3 cocColour(float t) {
 std::optional<Legend> legendOf(const ViewState& state) {
     switch (state.display.overlay) {
         case DisplayOverlay::coc:
-            return Legend{"blur, px: in front – behind", cocColour, {"63", "7", "0", "7", "63"}};
+            return Legend{"blur, px: in front – behind", "blur, px", cocColour, {"63", "7", "0", "7", "63"}};
         case DisplayOverlay::work:
-            return Legend{"triangles a pixel and lens sample", magma, {"0", "1", "3", "7", "15 +"}};
+            return Legend{"triangles a pixel and lens sample", "triangles", magma, {"0", "1", "3", "7", "15 +"}};
         case DisplayOverlay::level:
             break;
         case DisplayOverlay::none:
             if (!state.display.wireframe) return std::nullopt;
     }
-    return Legend{"level of detail", viridis, {"0", "2", "4", "6", "8 +"}};
+    return Legend{"level of detail", "level", viridis, {"0", "2", "4", "6", "8 +"}};
 }
 
 // A strip of colours with its title and numbers, at the bottom right; above `status` where there is no room beside it.
@@ -147,12 +148,14 @@ void drawLegend(const HudContext& context, const ViewState& state, const ImVec2&
     const float pad = 9 * s;
     const float line = ImGui::GetFontSize();
     const float room = static_cast<float>(context.area.size.x) - 16 * s - 2 * pad;
-    const ImVec2 size(std::min(room, std::max(190 * s, ImGui::CalcTextSize(legend->title).x)), 10 * s);
+    const float wanted = std::max(190 * s, ImGui::CalcTextSize(legend->title).x);
+    const char* title = wanted <= room ? legend->title : legend->brief;
+    const ImVec2 size(std::min(room, wanted), 10 * s);
     ImVec2 end = corner(context, 1, 1);
     if (end.x - size.x - 2 * pad - 16 * s < status.x) end.y = status.y;
     const ImVec2 at(end.x - size.x - 8 * s - pad, end.y - 8 * s - pad - line - 4 * s - size.y);
     list.AddRectFilled({at.x - pad, at.y - line - 5 * s - pad}, {end.x - 8 * s, end.y - 8 * s}, plate, 4 * s);
-    list.AddText({at.x, at.y - line - 5 * s}, white, legend->title);
+    list.AddText({at.x, at.y - line - 5 * s}, white, title);
     constexpr int steps = 95;
     for (int i = 0; i < steps; ++i) {
         glm::vec3 color = legend->colour((static_cast<float>(i) + 0.5f) / steps);

@@ -20,9 +20,9 @@ const char* const fontFiles[] = {
     "/Library/Fonts/Arial Unicode.ttf",
 };
 
-// Latin, Greek (λ), punctuation, arrows and simple shapes.
-constexpr ImWchar glyphs[] = {0x20,   0xff,   0x192,  0x192,  0x370,  0x3ff,  0x2010, 0x2044,
-                              0x2190, 0x21ff, 0x2212, 0x2265, 0x25a0, 0x25ff, 0};
+// Latin, Greek (λ), punctuation, arrows, simple shapes and the check mark.
+constexpr ImWchar glyphs[] = {0x20,   0xff,   0x192,  0x192,  0x370,  0x3ff,  0x2010, 0x2044, 0x2190,
+                              0x21ff, 0x2212, 0x2265, 0x25a0, 0x25ff, 0x2713, 0x2713, 0};
 
 void loadFont(double scale) {
     ImGuiIO& io = ImGui::GetIO();

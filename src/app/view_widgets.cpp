@@ -225,8 +225,9 @@ void depthDiagram(const FramePlan& plan, const InterfaceColors& colors, float sc
                      sharp ? colors.text : faded(colors.faint, 0.8f), 1.5f * scale);
     }
     list.PopClipRect();
+    const int digits = farLimit - nearLimit < 0.02 * nearLimit ? 5 : 3;
     const std::string text = std::isfinite(farLimit) && farLimit < depths.farthest
-                                 ? fmt::format("in focus {:.3g} – {:.3g} m", nearLimit, farLimit)
+                                 ? fmt::format("in focus {:.{}g} – {:.{}g} m", nearLimit, digits, farLimit, digits)
                                  : fmt::format("in focus from {:.3g} m", nearLimit);
     const std::string words = plan.usesLens ? text : "everything in focus";
     const float width = ImGui::CalcTextSize(words.c_str()).x;
