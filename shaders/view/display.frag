@@ -39,10 +39,14 @@ vec3 encodedAt(sampler2D image, vec2 uv) {
     return colour + (1.0 - clamp(value.a, 0.0, 1.0)) * board;
 }
 
+// What isn't asked for is not compiled: drivers that draw on the CPU run both sides of each branch.
 vec3 shown(vec2 uv) {
-    if (uv.x < divider) return encodedAt(firstImage, uv);
-    if ((choices.z & FLAG_DIFFERENCE) == 0) return encodedAt(secondImage, uv);
-    return min(size.w * abs(encodedAt(firstImage, uv) - encodedAt(secondImage, uv)), 1.0);
+    vec3 first = encodedAt(firstImage, uv);
+#ifdef COMPARES
+    vec3 second = encodedAt(secondImage, uv);
+    if (uv.x >= divider) return (choices.z & FLAG_DIFFERENCE) == 0 ? second : min(size.w * abs(first - second), 1.0);
+#endif
+    return first;
 }
 
 // Orange in front of the focus plane, blue behind it, the darker the sharper.
@@ -54,6 +58,7 @@ vec3 cocColour(float coc, float grey) {
 }
 
 vec3 withOverlay(vec3 colour, vec2 uv) {
+#ifdef OVERLAY
     float grey = dot(colour, luma);
     if (choices.y == OVERLAY_COC) return cocColour(cocAt(uv), grey);
     if (choices.y == OVERLAY_LEVEL) {
@@ -65,6 +70,7 @@ vec3 withOverlay(vec3 colour, vec2 uv) {
         float work = log2(1.0 + texture(workImage, uv).r * workScale.x) * workScale.y;
         return srgbEncoded(texture(mapColours, vec2(work, 0.5)).rgb);
     }
+#endif
     return colour;
 }
 
@@ -80,11 +86,14 @@ float peaking(vec2 uv) {
 void main() {
     vec2 uv = gl_FragCoord.xy / size.xy;
     vec3 colour = shown(uv);
+#ifdef COMPARES
     if (uv.x >= divider && (choices.z & FLAG_DIFFERENCE) != 0) {  // read as it is
         display = vec4(colour, 1.0);
         return;
     }
+#endif
     colour = withOverlay(colour, uv);
+#ifdef MARKS
     if ((choices.z & FLAG_FOCUS_PLANE) != 0) {
         float inFocus = 1.0 - smoothstep(0.5, 1.5, abs(cocAt(uv)));
         colour = mix(colour, vec3(0.15, 0.95, 0.60), 0.50 * inFocus);
@@ -94,5 +103,6 @@ void main() {
         vec4 wire = texture(wireImage, uv);
         colour = colour * (1.0 - 0.85 * wire.a) + 0.85 * wire.rgb * wire.a;
     }
+#endif
     display = vec4(colour, 1.0);
 }

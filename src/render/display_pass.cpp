@@ -22,12 +22,24 @@ int flagsOf(const DisplaySettings& settings) {
 
 DisplayPass::DisplayPass(std::filesystem::path shaderFolder)
     : shaderFolder_(std::move(shaderFolder)),
-      program_({{fullscreenShader, "view/display.frag"}, {}, shaderFolder_}),
       levelColours_(colourMapTexture(viridis)),
       workColours_(colourMapTexture(magma)),
       black_({.format = TextureFormat::rgba8, .width = 1, .height = 1}) {
     constexpr unsigned char pixel[4] = {0, 0, 0, 255};
     black_.upload(0, 1, 1, pixel);
+}
+
+const Program& DisplayPass::programFor(const DisplayInputs& inputs, const DisplaySettings& settings) {
+    const bool marks = settings.focusPeaking || settings.focusPlane || settings.wireframe;
+    ShaderDefines defines;
+    if (inputs.second != nullptr) defines.emplace_back("COMPARES", "1");
+    if (settings.overlay != DisplayOverlay::none) defines.emplace_back("OVERLAY", "1");
+    if (marks) defines.emplace_back("MARKS", "1");
+    std::string key;
+    for (const auto& [name, value] : defines) key += name + ' ';
+    const auto [entry, isNew] = programs_.try_emplace(key);
+    if (isNew) entry->second = Program({{fullscreenShader, "view/display.frag"}, std::move(defines), shaderFolder_});
+    return entry->second;
 }
 
 void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& settings, int width, int height) {
@@ -41,7 +53,8 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
                                    inputs.level, inputs.wireframe, inputs.work};
     for (GLuint unit = 0; unit < 6; ++unit) (textures[unit] != nullptr ? *textures[unit] : black_).attach(unit);
     (settings.overlay == DisplayOverlay::work ? workColours_ : levelColours_).attach(6);
-    const GLuint program = program_.name();
+    const Program& chosen = programFor(inputs, settings);
+    const GLuint program = chosen.name();
     glProgramUniform4f(program, 0, static_cast<float>(width), static_cast<float>(height),
                        static_cast<float>(std::exp2(settings.exposure)), static_cast<float>(settings.differenceGain));
     glProgramUniform4i(program, 1, static_cast<int>(settings.toneMap), static_cast<int>(settings.overlay),
@@ -51,7 +64,7 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
     glProgramUniform1f(program, 3, static_cast<float>(width) / static_cast<float>(cocWidth));
     glProgramUniform2f(program, 4, 1 / static_cast<float>(inputs.workSamples),
                        1 / std::log2(1 + static_cast<float>(mostShownWork)));
-    fullscreen_.draw(program_);
+    fullscreen_.draw(chosen);
 }
 
 double DisplayPass::psnr(const GlTexture& first, const GlTexture& second) {

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -59,8 +61,11 @@ public:
     [[nodiscard]] double psnr(const GlTexture& first, const GlTexture& second);
 
 private:
+    const Program& programFor(const DisplayInputs& inputs, const DisplaySettings& settings);
+
     std::filesystem::path shaderFolder_;
-    Program program_, squaredError_;
+    std::map<std::string, Program> programs_;  // by what they show beside the image
+    Program squaredError_;
     GlTexture texture_, levelColours_, workColours_, black_;
     Target target_;
     Fullscreen fullscreen_;
