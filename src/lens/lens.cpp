@@ -62,8 +62,10 @@ void checkLens(const Lens& lens) {
     requireWithin(lens.fieldCurvature, -1e3, 1e3, "the field curvature");
     requireWithin(lens.radialBlurGain, 0, 1e3, "the radial blur gain");
     if (lens.focusRangeFront >= lens.focusDistance)
-        fail("lens: the focus range reaches {:.6g} m in front of a focus at {:.6g} m: it must end in front of the camera",
-             lens.focusRangeFront, lens.focusDistance);
+        fail(
+            "lens: the focus range reaches {:.6g} m in front of a focus at {:.6g} m: it must end in front of the "
+            "camera",
+            lens.focusRangeFront, lens.focusDistance);
     if (lens.focusBreathing && lens.focusDistance <= lens.focalLength * millimetre)
         fail("lens: with focus breathing the focus distance ({:.6g} m) must be beyond the focal length ({:.6g} mm)",
              lens.focusDistance, lens.focalLength);
