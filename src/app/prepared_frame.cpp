@@ -54,33 +54,6 @@ std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path) 
     return map;
 }
 
-std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path) {
-    Lens lens;
-    lens.apertureImage = std::make_shared<Image>(readImage(path));
-    try {
-        static_cast<void>(makeAperture(lens));  // finds fault with what it holds
-    } catch (const Error& error) {
-        fail("{}: {}", path.string(), error.what());
-    }
-    return lens.apertureImage;
-}
-
-Environment chosenEnvironment(const SceneOptions& options, const Scene& scene) {
-    Environment environment = environmentOrDefault(scene);
-    if (!options.environment.empty()) {
-        environment = {};
-        environment.type = EnvironmentType::map;
-        environment.map = loadEnvironment(options.environment);
-    }
-    if (options.background == Background::none) environment.visible = false;
-    if (options.background == Background::uniform) {
-        environment = {};
-        environment.type = EnvironmentType::uniform;
-        environment.zenith = environment.horizon = environment.nadir = options.backgroundColor;
-    }
-    return environment;
-}
-
 // ---- camera and lens
 // -------------------------------------------------------------------------------------------------
 
@@ -151,6 +124,7 @@ PlacedCamera place(PreparedFrame& frame, const SceneOptions& options) {
     frame.view.height = options.height;
     SceneOptions withoutLens = options;
     withoutLens.lens.clear();
+    withoutLens.apertureImage.clear();
     frame.cameraLens = chosenLens(withoutLens, placed.camera, frame.refusedLensValues);
     frame.view.lens = chosenLens(options, placed.camera, frame.refusedLensValues);
     chooseFocus(options, placed.camera, *frame.scene, frame.world.pose, frame.view);
@@ -161,6 +135,33 @@ PlacedCamera place(PreparedFrame& frame, const SceneOptions& options) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path) {
+    Lens lens;
+    lens.apertureImage = std::make_shared<Image>(readImage(path));
+    try {
+        static_cast<void>(makeAperture(lens));  // finds fault with what it holds
+    } catch (const Error& error) {
+        fail("{}: {}", path.string(), error.what());
+    }
+    return lens.apertureImage;
+}
+
+Environment chosenEnvironment(const SceneOptions& options, const Scene& scene) {
+    Environment environment = environmentOrDefault(scene);
+    if (!options.environment.empty()) {
+        environment = {};
+        environment.type = EnvironmentType::map;
+        environment.map = loadEnvironment(options.environment);
+    }
+    if (options.background == Background::none) environment.visible = false;
+    if (options.background == Background::uniform) {
+        environment = {};
+        environment.type = EnvironmentType::uniform;
+        environment.zenith = environment.horizon = environment.nadir = options.backgroundColor;
+    }
+    return environment;
+}
 
 RenderSettings chosenSettings(const SceneOptions& options) {
     RenderSettings settings;

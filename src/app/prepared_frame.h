@@ -35,6 +35,12 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress =
 // The part of it that options.camera and the lens options decide, again for another camera. The lights stay.
 void placeCamera(PreparedFrame& frame, const SceneOptions& options);
 
+// The surroundings that the options ask for. Throws Error for a map that can't be read or can't light a scene.
+Environment chosenEnvironment(const SceneOptions& options, const Scene& scene);
+
+// The image of an aperture. Throws Error for one that can't be read or lets no light pass.
+std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path);
+
 // What the settings of a frame are before its samples are known to be others than options.samples.
 RenderSettings chosenSettings(const SceneOptions& options);
 

@@ -10,6 +10,7 @@
 #include "app/view_input.h"
 #include "app/view_lens_rows.h"
 #include "app/view_method_panel.h"
+#include "app/view_surroundings_panel.h"
 
 namespace defocus {
 
@@ -36,13 +37,8 @@ void fieldRows(ViewState& state, const std::function<bool(std::string_view)>& wa
 
 void sceneSection(const PanelContext& context, ViewState& state, ViewActions& actions) {
     if (!section("Scene", true)) return;
-    const float button = ImGui::CalcTextSize("Open").x + 2 * ImGui::GetStyle().FramePadding.x;
-    ImGui::SetNextItemWidth(-button - ImGui::GetStyle().ItemSpacing.x);
-    const bool entered = ImGui::InputTextWithHint("##open", "a .glb or .gltf, or drop it here", &state.openPath,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::SameLine();
-    const bool pressed = ImGui::Button("Open");
-    if ((entered || pressed) && !state.openPath.empty()) actions.open = state.openPath;
+    const bool opened = pathRow("open", "a .glb or .gltf, or drop it here", "Open", state.openPath);
+    if (opened && !state.openPath.empty()) actions.open = state.openPath;
     if (context.frame == nullptr) return;
 
     std::vector<std::string> cameras = cameraNames(*context.frame->scene);
@@ -109,10 +105,11 @@ void animationSection(const PanelContext& context, ViewState& state) {
     shutterRows(state.options.exposure);
 }
 
-void lensSections(const PanelContext& context, ViewState& state) {
+void lensSections(const PanelContext& context, ViewState& state, ViewActions& actions) {
     if (section("Focus", true)) {
         if (context.picture != nullptr) depthDiagram(context.picture->plan(), context.colors, context.scale);
         fieldRows(state, [](std::string_view name) { return holds(focusFields, name); });
+        nodeBlurRow(context, state, actions);
         ImGui::Checkbox("Peaking", &state.display.focusPeaking);
         tooltip("Marks sharp contours that are in focus (P)");
         ImGui::SameLine();
@@ -126,7 +123,7 @@ void lensSections(const PanelContext& context, ViewState& state) {
     }
     if (section("Aperture", false)) {
         aperturePreview(state.lens, context.scale);
-        if (state.lens.apertureImage) ImGui::TextDisabled("The shape is an image's.");
+        apertureImageRow(context, state, actions);
         fieldRows(state, [](std::string_view name) { return holds(apertureFields, name); });
     }
 }
@@ -288,7 +285,8 @@ void drawPanel(const PanelContext& context, ViewState& state, ViewActions& actio
     sceneSection(context, state, actions);
     if (context.frame != nullptr) {
         animationSection(context, state);
-        lensSections(context, state);
+        lensSections(context, state, actions);
+        surroundingsSection(context, state, actions);
         imageSection(state);
         levelSection(state);
         methodSection(state);

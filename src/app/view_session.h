@@ -53,6 +53,7 @@ private:
     void share(const ViewActions& actions);
     void exportStep();
     void chooseCamera(const std::string& name);
+    void change(const SceneOptions& options);
     void beginExport();
     void frameBounds(bool selection);
     void takeScreenshot(const std::filesystem::path& path);

@@ -48,6 +48,7 @@ void ViewSession::act() {
             loader_.open(options);
         }
         if (actions.chooseCamera) chooseCamera(*actions.chooseCamera);
+        if (actions.changed && frame_ && !export_) change(*actions.changed);
         if (actions.frameSelection || actions.frameAll) frameBounds(actions.frameSelection);
         if (actions.togglePopping && picture_)
             state_.poppingSince = state_.poppingSince ? std::nullopt : std::optional(now());

@@ -49,6 +49,8 @@ void ViewSession::adoptScene(LoadedScene scene) {
     frame_ = std::move(scene.frame);
     draft_ = scene.draft;
     state_.options = scene.options;
+    state_.environmentPath = scene.options.environment.string();
+    state_.aperturePath = scene.options.apertureImage.string();
     const int clip = scene.options.clip.empty() ? 0 : clipNamed(*frame_->scene, scene.options.clip);
     state_.animation = {.clip = clip, .time = scene.options.time, .speed = state_.animation.speed, .playing = false};
     posedTime_ = state_.animation.time;
@@ -153,6 +155,26 @@ void ViewSession::chooseCamera(const std::string& name) {
     state_.followsCamera = true;
     shutterCameras_.clear();
     if (!frame_->scene->clips.empty()) poseScene();
+}
+
+// The blur of nodes becomes that of `options`, or surroundings and aperture image. Throws Error before anything has
+// changed.
+void ViewSession::change(const SceneOptions& options) {
+    if (options.nodeBlur != state_.options.nodeBlur) {
+        for (const auto& [name, scale] : options.nodeBlur)
+            frame_->scene->nodes[static_cast<std::size_t>(nodeNamed(*frame_->scene, name))].cocScale = scale;
+        state_.options = options;
+        poseScene();
+        return;
+    }
+    const Environment environment = chosenEnvironment(options, *frame_->scene);
+    const std::shared_ptr<const Image> aperture =
+        options.apertureImage.empty() ? frame_->cameraLens.apertureImage : loadApertureImage(options.apertureImage);
+    state_.lens.apertureImage = aperture;
+    state_.options = options;
+    picture_.reset();  // it has the surroundings on the GPU
+    frame_->world.environment = environment;
+    makePicture();
 }
 
 void ViewSession::frameBounds(bool selection) {

@@ -67,6 +67,8 @@ struct ViewState {
     bool dark = true;
     double interfaceScale = 1;  // on top of the screen's own
     std::string openPath;       // as typed
+    std::string environmentPath;
+    std::string aperturePath;
     std::string exportPath = "still.png";
     std::optional<glm::ivec2> exportSize;  // px; none: as the view is
     std::string shotPath = "shot.json";
@@ -85,6 +87,7 @@ inline double shownExposure(const ViewState& state) {
 struct ViewActions {
     std::optional<std::filesystem::path> open;
     std::optional<std::string> chooseCamera;  // its name; "auto" frames the scene
+    std::optional<SceneOptions> changed;      // ViewState::options with other surroundings, aperture image or nodeBlur
     bool copyCommand = false;
     bool exportStill = false;
     bool cancelExport = false;

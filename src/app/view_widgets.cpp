@@ -1,6 +1,7 @@
 #include "app/view_widgets.h"
 
 #include <fmt/format.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -106,6 +107,17 @@ void rowLabel(const char* label, const char* help) {
     if (help != nullptr) tooltip(help);
     ImGui::SameLine(ImGui::GetFontSize() * 10.2f);
     ImGui::SetNextItemWidth(-1);
+}
+
+bool pathRow(const char* id, const char* hint, const char* button, std::string& path) {
+    ImGui::PushID(id);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize(button).x - 2 * style.FramePadding.x - style.ItemSpacing.x);
+    const bool entered = ImGui::InputTextWithHint("##path", hint, &path, ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    const bool pressed = ImGui::Button(button);
+    ImGui::PopID();
+    return entered || pressed;
 }
 
 bool stopRing(double& fStop, const InterfaceColors& colors, float scale) {

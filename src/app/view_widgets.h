@@ -19,6 +19,8 @@ int combo(const char* id, const std::vector<std::string>& names, const std::stri
 // A label on the left; the widget that follows takes the rest of the row.
 void rowLabel(const char* label, const char* tooltip = nullptr);
 void tooltip(const std::string& text);
+// A text field with a button at its right. True when it is pressed, or Enter in the field.
+bool pathRow(const char* id, const char* hint, const char* button, std::string& path);
 
 // A ring of standard stops to turn (drag, wheel) or click. True when `fStop` was changed.
 bool stopRing(double& fStop, const InterfaceColors& colors, float scale);
