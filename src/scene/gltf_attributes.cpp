@@ -6,6 +6,7 @@
 #include <glm/ext/vector_float1.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/bounds.h"
 #include "scene/gltf_accessor.h"
 
 namespace defocus::gltf {
@@ -223,13 +224,25 @@ VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive,
     return block;
 }
 
-void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices,
-            const std::string& what) {
-    for (std::size_t i = 0; i < block.vertices.count(); ++i) {
-        const glm::vec3& position = block.vertices.positions[i];
-        if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z))
-            fault(source.document, "{}: a triangle uses a position that is not finite (NaN or infinite)", what);
+std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positions,
+                           std::span<std::vector<std::uint32_t>* const> indices) {
+    std::uint64_t dropped = 0;
+    for (std::vector<std::uint32_t>* list : indices) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i + 2 < list->size(); i += 3) {
+            const std::uint32_t* const corners = list->data() + i;
+            const bool placed = std::all_of(corners, corners + 3, [&](auto v) { return isFinite(positions[v]); });
+            if (placed)
+                kept = static_cast<std::size_t>(std::copy(corners, corners + 3, list->data() + kept) - list->data());
+        }
+        dropped += (list->size() - kept) / 3;
+        list->resize(kept);
     }
+    if (dropped > 0) ignore(source, "triangles", "a corner's position is not finite (NaN or infinite)", dropped);
+    return dropped;
+}
+
+void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices) {
     repairNormals(source, block, indices);
     repairTangents(block);
     repairWeights(block);

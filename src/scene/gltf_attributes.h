@@ -13,9 +13,12 @@ namespace defocus::gltf {
 VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
                            const std::string& what);
 
-// Makes every value usable: positions must be finite (Error naming `what`); normals, tangents and weights get unit
-// length or sum, and what is neither finite nor long enough is replaced.
-void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices,
-            const std::string& what);
+// Leaves out the triangles of which a corner is not finite; how many.
+std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positions,
+                           std::span<std::vector<std::uint32_t>* const> indices);
+
+// Makes every value usable where all positions are finite: normals, tangents and weights get unit length or sum, and
+// what is neither finite nor long enough is replaced.
+void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
 }  // namespace defocus::gltf

@@ -119,6 +119,7 @@ public:
         const std::string label = labelOf("mesh", index, from.name);
         Mesh mesh;
         mesh.name = from.name;
+        dropped_ = 0;
         std::vector<std::pair<std::size_t, Primitive>> primitives;
         for (const Group& group : groupPrimitives(source_, from, json, label)) {
             std::vector<Primitive> members = readGroup(mesh, from, json, group, label);
@@ -127,6 +128,8 @@ public:
         }
         std::sort(primitives.begin(), primitives.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         for (auto& [order, primitive] : primitives) mesh.primitives.push_back(std::move(primitive));
+        if (dropped_ > 0 && mesh.triangleCount() == 0)
+            fault(source_.document, "{}: every triangle has a position that is not finite (NaN or infinite)", label);
         readMorphWeights(mesh, from, label);
         return mesh;
     }
@@ -153,6 +156,7 @@ private:
         }
         lists.reserve(primitives.size());
         for (Primitive& primitive : primitives) lists.push_back(&primitive.indices);
+        dropped_ += dropUnplaced(source_, all.vertices.positions, lists);
 
         VertexBlock block = finish(compacted(all, lists), lists, normalMapUvSet(primitives, materials_), what);
         takeBudget(source_, block.vertices.count(), sizeof(glm::vec3) * 4, what);
@@ -173,7 +177,7 @@ private:
     // Usable values, normals, tangents.
     VertexBlock finish(VertexBlock block, std::span<std::vector<std::uint32_t>* const> lists, int normalMapUv,
                        const std::string& what) {
-        repair(source_, block, lists, what);
+        repair(source_, block, lists);
         if (block.vertices.normals.empty()) {
             std::size_t corners = 0;
             for (const std::vector<std::uint32_t>* list : lists) corners += list->size();
@@ -196,6 +200,7 @@ private:
     Source& source_;
     const std::vector<Material>& materials_;
     std::optional<LastBlock> last_;
+    std::uint64_t dropped_ = 0;  // triangles of the mesh that have no place
 };
 
 }  // namespace

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "core/bounds.h"
 #include "core/error.h"
 #include "gltf_builder.h"
 #include "scene/pose.h"
@@ -122,6 +124,28 @@ TEST(GltfNormals, brokenOnesAreReplacedByTheFaces) {
     for (const glm::vec3& normal : scene.meshes[0].vertices.normals) EXPECT_EQ(normal, glm::vec3(0, 0, 1));
     ASSERT_EQ(scene.ignored.size(), 1u);
     EXPECT_EQ(scene.ignored[0].count, 2u);
+}
+
+TEST(GltfMesh, trianglesWithoutAPlaceAreLeftOutAndCounted) {
+    const float nan = std::nanf("");
+    const float inf = std::numeric_limits<float>::infinity();
+    GltfBuilder builder;
+    const int positions = builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, nan, 0, 0, 0, -inf, 0});
+    const int some = builder.indices({0, 1, 3, 0, 1, 2, 2, 4, 1});
+    const int none = builder.indices({3, 4, 0});
+    builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", some}},
+                  {{"attributes", {{"POSITION", positions}}}, {"indices", none}}});
+    const Scene scene = builder.load();
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.triangleCount(), 1u);
+    ASSERT_EQ(mesh.primitives.size(), 2u);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(mesh.vertices.positions.at(mesh.primitives[0].indices[static_cast<std::size_t>(i)]),
+                  glm::vec3(i == 1, i == 2, 0));
+    for (const glm::vec3& position : mesh.vertices.positions) EXPECT_TRUE(isFinite(position));
+    ASSERT_EQ(scene.ignored.size(), 1u);
+    EXPECT_EQ(scene.ignored[0].what, "triangles");
+    EXPECT_EQ(scene.ignored[0].count, 3u);
 }
 
 TEST(GltfAccessor, normalisedIntegersOfEveryType) {
