@@ -96,6 +96,11 @@ void addLevelCases(std::vector<StabilityCase>& cases) {
         [] { return flatError(gridMesh(64, 1e6f, 1e6f), 1e12, 1e6); });
     add("flat grid of 1e-6 m", "area or height, relative", "the plane", 1e-5,
         [] { return flatError(gridMesh(64, 1e-6f, 1e-6f), 1e-12, 1e-6); });
+    for (const float side : {0.1f, 0.7f})  // whose corners are rounded
+        add(fmt::format("flat grid of {:g} m", side), "area or height, relative", "the plane", 1e-5, [side] {
+            const double exact = static_cast<double>(side);
+            return flatError(gridMesh(64, side, side), exact * exact, exact);
+        });
     add("slivers: flat cells 1,000 times as long as wide", "area or height, relative", "the plane", 1e-5,
         [] { return flatError(gridMesh(48, 1, 1e-3f), 1e-3, 1); });
     add("a grid beset with triangles without area", "area or height, relative", "the plane", 1e-5,

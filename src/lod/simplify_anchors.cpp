@@ -15,6 +15,8 @@ namespace defocus {
 namespace {
 
 constexpr std::size_t mostSteps = 12;  // vertices whose faces are looked at, on the way to the closest face
+constexpr double noDistance = 1e-24;   // squared, where the mesh is about 1 wide: rounding
+constexpr double leastUpright = 0.99;  // squared cosine of the angle between a face's normal and the way straight up
 constexpr std::uint32_t noFace = 0xffffffffu;
 
 // The level's faces, and which lie around each vertex.
@@ -71,8 +73,13 @@ std::uint32_t nearestUnseen(const FaceRings& rings, std::uint32_t face, const gl
     return nearest;
 }
 
-bool isInside(const glm::dvec2& along) {
-    return along.x > 0 && along.y > 0 && along.x + along.y < 1;
+// Does the face lie straight below a point that is `offset` away from its point `along`? The coordinates alone don't
+// tell: those of a sliver are mostly rounding.
+bool liesBelow(const FaceRings& rings, std::uint32_t face, const glm::dvec2& along, const glm::dvec3& offset) {
+    if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
+    const glm::dvec3& normal = rings.normals[face];
+    const double height = glm::dot(offset, normal);
+    return height * height >= leastUpright * glm::dot(offset, offset) * glm::dot(normal, normal);
 }
 
 // The point of the level's surface closest to `p`, near the vertex `start`: from the faces around one vertex to those
@@ -81,10 +88,11 @@ bool isInside(const glm::dvec2& along) {
 Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t start, const glm::dvec3& side) {
     Closest result;
     std::uint32_t nearest = start;
-    const glm::dvec3 away = p - rings.level.points[start];
+    glm::dvec3 away = p - rings.level.points[start];
     double least = glm::dot(away, away);
     std::array<std::uint32_t, mostSteps> seen;
-    for (std::size_t step = 0; step < mostSteps && least > 0 && nearest != noFace; ++step) {
+    for (std::size_t step = 0; step < mostSteps && nearest != noFace; ++step) {
+        if (least <= (result.face == noFace ? 0 : noDistance)) break;
         seen[step] = nearest;
         for (const std::uint32_t face : rings.around(nearest)) {
             if (!(glm::dot(rings.normals[face], side) > 0)) continue;
@@ -97,10 +105,11 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t sta
             const double distance = glm::dot(offset, offset);
             if (!(distance < least)) continue;  // NaN of a degenerate face is passed over
             least = distance;
+            away = offset;
             result.along = along;
             result.face = face;
         }
-        if (result.face == noFace || isInside(result.along)) break;
+        if (result.face == noFace || liesBelow(rings, result.face, result.along, away)) break;
         nearest = nearestUnseen(rings, result.face, p, std::span(seen.data(), step + 1));
     }
     result.squaredDistance = least;
