@@ -20,6 +20,7 @@
 
 #include "core/error.h"
 #include "render/circular_kernel.h"
+#include "run_bench.h"
 
 namespace {
 
@@ -369,14 +370,11 @@ bool agreesWithCommitted(const std::vector<Kernel>& kernels) {
 }  // namespace
 
 int main() {
-    try {
+    return defocus::runBench("defocus_circular_fit", [] {
         const auto kernels = fitKernels(circularKernelExtent, circularCornerGuard, circularKernelLimit);
         printConstants(kernels);
         printTables(kernels);
         if (!agreesWithCommitted(kernels)) fail("the table of circular_kernel.cpp differs from this one");
         return 0;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "circular_fit: {}\n", error.what());
-        return 1;
-    }
+    });
 }

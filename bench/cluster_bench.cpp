@@ -19,6 +19,7 @@
 #include "app/prepared_frame.h"
 #include "gl/context.h"
 #include "render/methods.h"
+#include "run_bench.h"
 
 namespace {
 
@@ -123,12 +124,9 @@ int run(const std::vector<std::filesystem::path>& scenes) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
+    return defocus::runBench("defocus_cluster_bench", [&] {
         std::vector<std::filesystem::path> scenes(argv + 1, argv + argc);
         if (scenes.empty()) scenes.emplace_back();
         return run(scenes);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "cluster_bench: {}\n", error.what());
-        return 1;
-    }
+    });
 }

@@ -15,6 +15,7 @@
 #include "gl/context.h"
 #include "image/metrics.h"
 #include "render/methods.h"
+#include "run_bench.h"
 #include "scene/defaults.h"
 #include "scene/fish_school.h"
 
@@ -103,10 +104,5 @@ int run() {
 }  // namespace
 
 int main() {
-    try {
-        return run();
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "elision_bench: {}\n", error.what());
-        return 1;
-    }
+    return defocus::runBench("defocus_elision_bench", run);
 }

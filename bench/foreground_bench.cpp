@@ -20,6 +20,7 @@
 #include "gl/context.h"
 #include "render/methods.h"
 #include "render/work.h"
+#include "run_bench.h"
 
 namespace {
 
@@ -88,10 +89,5 @@ int run() {
 }  // namespace
 
 int main() {
-    try {
-        return run();
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "foreground_bench: {}\n", error.what());
-        return 1;
-    }
+    return defocus::runBench("defocus_foreground_bench", run);
 }

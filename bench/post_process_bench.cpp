@@ -22,6 +22,7 @@
 #include "render/circular_kernel.h"
 #include "render/complex_blur.h"
 #include "render/methods.h"
+#include "run_bench.h"
 
 namespace {
 
@@ -198,10 +199,5 @@ int run() {
 }  // namespace
 
 int main() {
-    try {
-        return run();
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "post_process_bench: {}\n", error.what());
-        return 1;
-    }
+    return defocus::runBench("defocus_post_process_bench", run);
 }

@@ -43,6 +43,7 @@
 #include "lod/surface_distance.h"
 #include "lod/weld.h"
 #include "render/methods.h"
+#include "run_bench.h"
 #include "scene/defaults.h"
 #include "scene/fish_school.h"
 #include "scene/gltf.h"
@@ -347,10 +348,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "defocus_pyramid_bench: {}\n", error.what());
-        return 1;
-    }
+    return defocus::runBench("defocus_pyramid_bench", [&] { return run(argc, argv); });
 }

@@ -28,6 +28,7 @@
 #include "gl/context.h"
 #include "image/metrics.h"
 #include "render/methods.h"
+#include "run_bench.h"
 
 namespace defocus {
 namespace {
@@ -323,11 +324,8 @@ void run(int argc, char** argv) {
 }  // namespace defocus
 
 int main(int argc, char** argv) {
-    try {
+    return defocus::runBench("defocus_sequence_bench", [&] {
         defocus::run(argc, argv);
         return 0;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "defocus_sequence_bench: {}\n", error.what());
-        return 1;
-    }
+    });
 }

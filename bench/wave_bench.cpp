@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "render/methods.h"
+#include "run_bench.h"
 
 namespace {
 
@@ -77,10 +78,5 @@ int run() {
 }  // namespace
 
 int main() {
-    try {
-        return run();
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "wave_bench: {}\n", error.what());
-        return 1;
-    }
+    return defocus::runBench("defocus_wave_bench", run);
 }

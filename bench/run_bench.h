@@ -1,0 +1,22 @@
+#pragma once
+// What the main of each bench does: an error is one line on stderr, after the program's name, and exit code 1.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+namespace defocus {
+
+// `run` takes nothing and returns the exit code.
+template <typename Run>
+int runBench(const char* program, const Run& run) {
+    try {
+        return run();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}: {}\n", program, error.what());
+        return 1;
+    }
+}
+
+}  // namespace defocus
