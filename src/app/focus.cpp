@@ -20,30 +20,32 @@ double depthOfCentre(const Bounds& bounds, const View& view) {
     return depth > view.nearPlane && std::isfinite(depth) ? depth : defaultFocusDistance;
 }
 
-// The plane through three points: w + mx·X + my·Y = s for (X, Y, −w) in view space, mx = tan(swing), my = tan(tilt).
 void focusAlong(const Scene& scene, const Pose& pose, const std::array<glm::ivec2, 3>& pixels, View& view) {
-    Lens& lens = view.lens;
-    Lens flat = lens;
+    Lens flat = view.lens;
     flat.focusDistance = std::numeric_limits<double>::infinity();
-    glm::dvec3 points[3];
+    std::array<glm::dvec3, 3> points;
     for (std::size_t i = 0; i < 3; ++i)
         points[i] = surfaceAtPixel(scene, pose, view, flat, pixels[i], "--focus-points");
-    const glm::dvec3 normal = glm::cross(points[1] - points[0], points[2] - points[0]);
-    const double extent = glm::length(points[1] - points[0]) * glm::length(points[2] - points[0]);
-    if (!(glm::length(normal) > 1e-6 * extent)) fail("--focus-points: the three points lie on a line; choose others");
-    if (!(std::abs(normal.z) > 2e-3 * glm::length(normal)))
-        fail("--focus-points: the plane through the three points holds the view axis; choose others");
-    // normal·(X, Y, −w) = normal·point; divided by −normal.z.
-    lens.focusSwing = std::atan(-normal.x / normal.z);
-    lens.focusTilt = std::atan(-normal.y / normal.z);
-    lens.focusDistance = -glm::dot(normal, points[0]) / normal.z;
-    if (!(lens.focusDistance > 0))
-        fail(
-            "--focus-points: the plane through the three points meets the view axis at or behind the camera; choose "
-            "others");
+    focusThrough(points, view.lens, "--focus-points");
 }
 
 }  // namespace
+
+// w + mx·X + my·Y = s for (X, Y, −w) in view space, mx = tan(swing), my = tan(tilt).
+void focusThrough(const std::array<glm::dvec3, 3>& points, Lens& lens, const std::string& what) {
+    const glm::dvec3 normal = glm::cross(points[1] - points[0], points[2] - points[0]);
+    const double extent = glm::length(points[1] - points[0]) * glm::length(points[2] - points[0]);
+    if (!(glm::length(normal) > 1e-6 * extent)) fail("{}: the three points lie on a line; choose others", what);
+    if (!(std::abs(normal.z) > 2e-3 * glm::length(normal)))
+        fail("{}: the plane through the three points holds the view axis; choose others", what);
+    const double distance = -glm::dot(normal, points[0]) / normal.z;
+    if (!(distance > 0))
+        fail("{}: the plane through the three points meets the view axis at or behind the camera; choose others", what);
+    // normal·(X, Y, −w) = normal·point; divided by −normal.z.
+    lens.focusSwing = std::atan(-normal.x / normal.z);
+    lens.focusTilt = std::atan(-normal.y / normal.z);
+    lens.focusDistance = distance;
+}
 
 void chooseFocus(const SceneOptions& options, const Camera& camera, const Scene& scene, const Pose& pose, View& view) {
     Lens& lens = view.lens;

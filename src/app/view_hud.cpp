@@ -109,6 +109,21 @@ void drawDivider(const HudContext& context, const ViewState& state) {
     label(context, {std::max(left, x), top.y + (meet ? gap + 2 * ImGui::GetFontSize() : gap)}, 0, 0, right, white);
 }
 
+// The points that the focus plane shall go through, numbered.
+void drawFocusPoints(const HudContext& context, const ViewState& state) {
+    const glm::dmat4 viewFromWorld = glm::inverse(state.camera.worldFromCamera);
+    const glm::dvec2 tangents = tanHalfFov(state, context.area);
+    const float radius = 5 * context.scale;
+    for (std::size_t i = 0; i < state.focusPoints.size(); ++i) {
+        const glm::dvec3 p = viewFromWorld * glm::dvec4(state.focusPoints[i], 1);
+        if (!(p.z < 0)) continue;
+        const ImVec2 at = corner(context, 0.5 - 0.5 * p.x / (p.z * tangents.x), 0.5 + 0.5 * p.y / (p.z * tangents.y));
+        ImGui::GetBackgroundDrawList()->AddCircle(at, radius, plate, 24, 4 * context.scale);
+        ImGui::GetBackgroundDrawList()->AddCircle(at, radius, white, 24, 2 * context.scale);
+        label(context, {at.x + 2 * radius, at.y}, 0, 0.5f, fmt::format("{}", i + 1), white);
+    }
+}
+
 // What the colours of an overlay mean.
 struct Legend {
     const char* title;
@@ -299,6 +314,7 @@ void drawHud(const HudContext& context, ViewState& state) {
     const ImVec2 status = drawStatus(context, state);
     if (context.picture != nullptr) drawLegend(context, state, status);
     drawHover(context, state);
+    drawFocusPoints(context, state);
     drawLoading(context);
     drawMessages(context, state);
     drawHelp(context, state);

@@ -24,6 +24,7 @@ constexpr KeyHelp keys[] = {
     {"Wheel", "zoom"},
     {"Click", "focus on what is under the cursor"},
     {"Double click", "focus on it and frame it"},
+    {"Ctrl click", "three points: tilt the focus plane through them"},
     {"Ctrl wheel", "rack focus"},
     {"Shift wheel, [ ]", "open or close the aperture"},
     {"W A S D Q E", "fly (Shift: faster)"},
@@ -133,6 +134,7 @@ void handlePlainKey(int code, const InputContext& context, ViewState& state, Vie
         case key::escape:
             if (state.poppingSince) actions.togglePopping = true;
             actions.cancelExport = true;
+            state.focusPoints.clear();
             state.help = false;
             break;
         default:
@@ -289,6 +291,14 @@ void ViewInput::release(const WindowEvent& event, const InputContext& context, V
     if (!clicked || context.frame == nullptr) return;
     const auto surface = pickedSurface(*context.frame, state, context.area, event.position);
     if (!surface) return;
+    if (event.control) {
+        const glm::dvec2 tangents = tanHalfFov(state, context.area);
+        const glm::dvec3 ray =
+            rayThrough(state.camera, context.area.normalized(event.position), tangents.x, tangents.y);
+        state.focusPoints.push_back(state.camera.position() + surface->depth * ray);
+        actions.focusThroughPoints = state.focusPoints.size() == 3;
+        return;
+    }
     state.selected = surface->object;
     pullFocus(state, surface->depth * focusTerm(state, context.area, event.position), context.now);
     state.camera.pivotDistance = surface->depth;

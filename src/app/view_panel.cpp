@@ -105,10 +105,26 @@ void animationSection(const PanelContext& context, ViewState& state) {
     shutterRows(state.options.exposure);
 }
 
+void focusPointsRow(ViewState& state) {
+    rowLabel("Focus points",
+             "Ctrl click three points of the picture: the focus plane goes through them (--focus-points)");
+    if (state.focusPoints.empty())
+        ImGui::TextDisabled("Ctrl click three");
+    else
+        ImGui::Text("%d of 3", static_cast<int>(state.focusPoints.size()));
+    const bool tilted = state.lens.focusTilt != 0 || state.lens.focusSwing != 0;
+    if (state.focusPoints.empty() && !tilted) return;
+    ImGui::SameLine();
+    if (!ImGui::SmallButton("Reset")) return;
+    state.focusPoints.clear();
+    state.lens.focusTilt = state.lens.focusSwing = 0;
+}
+
 void lensSections(const PanelContext& context, ViewState& state, ViewActions& actions) {
     if (section("Focus", true)) {
         if (context.picture != nullptr) depthDiagram(context.picture->plan(), context.colors, context.scale);
         fieldRows(state, [](std::string_view name) { return holds(focusFields, name); });
+        focusPointsRow(state);
         nodeBlurRow(context, state, actions);
         ImGui::Checkbox("Peaking", &state.display.focusPeaking);
         tooltip("Marks sharp contours that are in focus (P)");

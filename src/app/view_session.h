@@ -50,6 +50,7 @@ private:
     void updatePicture();
     void drawInterface();
     void act();
+    void tiltFocus();
     void share(const ViewActions& actions);
     void exportStep();
     void chooseCamera(const std::string& name);

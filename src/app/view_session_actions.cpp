@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/focus.h"
 #include "app/render_command_text.h"
 #include "app/view_session.h"
 #include "core/error.h"
@@ -52,11 +55,25 @@ void ViewSession::act() {
         if (actions.frameSelection || actions.frameAll) frameBounds(actions.frameSelection);
         if (actions.togglePopping && picture_)
             state_.poppingSince = state_.poppingSince ? std::nullopt : std::optional(now());
+        if (actions.focusThroughPoints) tiltFocus();
         if (frame_) share(actions);
         if (actions.quit) window_.close();
     } catch (const Error& error) {
         say(error.what(), true);
     }
+}
+
+void ViewSession::tiltFocus() {
+    const glm::dmat4 viewFromWorld = glm::inverse(state_.camera.worldFromCamera);
+    std::array<glm::dvec3, 3> points;
+    for (std::size_t i = 0; i < 3; ++i) points[i] = viewFromWorld * glm::dvec4(state_.focusPoints.at(i), 1);
+    state_.focusPoints.clear();
+    Lens lens = state_.lens;
+    focusThrough(points, lens, "focus plane");
+    checkLens(lens);
+    state_.lens = lens;
+    state_.pull.reset();
+    say("The focus plane goes through the three points.");
 }
 
 // What leaves the window.
@@ -176,6 +193,8 @@ void ViewSession::writeStats() {
         {"cameraPosition", {position.x, position.y, position.z}},
         {"focusDistance",
          std::isfinite(state_.lens.focusDistance) ? nlohmann::ordered_json(state_.lens.focusDistance) : nullptr},
+        {"focusTilt", state_.lens.focusTilt},
+        {"focusSwing", state_.lens.focusSwing},
         {"fStop", state_.lens.fStop},
         {"focalLength", state_.lens.focalLength},
         {"selected", frame_ && state_.selected >= 0

@@ -62,6 +62,7 @@ void ViewSession::adoptScene(LoadedScene scene) {
     state_.poppingSince.reset();
     state_.lens = frame_->view.lens;
     state_.pull.reset();
+    state_.focusPoints.clear();
     state_.camera.worldFromCamera = frame_->view.worldFromCamera;
     const Bounds& bounds = frame_->world.pose.bounds;
     const double depth =

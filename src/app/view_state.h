@@ -52,6 +52,7 @@ struct ViewState {
     int selected = -1;  // object; the one that was focused on last
     AnimationState animation;
     std::optional<FocusPull> pull;
+    std::vector<glm::dvec3> focusPoints;  // in the world; fewer than three: the focus plane waits for the rest
 
     // How it is shown.
     DisplaySettings display;
@@ -97,6 +98,7 @@ struct ViewActions {
     bool frameSelection = false;
     bool frameAll = false;
     bool togglePopping = false;
+    bool focusThroughPoints = false;  // of ViewState, which are three
     bool quit = false;
 };
 

@@ -30,7 +30,7 @@ std::string movingSquare() {
     return builder.glb();
 }
 
-class Exposure : public ProgramTest {
+class ExposureOptions : public ProgramTest {
 protected:
     void SetUp() override {
         ProgramTest::SetUp();
@@ -51,7 +51,7 @@ protected:
     }
 };
 
-TEST_F(Exposure, clipTimeAndLoopChooseTheMoment) {
+TEST_F(ExposureOptions, clipTimeAndLoopChooseTheMoment) {
     expectDepths(3, 3, {"--time", "1"});
     expectDepths(6, 6, {"--time", "9"});
     expectDepths(3, 3, {"--time", "9", "--loop"});
@@ -60,13 +60,13 @@ TEST_F(Exposure, clipTimeAndLoopChooseTheMoment) {
     expectDepths(4, 4, {"--time", "2", "--clip", "0"});
 }
 
-TEST_F(Exposure, theShutterIsOpenAroundItsTime) {
+TEST_F(ExposureOptions, theShutterIsOpenAroundItsTime) {
     expectDepths(3.5, 4.5, {"--time", "2", "--shutter", "1"});
     expectDepths(4, 5, {"--time", "2", "--shutter", "1", "--shutter-position", "start"});
     expectDepths(3, 4, {"--time", "2", "--shutter", "2/2", "--shutter-position", "end"});
 }
 
-TEST_F(Exposure, segmentsAndExactMotionSayHowManyMoments) {
+TEST_F(ExposureOptions, segmentsAndExactMotionSayHowManyMoments) {
     const auto moments = [&](const std::vector<std::string>& arguments) {
         return plan(arguments)["shutter"]["moments"].get<int>();
     };
@@ -79,7 +79,7 @@ TEST_F(Exposure, segmentsAndExactMotionSayHowManyMoments) {
     EXPECT_EQ(plan({"--time", "2", "--shutter", "1/2"})["shutter"]["movingObjects"], 1);
 }
 
-TEST_F(Exposure, wrongValuesGiveOneLine) {
+TEST_F(ExposureOptions, wrongValuesGiveOneLine) {
     for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--shutter", "1/0"},
                                                                                        {"--shutter", "-1"},
                                                                                        {"--shutter", "1/"},

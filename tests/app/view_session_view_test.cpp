@@ -1,6 +1,9 @@
 // defocus view, with a hand on mouse and keys.
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/two_quads.h"
@@ -45,6 +48,23 @@ TEST_F(View, clickFocusesOnWhatIsUnderTheCursor) {
     click(30, 280);  // nothing there
     pause(1);
     EXPECT_TRUE(focusesAt(2)) << state();
+}
+
+// The plane w + tan(swing)·X + tan(tilt)·Y = focus distance, in view space, where the three clicks hit the squares.
+TEST_F(View, threePointsTiltTheFocusPlane) {
+    openTwoQuads({"--focus-distance", "4"});
+    const std::array<std::array<int, 3>, 3> clicks = {{{180, 60, 2}, {190, 90, 2}, {360, 150, 8}}};  // x, y, depth
+    for (const auto& [x, y, depth] : clicks)
+        act(fmt::format("mousemove {} {} sleep 0.2 keydown ctrl click 1 sleep 0.2 keyup ctrl", x, y));
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("focusTilt") != 0.0 && s.at("focusSwing") != 0.0; }))
+        << state();
+    for (const auto& [x, y, depth] : clicks) {
+        const double across = (x / 200.0 - 1) * 0.36 * depth;
+        const double up = (1 - y / 150.0) * 0.27 * depth;
+        EXPECT_NEAR(depth + std::tan(number("focusSwing")) * across + std::tan(number("focusTilt")) * up,
+                    number("focusDistance"), 1e-5);
+    }
+    EXPECT_EQ(state().at("selected"), "");  // no click to focus
 }
 
 TEST_F(View, stillViewGathersSamplesAndAChangeBeginsAnew) {
