@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "eval/equal_error.h"
 #include "eval/json_number.h"
 #include "eval/spread.h"
 
@@ -106,6 +107,15 @@ ordered_json subjectJson(const ConvergenceSubject& subject) {
             {"errorMapFullScale", errorMapFullScale}};
 }
 
+ordered_json competitorJson(const Competitor& competitor) {
+    ordered_json times = ordered_json::array();
+    for (const Competitor::Time& time : competitor.times)
+        times.push_back({{"rmse", time.rmse},
+                         {"milliseconds", time.milliseconds ? ordered_json(*time.milliseconds) : ordered_json()},
+                         {"atMost", time.atMost}});
+    return {{"name", competitor.name}, {"times", std::move(times)}};
+}
+
 // "accumulation lod=off" → "accumulation-lod-off"
 std::string fileName(std::string_view method, std::string_view setting, std::uint32_t asked) {
     std::string name = fmt::format("{} {}", method, setting);
@@ -149,7 +159,7 @@ std::string convergenceSummary(std::span<const ConvergenceRow> rows, const Refer
             "bias floor of {}, {}: PSNR {:.2f} dB, FLIP {:.4f} from full detail at the same {} lens samples; more "
             "samples with these thresholds come no closer\n",
             floor.method, floor.setting, floor.error.psnr(), floor.error.flip, floor.samples);
-    return text;
+    return text + equalErrorTable(timesToErrors(rows, comparedErrors));
 }
 
 std::string imageName(std::string_view method, std::string_view setting, std::uint32_t asked) {
@@ -189,6 +199,9 @@ std::string convergenceJson(std::span<const ConvergenceRow> rows, const Referenc
         json.update(errorJson(floor.error));
         document["biasFloors"].push_back(std::move(json));
     }
+    document["timesToErrors"] = ordered_json::array();
+    for (const Competitor& competitor : timesToErrors(rows, comparedErrors))
+        document["timesToErrors"].push_back(competitorJson(competitor));
     document["crops"] = ordered_json::array();
     for (const Crop& crop : subject.crops)
         document["crops"].push_back(

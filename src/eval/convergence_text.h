@@ -20,7 +20,7 @@ namespace defocus {
 
 std::string convergenceHeader();                         // two lines
 std::string convergenceLine(const ConvergenceRow& row);  // one line
-// The reference, the rows that no other beats, and the bias floors, in sentences.
+// The reference, the rows that no other beats, and the bias floors, in sentences; who takes how long to which error.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
 // ---- results --------------------------------------------------------------------------------------------------------

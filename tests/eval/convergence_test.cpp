@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,6 +13,7 @@
 #include "core/error.h"
 #include "eval/convergence_rows.h"
 #include "eval/convergence_text.h"
+#include "eval/equal_error.h"
 #include "eval/world_hash.h"
 #include "image/scratch_folder.h"
 #include "small_world.h"
@@ -36,6 +38,59 @@ TEST(ConvergenceFront, equalTrialsStandOrFallTogether) {
     EXPECT_EQ(paretoFront(std::vector<Trial>{{1, 1}, {1, 1}}), (std::vector<bool>{true, true}));
     EXPECT_EQ(paretoFront(std::vector<Trial>{{2, 1}, {2, 1}, {1, 1}}), (std::vector<bool>{false, false, true}));
     EXPECT_TRUE(paretoFront({}).empty());
+}
+
+// ---- equal error ----------------------------------------------------------------------------------------------------
+
+ConvergenceRow rowOf(const std::string& method, const std::string& setting, double milliseconds, double rmse) {
+    ConvergenceRow row;
+    row.method = method;
+    row.setting = setting;
+    row.milliseconds.median = milliseconds;
+    row.error.mse = rmse * rmse;
+    return row;
+}
+
+// Errors that are powers of the time, whose inverses are known, met at times other than those measured.
+TEST(EqualError, isExactForPowersOfTheTime) {
+    std::vector<ConvergenceRow> rows;
+    for (const double ms : {3.0, 48.0, 768.0}) {
+        rows.push_back(rowOf("embree", "standard", ms, 0.2 / std::sqrt(ms)));
+        rows.push_back(rowOf("accumulation", "lod=off", ms, 0.3 / ms));
+        rows.push_back(rowOf("accumulation", "lod=fractional", ms / 4, 0.3 / ms));
+        rows.back().bias.emplace();
+        rows.push_back(rowOf("accumulation", "lod=fractional", ms, 0.4 / ms));  // beaten: counts for nothing
+        rows.back().bias.emplace();
+    }
+    const std::vector<double> errors = {0.05, 0.01};
+    const std::vector<Competitor> competitors = timesToErrors(rows, errors);
+    ASSERT_EQ(competitors.size(), 3u);
+    EXPECT_EQ(competitors[0].name, "accumulation with levels");
+    EXPECT_EQ(competitors[1].name, "embree");
+    EXPECT_EQ(competitors[2].name, "accumulation at full detail");
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        EXPECT_NEAR(*competitors[0].times[i].milliseconds, 0.3 / errors[i] / 4, 1e-9);
+        EXPECT_NEAR(*competitors[1].times[i].milliseconds, std::pow(0.2 / errors[i], 2), 1e-9);
+        EXPECT_NEAR(*competitors[2].times[i].milliseconds, 0.3 / errors[i], 1e-9);
+    }
+    EXPECT_NE(equalErrorTable(competitors).find("10.67x"), std::string::npos);  // 16 ms over 1.5 ms
+}
+
+TEST(EqualError, saysWhatLiesBeyondTheRows) {
+    std::vector<ConvergenceRow> rows = {rowOf("a", "standard", 10, 0.02), rowOf("a", "standard", 20, 0.01),
+                                        rowOf("b", "standard", 1, 1e-9)};
+    rows[2].fault = "pixels that are no numbers";
+    const std::vector<double> errors = {0.03, 0.01, 0.005};
+    const std::vector<Competitor> competitors = timesToErrors(rows, errors);
+    ASSERT_EQ(competitors.size(), 1u);
+    const std::vector<Competitor::Time>& times = competitors[0].times;
+    EXPECT_TRUE(times[0].atMost);
+    EXPECT_DOUBLE_EQ(*times[0].milliseconds, 10);
+    EXPECT_FALSE(times[1].atMost);
+    EXPECT_DOUBLE_EQ(*times[1].milliseconds, 20);
+    EXPECT_FALSE(times[2].milliseconds);
+    EXPECT_TRUE(equalErrorTable(competitors).empty());
+    EXPECT_TRUE(timesToErrors({}, errors).empty());
 }
 
 // ---- rows -----------------------------------------------------------------------------------------------------------
