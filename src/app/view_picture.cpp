@@ -74,6 +74,13 @@ RenderSettings settingsOf(const RenderSettings& settings, const PictureSide& sid
     return result;
 }
 
+// Returns the time of the set-up, ms.
+double addPasses(std::vector<PassShare>& passes, const RenderStats& stats, const std::string& side) {
+    for (const PassTime& pass : stats.passes) passes.push_back({pass.name + side, pass.milliseconds});
+    if (stats.passes.empty()) passes.push_back({"waves" + side, stats.gpuMilliseconds});
+    return stats.setupMilliseconds;
+}
+
 }  // namespace
 
 ViewPicture::ViewPicture(const World& world, RendererOptions options, bool software)
@@ -191,16 +198,15 @@ void ViewPicture::grow(double milliseconds) {
 
 // The renderer's times are sums since its frame was started, which a growing image shares between many frames.
 void ViewPicture::notePasses() {
-    const RenderStats stats = first_->stats();
     std::vector<PassShare> totals;
-    for (const PassTime& pass : stats.passes) totals.push_back({pass.name, pass.milliseconds});
-    if (totals.empty()) totals.push_back({"waves", stats.gpuMilliseconds});
+    double setup = addPasses(totals, first_->stats(), "");
+    if (second_) setup += addPasses(totals, second_->stats(), ", right");
     passes_ = totals;
     if (passTotals_.size() == totals.size())
         for (std::size_t i = 0; i < totals.size(); ++i) passes_[i].milliseconds -= passTotals_[i].milliseconds;
     passTotals_ = std::move(totals);
-    const bool setUp = std::exchange(setupTotal_, stats.setupMilliseconds) != stats.setupMilliseconds;
-    passes_.push_back({"set-up", setUp ? stats.setupMilliseconds : 0});
+    const bool setUp = std::exchange(setupTotal_, setup) != setup;
+    passes_.push_back({"set-up", setUp ? setup : 0});
     // Overlays and display are those of the frame before: nobody waits for them.
     if (const double overlays = overlayTimer_.milliseconds(); overlays > 0) passes_.push_back({"overlays", overlays});
     overlayTimer_.reset();
