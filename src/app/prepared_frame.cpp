@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -14,6 +13,7 @@
 #include "app/focus.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "image/image_io.h"
 #include "lens/aperture.h"
 #include "lens/camera_lens.h"
@@ -25,16 +25,6 @@
 namespace defocus {
 
 namespace {
-
-class Stopwatch {
-public:
-    [[nodiscard]] double milliseconds() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 Scene loadScene(const SceneOptions& options, const Progress& progress) {
     if (!options.path.empty()) return loadGltf(options.path, progress);
@@ -190,7 +180,7 @@ void placeCamera(PreparedFrame& frame, const SceneOptions& options) {
 
 PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) {
     // The scene, at its time.
-    const Stopwatch loading;
+    const Clock::time_point begin = Clock::now();
     PreparedFrame frame;
     frame.scene = std::make_shared<Scene>(loadScene(options, progress));
     frame.sceneName = options.path.empty() ? "fish school" : options.path.filename().string();
@@ -206,12 +196,12 @@ PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) 
     frame.settings = chosenSettings(options);
     exposeMotion(options, placed, frame.settings, frame.world, frame.view);
     frame.cacheFolder = chosenCacheFolder(options);
-    frame.loadMilliseconds = loading.milliseconds();
+    frame.loadMilliseconds = millisecondsSince(begin);
     return frame;
 }
 
 void addPyramids(PreparedFrame& frame, const Progress& progress) {
-    const Stopwatch building;
+    const Clock::time_point begin = Clock::now();
     const std::vector<Mesh>& meshes = frame.scene->meshes;
     if (frame.settings.lod == LodMode::off) {
         frame.world.pyramids = fullDetailPyramids(meshes, progress);
@@ -221,7 +211,7 @@ void addPyramids(PreparedFrame& frame, const Progress& progress) {
         frame.pyramidsLoaded = cached.loaded;
         frame.cacheFailure = std::move(cached.failure);
     }
-    frame.pyramidMilliseconds = building.milliseconds();
+    frame.pyramidMilliseconds = millisecondsSince(begin);
 }
 
 PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress) {
