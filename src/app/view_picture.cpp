@@ -101,8 +101,6 @@ bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
 
     // Draw a frame, wait until hands are still, or let the image grow.
     showsWork_ = request.display.overlay == DisplayOverlay::work;
-    const bool shares = showsWork_ && growing_ && grows_ && (!workCurrent_ || workGrows_);  // the image and its work
-    const double growth = std::max(budget.milliseconds, software_ ? softwareGrowth : 0.0) * (shares ? 0.5 : 1);
     if (changed) {
         ++changes_;
         drawMoving(request, budget);
@@ -112,12 +110,12 @@ bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
         presents = true;
     } else if (!growing_ && !request.fixedQuality && Clock::now() >= settlesAt_) {
         beginGrowing(request);
-    } else if (growing_ && grows_) {
-        grow(growth);
+    } else if (grown_) {
         presents = presents || fewestSamples() >= static_cast<std::uint32_t>(nextShown * presentedSamples_) || !grows_;
     }
+    grown_ = false;
     if (showsWork_ && !changed && (!workCurrent_ || workGrows_)) {
-        growWork(growth);
+        growWork(growthTime(budget));
         presents = true;
     }
     const bool tooFew = growing_ && grows_ && fewestSamples() < firstShownSample;
@@ -125,6 +123,11 @@ bool ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     presentedSamples_ = shownSamples_ = fewestSamples();
     present(request);
     return true;
+}
+
+double ViewPicture::growthTime(const FrameBudget& budget) const {
+    const bool shares = showsWork_ && growing_ && grows_ && (!workCurrent_ || workGrows_);  // the image and its work
+    return std::max(budget.milliseconds, software_ ? softwareGrowth : 0.0) * (shares ? 0.5 : 1);
 }
 
 std::uint32_t ViewPicture::fewestSamples() const {
@@ -187,11 +190,13 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
     aovsCurrent_ = workCurrent_ = workGrows_ = false;
 }
 
-void ViewPicture::grow(double milliseconds) {
+void ViewPicture::grow(const FrameBudget& budget) {
+    if (!growing_ || !grows_) return;
+    grown_ = true;
     // Two sides take turns, the one behind first, so that they stay comparable.
     const bool secondBehind =
         second_ && !second_->finished() && (first_->finished() || second_->samples() < first_->samples());
-    (secondBehind ? *second_ : *first_).grow(milliseconds);
+    (secondBehind ? *second_ : *first_).grow(growthTime(budget));
     grows_ = !first_->finished() || (second_ && !second_->finished());
     notePasses();
 }

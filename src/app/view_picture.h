@@ -46,7 +46,11 @@ public:
     // `world` must outlive it. Needs a current GL context.
     ViewPicture(const World& world, RendererOptions options, bool software);
 
-    // Brings the picture up to date within about the budget, whose rung it adapts. Returns whether the texture changed.
+    // Adds to a still image for about the budget's time, or 60 ms on a CPU; does nothing while things move. Before the
+    // events of a frame are fetched, so that those which come meanwhile are answered by this frame and not by the next.
+    void grow(const FrameBudget& budget);
+    // Brings the picture up to date; one of things that move within about the budget, whose rung it adapts. Returns
+    // whether the texture changed.
     bool update(const PictureRequest& request, FrameBudget& budget);
 
     [[nodiscard]] const GlTexture& texture() const { return display_.texture(); }
@@ -68,11 +72,11 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    [[nodiscard]] std::uint32_t fewestSamples() const;  // of both sides
+    [[nodiscard]] std::uint32_t fewestSamples() const;                 // of both sides
+    [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
     void prepareSides(const PictureRequest& request);
     void drawMoving(const PictureRequest& request, FrameBudget& budget);
     void beginGrowing(const PictureRequest& request);
-    void grow(double milliseconds);
     void present(const PictureRequest& request);
     void notePasses();
     void drawAovs();
@@ -99,7 +103,8 @@ private:
     std::uint32_t shownSamples_ = 0;
     bool growing_ = false;
     bool grows_ = false;
-    bool fresh_ = true;  // the next frame uploads: its time says nothing
+    bool grown_ = false;  // since the latest update
+    bool fresh_ = true;   // the next frame uploads: its time says nothing
     std::optional<double> psnr_;
     GpuTimer overlayTimer_, displayTimer_;
     std::vector<PassShare> passes_, passTotals_;

@@ -14,7 +14,7 @@ namespace defocus {
 
 namespace {
 
-constexpr double softwareBudget = 66;  // ms, where the CPU draws
+constexpr double softwareBudget = 50;  // ms, where the CPU draws
 constexpr std::size_t shownFrameTimes = 120;
 
 WindowOptions windowOptions(const SessionOptions& options, const ViewSettings& settings) {
@@ -117,7 +117,7 @@ void ViewSession::frame() {
     interfaceMilliseconds_ = millisecondsSince(interfaceBegin);
     act();
     if (picture_ && !draft_) ++framesWithScene_;
-    frameMilliseconds_ = millisecondsSince(begin);
+    frameMilliseconds_ = growthMilliseconds_ + millisecondsSince(begin);
     frameTimes_.push_back(static_cast<float>(frameMilliseconds_));
     if (frameTimes_.size() > shownFrameTimes) frameTimes_.erase(frameTimes_.begin());
     writeStats();
@@ -127,6 +127,14 @@ void ViewSession::frame() {
 std::vector<WindowEvent> ViewSession::fetchEvents() {
     Clock::time_point earliest = fetchedAt_;  // they may have come at once after the fetch before
     std::vector<WindowEvent> events = window_.poll(0);
+    growthMilliseconds_ = 0;
+    if (events.empty() && picture_ && window_.framebufferSize().x > 0) {
+        const Clock::time_point before = Clock::now();
+        picture_->grow(state_.budget);
+        growthMilliseconds_ = millisecondsSince(before);
+        events = window_.poll(0);
+        if (!events.empty()) earliest = before;
+    }
     if (const double seconds = waitingTime(); events.empty() && seconds > 0) {
         events = window_.poll(seconds);
         earliest = Clock::now();

@@ -100,6 +100,7 @@ private:
     Clock::time_point fetchedAt_ = Clock::now();
     InputLatency latency_;
     double interfaceMilliseconds_ = 0;
+    double growthMilliseconds_ = 0;  // of the frame, spent on the still image
     double frameMilliseconds_ = 0;
     std::vector<float> frameTimes_;
     int framesWithScene_ = 0;
