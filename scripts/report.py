@@ -445,6 +445,26 @@ def floors_table(results):
     return table(["method, setting", "at lens samples", "RMSE", "PSNR, dB", "SSIM", "FLIP"], lines) if lines else ""
 
 
+def equal_error_table(results):
+    competitors = results.get("timesToErrors", [])
+    if len(competitors) < 2:
+        return ""
+    first = competitors[0]["times"]
+
+    def cell(time, best):
+        if time["milliseconds"] is None:
+            return "not reached"
+        text = ("under " if time["atMost"] else "") + time_text(time["milliseconds"])
+        if time is best or best["milliseconds"] is None or time["atMost"] or best["atMost"]:
+            return text
+        return f"{text} ({time['milliseconds'] / best['milliseconds']:.2f} times)"
+
+    lines = [[html.escape(c["name"])] + [cell(*pair) for pair in zip(c["times"], first)] for c in competitors]
+    return ("<h2>Time to equal error</h2>" +
+            table(["each with its best settings"] + [f"RMSE {time['rmse']:g}" for time in first], lines) +
+            "<p>A frame's time, between measured rows by a power law; beside it, how many times the first row's.</p>")
+
+
 def subject_table(results):
     lens, machine, reference = results["lens"], results["machine"], results["reference"]
     remaining = reference["remaining"]
@@ -544,7 +564,7 @@ def page(results, series, folder, extra):
               f"{results['errorMapFullScale']:g} and more (pale yellow).</p>",
               overview(results, folder)]
     parts += [crop_strip(results, series, folder, crop, time) for crop in results["crops"]]
-    parts += [strips_section(extra), "<h2>Bias floors</h2>",
+    parts += [equal_error_table(results), strips_section(extra), "<h2>Bias floors</h2>",
               "<p>The difference between the image with levels and the one at full detail, at the same lens samples, so that "
               "sampling noise cancels; at the largest number measured. The standard thresholds shrink as samples grow, so "
               "that the floor sinks with them; with these thresholds held, it stays.</p>",

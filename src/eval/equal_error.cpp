@@ -52,7 +52,7 @@ Competitor::Time timeTo(double rmse, const std::vector<Step>& front) {
 
 std::string cell(const Competitor::Time& time, const Competitor::Time& first) {
     if (!time.milliseconds) return "not reached";
-    const std::string seconds = fmt::format("{}{:.2f} s", time.atMost ? "< " : "", *time.milliseconds / 1000);
+    const std::string seconds = fmt::format("{}{:.3g} s", time.atMost ? "< " : "", *time.milliseconds / 1000);
     if (&time == &first || !first.milliseconds || time.atMost || first.atMost) return seconds;
     return fmt::format("{} {:>6.2f}x", seconds, *time.milliseconds / *first.milliseconds);
 }
