@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -12,19 +11,23 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
+#include "app/level_export.h"
 #include "app/number_text.h"
 #include "app/option_text.h"
+#include "app/turntable.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/suggestion.h"
+#include "gl/context.h"
+#include "image/image_io.h"
 #include "lod/pyramid.h"
 #include "lod/surface_distance.h"
+#include "scene/defaults.h"
 #include "scene/fish_school.h"
 #include "scene/gltf.h"
 #include "scene/gltf_write.h"
@@ -41,12 +44,11 @@ struct PyramidArguments {
     FishSchoolOptions school;  // without a scene
     std::string mesh;          // empty: all
     fs::path exportFolder;     // empty: no export
+    fs::path turntable;        // empty: none
     std::size_t points = 16'384;
     bool noMeasure = false;
     bool json = false;
 };
-
-constexpr std::size_t longestStem = 80;  // bytes; file systems hold 255
 
 struct LevelReport {
     std::optional<SurfaceDistance> measured;  // from level 0 and back; not of level 0 itself
@@ -58,9 +60,9 @@ struct MeshReport {
     Pyramid pyramid;
     double seconds = 0;  // of the build, on one core
     std::vector<LevelReport> levels;
+    fs::path turntable;  // empty: none was drawn
 };
 
-// "1234567" → "1,234,567".
 // As `defocus info` calls it.
 std::string shownName(const Scene& scene, std::size_t mesh) {
     return scene.meshes[mesh].name.empty() ? fmt::format("(mesh {})", mesh) : scene.meshes[mesh].name;
@@ -128,71 +130,7 @@ void measureAll(std::vector<MeshReport>& reports, std::size_t points, const Prog
     });
 }
 
-// ---- export -------------------------------------------------------------------------------------
-
-// Letters, digits and "-_." of ASCII; no leading dot.
-std::string safeStem(const std::string& name) {
-    std::string stem;
-    for (const char c : name) {
-        const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
-        stem += safe && static_cast<unsigned char>(c) < 0x80 ? c : '_';
-    }
-    stem.resize(std::min(stem.size(), longestStem));
-    if (!stem.empty() && stem.front() == '.') stem.front() = '_';
-    return stem.empty() ? "mesh" : stem;
-}
-
-// One a mesh of the scene, whatever is exported of it; they differ in more than case, which some file systems ignore.
-std::vector<std::string> fileStems(const Scene& scene) {
-    std::vector<std::string> stems;
-    std::set<std::string> taken;
-    for (const Mesh& mesh : scene.meshes) {
-        const auto free = [&](std::string stem) {
-            for (char& c : stem) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-            return taken.insert(stem).second;
-        };
-        const std::string plain = safeStem(mesh.name);
-        std::string stem = plain;
-        for (int number = 2; !free(stem); ++number) stem = fmt::format("{}-{}", plain, number);
-        stems.push_back(stem);
-    }
-    return stems;
-}
-
-fs::path levelFile(const fs::path& folder, const std::string& stem, std::size_t level) {
-    return folder / fmt::format("{}-level-{:02}.glb", stem, level);
-}
-
-// Before the work that ends in it.
-void prepareFolder(const fs::path& folder, const fs::path& firstFile) {
-    std::error_code status;
-    if (fs::exists(folder, status) && !fs::is_directory(folder, status))
-        fail("{}: is not a folder to export to", folder.string());
-    fs::create_directories(folder, status);
-    if (status) fail("{}: the folder cannot be made: {}", folder.string(), status.message());
-    checkWritable(firstFile);
-}
-
-template <typename T>
-std::vector<T> prefix(const std::vector<T>& values, std::size_t count) {
-    return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), count))};
-}
-
-Mesh levelMesh(const Pyramid& pyramid, std::size_t l, const std::string& name) {
-    const PyramidLevel& level = pyramid.levels[l];
-    Mesh mesh;
-    mesh.name = fmt::format("{} level {}", name, l);
-    mesh.vertices.positions = level.positions;
-    mesh.vertices.normals = level.normals;
-    mesh.vertices.colors = level.colors;
-    mesh.vertices.uv0 = prefix(pyramid.vertices.uv0, level.vertexCount);
-    mesh.vertices.uv1 = prefix(pyramid.vertices.uv1, level.vertexCount);
-    for (const IndexRange& range : level.primitives) {
-        const auto first = pyramid.indices.begin() + static_cast<std::ptrdiff_t>(range.first);
-        mesh.primitives.push_back({-1, {first, first + static_cast<std::ptrdiff_t>(range.count)}});
-    }
-    return mesh;
-}
+// ---- files --------------------------------------------------------------------------------------
 
 // Returns how many files were written; levels without triangles have none.
 std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, const fs::path& folder,
@@ -206,6 +144,46 @@ std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, cons
             ++files;
         }
     return files;
+}
+
+// ---- turntables ---------------------------------------------------------------------------------
+
+// sheet.png; of several meshes sheet-STEM.png each.
+fs::path turntableFile(const fs::path& file, const std::string& stem, bool several) {
+    if (!several) return file;
+    fs::path named = file;
+    return named.replace_filename(fmt::format("{}-{}{}", file.stem().string(), stem, file.extension().string()));
+}
+
+// The mesh as the scene has it first; as it is where the scene doesn't show it.
+Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
+    for (const Object& object : pose.objects)
+        if (object.mesh == static_cast<int>(mesh)) return object;
+    Object object;
+    object.mesh = static_cast<int>(mesh);
+    object.name = scene.meshes[mesh].name;
+    object.morphWeights.assign(scene.meshes[mesh].morphTargets.size(), 0);
+    return object;
+}
+
+// Meshes without triangles have no sheet.
+void drawTurntables(const Scene& scene, std::vector<MeshReport>& reports, const fs::path& file,
+                    const std::vector<std::string>& stems, const GlobalOptions& global, const Progress& progress) {
+    const Pose pose = poseAt(scene, 0, -1);
+    World world;
+    world.scene = &scene;
+    world.environment = environmentOrDefault(scene);
+    world.pyramids.resize(scene.meshes.size());
+    for (MeshReport& report : reports) {
+        if (report.pyramid.levels.front().triangleCount == 0) continue;
+        Pyramid& lent = world.pyramids[report.mesh];
+        lent = std::move(report.pyramid);
+        const TurntableSheet sheet = turntableSheet(world, shownObject(scene, pose, report.mesh),
+                                                    shownName(scene, report.mesh), global.shaderDir, progress);
+        report.pyramid = std::move(lent);
+        report.turntable = turntableFile(file, stems[report.mesh], reports.size() > 1);
+        writeImage(report.turntable, sheet.image);
+    }
 }
 
 // ---- what is said -------------------------------------------------------------------------------
@@ -239,6 +217,7 @@ Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std
                      {"diagonal", glm::length(report.pyramid.bounds.size())},
                      {"repairedFaces", report.pyramid.repairedFaces},
                      {"levels", Json::array()}};
+        if (!report.turntable.empty()) mesh["turntable"] = report.turntable.string();
         for (std::size_t l = 0; l < report.levels.size(); ++l)
             mesh["levels"].push_back(levelJson(report.pyramid.levels[l], report.levels[l]));
         json["meshes"].push_back(std::move(mesh));
@@ -293,10 +272,18 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     if (!arguments.exportFolder.empty() && !reports.empty())
         prepareFolder(arguments.exportFolder, levelFile(arguments.exportFolder, stems[reports.front().mesh], 0));
 
+    std::unique_ptr<GlContext> context;
+    if (!arguments.turntable.empty() && !reports.empty()) {
+        checkImageExtension(arguments.turntable);
+        checkWritable(turntableFile(arguments.turntable, stems[reports.front().mesh], reports.size() > 1));
+        context = createHeadlessContext();
+    }
+
     buildAll(scene, reports, progress);
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;
     if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);
+    if (context) drawTurntables(scene, reports, arguments.turntable, stems, global, progress);
 
     if (arguments.json) {
         fmt::print("{}\n", reportJson(arguments, scene, reports).dump(2, ' ', false, Json::error_handler_t::replace));
@@ -304,6 +291,9 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
         printReport(scene, reports);
         if (!arguments.exportFolder.empty())
             fmt::print("\n{} file{} in {}\n", files, files == 1 ? "" : "s", arguments.exportFolder.string());
+        if (context) fmt::print("\n");
+        for (const MeshReport& report : reports)
+            if (!report.turntable.empty()) fmt::print("{}\n", report.turntable.string());
     }
     std::fflush(stdout);
 }
@@ -331,12 +321,19 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
                       "Don't measure distances, which takes longer than the rest");
     command->add_option("--export", arguments->exportFolder, "Write each level into this folder as a .glb of its own")
         ->type_name("FOLDER");
+    command
+        ->add_option("--turntable", arguments->turntable,
+                     "Render all levels from all sides onto one sheet (.png, .jpg or .exr); of several meshes a sheet "
+                     "each, FILE-MESH.png")
+        ->type_name("FILE");
     command->add_flag("--json", arguments->json,
                       "JSON for programs, with distances in both directions, instead of text");
     command->footer(
         "Lengths are in the mesh's own units. A level's error is the 99th percentile of its distance from level 0 or\n"
         "back, whichever is larger, on the safe side; the measured figures are the larger of the two as well.\n\n"
-        "Example:\n  defocus pyramid scene.glb --mesh Body --export levels");
+        "Examples:\n"
+        "  defocus pyramid scene.glb --mesh Body --export levels\n"
+        "  defocus pyramid scene.glb --mesh Body --no-measure --turntable levels.png");
     command->callback([arguments, &global] { runPyramid(*arguments, global); });
 }
 

@@ -3,38 +3,18 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 
-#include <filesystem>
+#include "app/interface_font.h"
 
 namespace defocus {
 
 namespace {
 
-constexpr float fontSize = 15;  // units
-
-const char* const fontFiles[] = {
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-    "/usr/share/fonts/TTF/DejaVuSans.ttf",
-    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-    "/Library/Fonts/Arial Unicode.ttf",
-};
-
-// Latin, Greek (λ), punctuation, arrows, simple shapes and the check mark.
-constexpr ImWchar glyphs[] = {0x20,   0xff,   0x192,  0x192,  0x370,  0x3ff,  0x2010, 0x2044, 0x2190,
-                              0x21ff, 0x2212, 0x2265, 0x25a0, 0x25ff, 0x2713, 0x2713, 0};
+constexpr double fontSize = 15;  // units
 
 void loadFont(double scale) {
-    ImGuiIO& io = ImGui::GetIO();
-    io.Fonts->Clear();
-    for (const char* file : fontFiles) {
-        if (!std::filesystem::exists(file)) continue;
-        if (io.Fonts->AddFontFromFileTTF(file, static_cast<float>(fontSize * scale), nullptr, glyphs) != nullptr)
-            return;
-    }
-    ImFontConfig config;
-    config.SizePixels = static_cast<float>(13 * scale);
-    io.Fonts->AddFontDefault(&config);
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
+    addInterfaceFont(atlas, fontSize * scale);
 }
 
 ImVec4 grey(float value, float alpha = 1) {
