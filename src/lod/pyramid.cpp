@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <mutex>
@@ -162,20 +163,54 @@ struct FittedLevel {
     std::vector<std::uint32_t> numbers;  // of its vertices, see SimplifiedLevel
     LevelFit fit;                        // of the same
     std::vector<Cluster> clusters;
+    std::vector<Ball> removed;  // see SimplifiedLevel
     double error = 0;
 };
+
+// Scales components that have less area than they are to stand for, within level 0's box.
+void grow(std::vector<glm::vec3>& positions, const SimplifiedLevel& level, const Bounds& box) {
+    if (level.growthsOf.empty()) return;
+    std::vector<double> areas(level.growths.size(), 0);
+    const std::vector<std::uint32_t>& indices = level.mesh.indices;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        const glm::dvec3 a = positions[indices[i]];
+        areas[level.growthsOf[indices[i]]] += 0.5 * glm::length(glm::cross(glm::dvec3(positions[indices[i + 1]]) - a,
+                                                                           glm::dvec3(positions[indices[i + 2]]) - a));
+    }
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const std::uint32_t g = level.growthsOf[v];
+        const Growth& growth = level.growths[g];
+        if (!(growth.area > areas[g]) || !(areas[g] > 0)) continue;
+        const double factor = std::min(std::sqrt(growth.area / areas[g]), growth.mostFactor);
+        const glm::dvec3 grown = growth.centre + factor * (glm::dvec3(positions[v]) - growth.centre);
+        positions[v] = glm::clamp(glm::vec3(grown), glm::vec3(box.minimum), glm::vec3(box.maximum));
+    }
+}
 
 FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     FittedLevel result;
     result.fit = fitLevel(source, level.mesh, level.anchors);
+    grow(result.fit.positions, level, source.bounds);
+    result.removed = std::move(level.removed);
     result.triangles = {std::move(level.mesh.indices), std::move(level.primitiveIndexCounts)};
     result.numbers = std::move(level.numbers);
     return result;
 }
 
+// At least as far as any point of what the level lacks is from what it has, and as large as what it lacks.
+double removedError(const std::vector<Ball>& removed, const Surface& level) {
+    double error = 0;
+    for (const Ball& ball : removed)
+        error = std::max(error, ball.radius + std::max(ball.radius, distanceTo(level, ball.centre)));
+    return error;
+}
+
 // Measures how far the level is from the mesh, and orders its triangles by clusters.
 void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
-    level.error = levelError(mesh, prepareSurface(level.fit.positions, level.triangles.indices), diagonal);
+    const Surface surface = prepareSurface(level.fit.positions, level.triangles.indices);
+    level.error =
+        std::max(levelError(mesh, surface, diagonal), std::min(removedError(level.removed, surface), diagonal));
+    level.removed = {};
     level.clusters = clusterTriangles(level.triangles, level.fit.positions);
     for (std::uint32_t& v : level.triangles.indices) v = level.numbers[v];
 }

@@ -57,7 +57,7 @@ void enqueueBest(Simplifier& s, std::uint32_t v) {
 void fillQueue(Simplifier& s) {
     s.queue.reset(s.points.size());
     for (std::uint32_t v = 0; v < s.points.size(); ++v)
-        if (s.survivors[v] == v) enqueueCheapest(s, v);
+        if (s.survivors[v] == v && !isRemoved(s, v)) enqueueCheapest(s, v);
 }
 
 // The survivor, and its neighbours that would have collapsed onto it or onto what is gone, or not at all, look for
@@ -119,13 +119,13 @@ void prefetchVertex(const Simplifier& s, std::uint32_t v) {
     prefetch(&s.mesh.halfedge(edge));
 }
 
-// Collapses in order of fit and cost until `target` faces are left; false if nothing more is possible before.
-bool collapseTo(Simplifier& s, std::size_t target) {
+// Collapses in order of fit and cost until `target` faces are left or nothing more is possible.
+void collapseTo(Simplifier& s, std::size_t target) {
     bool collapsed = true;
     while (s.liveFaces > target) {
         if (s.queue.empty()) {
             // A collapse may become possible by one two rings away, which nobody is told of: look once more everywhere.
-            if (!collapsed) return false;
+            if (!collapsed) return;
             collapsed = false;
             fillQueue(s);
             continue;
@@ -144,7 +144,6 @@ bool collapseTo(Simplifier& s, std::size_t target) {
         collapse(s, candidate.edge);
         collapsed = true;
     }
-    return true;
 }
 
 std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
@@ -152,12 +151,21 @@ std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
     return v;
 }
 
+// What is known of components once many are as small as they get.
+void noteComponents(const Simplifier& s, Snapshot& level) {
+    if (s.components.empty()) return;
+    level.removed = removedBalls(s);
+    level.growths = growths(s);
+    for (std::uint32_t v = 0; v < s.points.size(); ++v)
+        if (s.survivors[v] == v && !isRemoved(s, v)) level.growthsOf.push_back(s.componentOf[v]);
+}
+
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
     Snapshot level;
-    std::vector<std::uint32_t> numbers(s.points.size(), 0);
+    std::vector<std::uint32_t> numbers(s.points.size(), EdgeSide::none);
     level.points.reserve(s.liveFaces / 2 + 2);  // of a closed surface
     for (std::uint32_t v = 0; v < s.points.size(); ++v) {
-        if (s.survivors[v] != v) continue;
+        if (s.survivors[v] != v || isRemoved(s, v)) continue;
         numbers[v] = static_cast<std::uint32_t>(level.points.size());
         level.points.push_back(s.points[v]);
     }
@@ -177,6 +185,7 @@ Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
         level.primitiveIndexCounts[s.corners.primitive[face]] += 3;
     }
     level.twins = s.twins;
+    noteComponents(s, level);
     return level;
 }
 
@@ -187,13 +196,17 @@ SimplifiedLevel described(const Simplifier& s, const Snapshot& snapshot) {
     const auto vertexCount = static_cast<std::uint32_t>(s.firstCorner.size());
     std::vector<std::uint32_t> local(vertexCount + snapshot.twins.size(), EdgeSide::none);
     level.mesh.indices.reserve(snapshot.wedges.size());
-    for (const std::uint32_t wedge : snapshot.wedges) {
+    level.removed = snapshot.removed;
+    level.growths = snapshot.growths;
+    for (std::size_t i = 0; i < snapshot.wedges.size(); ++i) {
+        const std::uint32_t wedge = snapshot.wedges[i];
         if (local[wedge] == EdgeSide::none) {
             local[wedge] = static_cast<std::uint32_t>(level.numbers.size());
             const bool twin = wedge >= vertexCount;
             level.numbers.push_back(wedge);
             level.mesh.sources.push_back(twin ? snapshot.twins[wedge - vertexCount] : wedge);
             level.mesh.apart.push_back(twin ? 1 : 0);
+            if (!snapshot.growthsOf.empty()) level.growthsOf.push_back(snapshot.growthsOf[snapshot.corners[i]]);
         }
         level.mesh.indices.push_back(local[wedge]);
     }
@@ -224,11 +237,15 @@ std::size_t stuckFaces(const Simplifier& s) {
 // How many faces the next level should have: half, or the least at once where half would come so near to it that no
 // level fits between.
 std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
-    const std::size_t stuck = stuckFaces(s);
-    const auto kept = static_cast<std::size_t>(leastShareOfMovable * static_cast<double>(s.liveFaces - stuck));
     const std::size_t half = s.liveFaces / 2;
     const bool nearLeast = largestShare * static_cast<double>(half) < static_cast<double>(leastTriangles);
-    return std::max(nearLeast ? leastTriangles : half, stuck + kept);
+    return nearLeast ? leastTriangles : half;
+}
+
+// How many collapses should leave at least.
+std::size_t collapseFloor(const Simplifier& s) {
+    const std::size_t stuck = stuckFaces(s);
+    return stuck + static_cast<std::size_t>(leastShareOfMovable * static_cast<double>(s.liveFaces - stuck));
 }
 
 }  // namespace
@@ -245,16 +262,16 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, const
     s->candidates.resize(s->points.size());
     fillQueue(*s);
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
-        const std::size_t before = s->liveFaces;
         const std::size_t target = nextTarget(*s, options.leastTriangles);
-        const auto enough = static_cast<std::size_t>(largestShare * static_cast<double>(before));
-        if (target > enough || before == 0) break;
-        const bool reached = collapseTo(*s, target);
-        if (s->liveFaces <= enough) {
-            const auto picture = std::make_shared<const Snapshot>(snapshot(*s, triangles.primitiveIndexCounts.size()));
-            tasks.add([s, picture, take, l = result.levelCount++] { take(l, described(*s, *picture)); });
-        }
-        if (!reached) break;
+        const std::size_t floor = std::max(target, collapseFloor(*s));
+        const auto enough = static_cast<std::size_t>(largestShare * static_cast<double>(s->liveFaces));
+        if (target > enough || s->liveFaces == 0) break;
+        if (floor <= enough) collapseTo(*s, floor);
+        if (s->liveFaces > enough || manyAreSmallest(*s)) findComponents(*s, vertices, triangles);
+        if (s->liveFaces > enough) removeComponents(*s, target);
+        if (s->liveFaces > enough) break;
+        const auto picture = std::make_shared<const Snapshot>(snapshot(*s, triangles.primitiveIndexCounts.size()));
+        tasks.add([s, picture, take, l = result.levelCount++] { take(l, described(*s, *picture)); });
     }
     result.twins = s->twins;
     return result;

@@ -9,7 +9,9 @@
 //          other is left anywhere.
 // The cost of a collapse is the quadric error of places (Garland and Heckbert 1997), with constraints along borders,
 // seams and the rims of thin sheets, plus that of attributes (Hoppe 1999). The topology never changes (link condition):
-// a closed surface is closed at every level, and a component ends as a tetrahedron or its like.
+// a closed surface is closed at every level, and a component ends as a tetrahedron or its like. Where that is as
+// far as collapses come, whole components go, the smallest first and never the largest; one near each grows in its
+// place.
 
 #include <cstdint>
 #include <functional>
@@ -28,12 +30,28 @@ struct SimplifyOptions {
     int mostLevels = 23;                // level 0 not among them
 };
 
+struct Ball {
+    glm::dvec3 centre{0};  // object units
+    double radius = 0;
+};
+
+// A component of a level is scaled about `centre`, once it is fitted, so that it has `area`: what the mesh had of it
+// and of those that it stands in for. It neither shrinks nor grows by more than `mostFactor`.
+struct Growth {
+    glm::dvec3 centre{0};  // object units
+    double area = 0;       // object units
+    double mostFactor = 1;
+};
+
 struct SimplifiedLevel {
     LevelMesh mesh;  // primitive after primitive
     std::vector<std::uint32_t> primitiveIndexCounts;
     // For each vertex of `mesh` its number: that of the mesh's vertex, or vertexCount + i for the twin i.
     std::vector<std::uint32_t> numbers;
     std::vector<Anchor> anchors;  // one a vertex of the mesh
+    std::vector<Ball> removed;    // around each component that the level lacks
+    std::vector<Growth> growths;
+    std::vector<std::uint32_t> growthsOf;  // of each vertex of `mesh`, into `growths`; empty without any
 };
 
 struct Simplification {

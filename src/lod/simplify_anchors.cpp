@@ -131,6 +131,7 @@ std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level) {
         if (s.firstCorner[wedge] == EdgeSide::none) continue;
         Anchor& anchor = result[wedge];
         const std::uint32_t v = s.firstVertex[wedge];
+        if (level.nearest[v] == EdgeSide::none) continue;
         const glm::dvec3 side = s.corners.attributes[wedge].normal;
         const Closest closest = closestTo(rings, s.points[v], level.nearest[v], side);
         if (closest.face == noFace) {

@@ -40,6 +40,15 @@ struct WedgeQuadric {
     AttributeQuadric quadric;
 };
 
+// A part of the mesh that shares no position with the rest; see simplify_components.cpp.
+struct Component {
+    Ball ball;                    // around all that the mesh had of it
+    double area = 0;              // object units; what the mesh had of it, and of all that it stands in for
+    std::uint32_t primitive = 0;  // of one of its faces
+    bool standsIn = false;        // for others that were removed
+    bool removed = false;
+};
+
 struct Simplifier {
     OpenMesh::TriConnectivity mesh;  // vertex and face numbers are those of the manifold
     Corners corners;
@@ -57,6 +66,9 @@ struct Simplifier {
 
     std::vector<std::uint32_t> twins;                         // see Simplification
     std::unordered_map<std::uint32_t, std::uint32_t> twinOf;  // mesh vertex → the number of its twin
+
+    std::vector<Component> components;       // once many are as small as they get
+    std::vector<std::uint32_t> componentOf;  // for each vertex; EdgeSide::none if none of its faces were left
 
     std::vector<Spoke> spokes;                      // scratch of cheapestCollapse
     std::vector<std::uint32_t> facesFrom, facesTo;  // scratch of judgeCollapse
@@ -117,17 +129,34 @@ void removeEdge(OpenMesh::TriConnectivity& mesh, OpenMesh::HalfedgeHandle edge);
 // simplify_creases.cpp: the wedges of all corners, split into two where the faces around one look opposite ways.
 std::vector<std::uint32_t> creasedWedges(Simplifier& s);
 
+// simplify_components.cpp: are many faces of components that can be no smaller?
+bool manyAreSmallest(const Simplifier& s);
+// Finds the components, of what is left of the mesh, once.
+void findComponents(Simplifier& s, const Vertices& vertices, const LevelTriangles& triangles);
+// Takes whole ones out of the mesh until `target` faces are left, or nothing that may go.
+void removeComponents(Simplifier& s, std::size_t target);
+// Is the vertex, or the one it collapsed onto, of a component that was taken out?
+bool isRemoved(const Simplifier& s, std::uint32_t v);
+std::vector<Ball> removedBalls(const Simplifier& s);
+// One a component; see SimplifiedLevel.
+std::vector<Growth> growths(const Simplifier& s);
+
 // A level as it was when the collapses had come to it, for what is found out about it while they go on.
 struct Snapshot {
     std::vector<std::uint32_t> wedges;   // three a face; numbers from the mesh's vertex count on are twins
     std::vector<std::uint32_t> corners;  // the same in vertices of the level's surface, numbered from 0
     std::vector<std::uint32_t> primitiveIndexCounts;
     std::vector<glm::dvec3> points;      // of the level's surface
-    std::vector<std::uint32_t> nearest;  // for each vertex of the mesh's surface, the level's that it collapsed onto
+    std::vector<std::uint32_t> nearest;  // for each vertex of the mesh's surface, the level's that it collapsed onto,
+                                         // or EdgeSide::none
     std::vector<std::uint32_t> twins;
+    std::vector<Ball> removed;             // see SimplifiedLevel
+    std::vector<Growth> growths;           // the same
+    std::vector<std::uint32_t> growthsOf;  // of each of the level's vertices, into `growths`; empty without any
 };
 
-// simplify_anchors.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive.
+// simplify_anchors.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive and
+// component.
 // Reads nothing of `s` that collapses change.
 std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level);
 

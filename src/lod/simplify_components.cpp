@@ -1,0 +1,307 @@
+// Parts of a mesh that touch nothing else: stones of a heap, leaves of a tree. Each can become no smaller than a
+// tetrahedron or a triangle; from there on whole ones go, the smallest first, and their neighbours grow so that as much
+// surface is seen as before (Cook, Halstead, Planck and Ryu 2007, Stochastic Simplification of Aggregate Detail).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "lod/simplify_state.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double largestRatio = 1.2;  // of sizes that count as equal when the smallest go first
+constexpr double mostLarger = 4;      // a neighbour this many times as large stands in for nothing: it would swell
+constexpr std::uint32_t mostVisits = 4096;  // of the search for a neighbour
+constexpr double manyShare = 0.25;          // of the faces
+constexpr std::uint32_t fewestFaces = 4;    // of what collapses can't make smaller: a tetrahedron
+constexpr std::uint32_t noComponent = EdgeSide::none;
+
+std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t v) {
+    while (parents[v] != v) v = parents[v] = parents[parents[v]];
+    return v;
+}
+
+template <typename Visit>
+void forEachLiveFace(const Simplifier& s, const Visit& visit) {
+    for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face)
+        if (isAlive(s, face)) visit(face);
+}
+
+// Which vertices hang together, by faces, collapses or an equal position.
+std::vector<std::uint32_t> joinedVertices(const Simplifier& s) {
+    const auto count = static_cast<std::uint32_t>(s.points.size());
+    std::vector<std::uint32_t> parents(count);
+    std::iota(parents.begin(), parents.end(), 0u);
+    const auto join = [&](std::uint32_t a, std::uint32_t b) { parents[rootOf(parents, a)] = rootOf(parents, b); };
+    for (std::uint32_t v = 0; v < count; ++v) join(v, s.survivors[v]);
+    forEachLiveFace(s, [&](std::uint32_t face) {
+        join(s.corners.vertex[3 * face], s.corners.vertex[3 * face + 1]);
+        join(s.corners.vertex[3 * face], s.corners.vertex[3 * face + 2]);
+    });
+    // Cuts of the manifold leave several vertices at one position.
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+        const glm::dvec3& p = s.points[a];
+        const glm::dvec3& q = s.points[b];
+        return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+    };
+    std::sort(order.begin(), order.end(), before);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (s.points[order[i - 1]] == s.points[order[i]]) join(order[i - 1], order[i]);
+    for (std::uint32_t v = 0; v < count; ++v) parents[v] = rootOf(parents, v);
+    return parents;
+}
+
+double areaOf(const Vertices& vertices, const std::uint32_t* corner) {
+    const glm::dvec3 a = vertices.positions[corner[0]];
+    const double area = 0.5 * glm::length(glm::cross(glm::dvec3(vertices.positions[corner[1]]) - a,
+                                                     glm::dvec3(vertices.positions[corner[2]]) - a));
+    return std::isfinite(area) ? area : 0;
+}
+
+// Of all that the mesh had of them, whatever is left.
+void measureComponents(Simplifier& s, const Vertices& vertices, const LevelTriangles& triangles) {
+    const auto componentAt = [&](std::uint32_t v) {
+        return s.firstCorner[v] == EdgeSide::none ? noComponent : s.componentOf[s.firstVertex[v]];
+    };
+    std::vector<Bounds> boxes(s.components.size());
+    for (std::uint32_t v = 0; v < s.firstCorner.size(); ++v)
+        if (const std::uint32_t c = componentAt(v); c != noComponent)
+            boxes[c].extend(glm::dvec3(vertices.positions[v]));
+    for (std::size_t c = 0; c < boxes.size(); ++c) s.components[c].ball.centre = boxes[c].centre();
+    for (std::uint32_t v = 0; v < s.firstCorner.size(); ++v) {
+        const std::uint32_t c = componentAt(v);
+        if (c == noComponent) continue;
+        Ball& ball = s.components[c].ball;
+        ball.radius = std::max(ball.radius, glm::distance(glm::dvec3(vertices.positions[v]), ball.centre));
+    }
+    for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3)
+        if (const std::uint32_t c = componentAt(triangles.indices[i]); c != noComponent)
+            s.components[c].area += areaOf(vertices, &triangles.indices[i]);
+}
+
+// The components that are there, in a k-d tree over their centres: the middle of each range parts it.
+class CentreTree {
+public:
+    explicit CentreTree(const std::vector<Component>& components) : components_(components) {
+        for (std::uint32_t c = 0; c < components.size(); ++c)
+            if (!components[c].removed) order_.push_back(c);
+        build(0, order_.size(), 0);
+    }
+
+    // The nearest that `counts`, or none.
+    template <typename Counts>
+    [[nodiscard]] std::uint32_t nearest(const glm::dvec3& point, const Counts& counts) const {
+        Search search{point};
+        visit(0, order_.size(), 0, search, counts);
+        return search.best;
+    }
+
+private:
+    struct Search {
+        glm::dvec3 point;
+        double leastSquared = std::numeric_limits<double>::infinity();
+        std::uint32_t best = noComponent;
+        std::uint32_t visits = 0;
+    };
+
+    [[nodiscard]] const glm::dvec3& centre(std::size_t i) const { return components_[order_[i]].ball.centre; }
+
+    void build(std::size_t begin, std::size_t end, int axis) {
+        if (end - begin < 2) return;
+        const std::size_t middle = begin + (end - begin) / 2;
+        const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+        std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
+            return components_[a].ball.centre[axis] < components_[b].ball.centre[axis];
+        });
+        build(begin, middle, (axis + 1) % 3);
+        build(middle + 1, end, (axis + 1) % 3);
+    }
+
+    template <typename Counts>
+    void visit(std::size_t begin, std::size_t end, int axis, Search& search, const Counts& counts) const {
+        if (begin >= end || ++search.visits > mostVisits) return;
+        const std::size_t middle = begin + (end - begin) / 2;
+        const glm::dvec3 offset = search.point - centre(middle);
+        const double squared = glm::dot(offset, offset);
+        if (squared < search.leastSquared && counts(order_[middle])) {
+            search.leastSquared = squared;
+            search.best = order_[middle];
+        }
+        const bool below = offset[axis] < 0;
+        const int next = (axis + 1) % 3;
+        visit(below ? begin : middle + 1, below ? middle : end, next, search, counts);
+        if (offset[axis] * offset[axis] < search.leastSquared)
+            visit(below ? middle + 1 : begin, below ? end : middle, next, search, counts);
+    }
+
+    const std::vector<Component>& components_;
+    std::vector<std::uint32_t> order_;
+};
+
+// Spreads equal sizes over the mesh, whatever order they come in.
+std::uint32_t scattered(std::uint32_t c) {
+    c = (c ^ (c >> 16)) * 0x7feb352du;
+    c = (c ^ (c >> 15)) * 0x846ca68bu;
+    return c ^ (c >> 16);
+}
+
+// What may go, smallest first: all but the largest component and those that collapses can still make smaller.
+struct Removable {
+    std::uint32_t component = 0;
+    std::size_t size = 0;  // class; grows
+    std::vector<std::uint32_t> faces;
+};
+
+std::vector<Removable> removableComponents(const Simplifier& s) {
+    std::vector<Removable> all(s.components.size());
+    std::vector<std::uint8_t> movable(s.components.size(), 0);
+    forEachLiveFace(s, [&](std::uint32_t face) {
+        const std::uint32_t c = s.componentOf[s.corners.vertex[3 * face]];
+        all[c].faces.push_back(face);
+        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner)
+            if (s.candidates[s.corners.vertex[corner]].edge.is_valid()) movable[c] = 1;
+    });
+    std::uint32_t largest = 0;
+    for (std::uint32_t c = 1; c < s.components.size(); ++c)
+        if (s.components[c].ball.radius > s.components[largest].ball.radius) largest = c;
+
+    std::vector<Removable> removable;
+    for (std::uint32_t c = 0; c < all.size(); ++c) {
+        if (c == largest || movable[c] != 0 || s.components[c].removed) continue;
+        all[c].component = c;
+        removable.push_back(std::move(all[c]));
+    }
+    const auto radius = [&](const Removable& r) { return s.components[r.component].ball.radius; };
+    std::sort(removable.begin(), removable.end(),
+              [&](const Removable& a, const Removable& b) { return radius(a) < radius(b); });
+    for (auto begin = removable.begin(); begin != removable.end();) {
+        const auto end = std::find_if(begin, removable.end(),
+                                      [&](const Removable& r) { return radius(r) > largestRatio * radius(*begin); });
+        std::sort(begin, end, [](const Removable& a, const Removable& b) {
+            return scattered(a.component) < scattered(b.component);
+        });
+        const auto size = static_cast<std::size_t>(begin - removable.begin());
+        std::for_each(begin, end, [&](Removable& r) { r.size = size; });
+        begin = end;
+    }
+    return removable;
+}
+
+// The corner across the edge from its face's neighbour; invalid at a border.
+OpenMesh::VertexHandle cornerBeyond(const Simplifier& s, OpenMesh::HalfedgeHandle edge) {
+    const OpenMesh::HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
+    if (!s.mesh.face_handle(opposite).is_valid()) return OpenMesh::VertexHandle();
+    return s.mesh.to_vertex_handle(s.mesh.next_halfedge_handle(opposite));
+}
+
+// Is the face a triangle of its own, or one of a tetrahedron?
+bool isSmallest(const Simplifier& s, std::uint32_t face) {
+    const OpenMesh::HalfedgeHandle a = s.mesh.halfedge_handle(OpenMesh::FaceHandle(static_cast<int>(face)));
+    const OpenMesh::HalfedgeHandle b = s.mesh.next_halfedge_handle(a);
+    const OpenMesh::VertexHandle apex = cornerBeyond(s, a);
+    return cornerBeyond(s, b) == apex && cornerBeyond(s, s.mesh.next_halfedge_handle(b)) == apex;
+}
+
+void removeComponent(Simplifier& s, const Removable& removable) {
+    for (const std::uint32_t face : removable.faces)
+        s.mesh.set_halfedge_handle(OpenMesh::FaceHandle(static_cast<int>(face)), OpenMesh::HalfedgeHandle());
+    s.liveFaces -= removable.faces.size();
+    s.components[removable.component].removed = true;
+}
+
+}  // namespace
+
+bool manyAreSmallest(const Simplifier& s) {
+    std::size_t count = 0;
+    forEachLiveFace(s, [&](std::uint32_t face) { count += isSmallest(s, face) ? 1 : 0; });
+    return static_cast<double>(count) > manyShare * static_cast<double>(s.liveFaces);
+}
+
+void findComponents(Simplifier& s, const Vertices& vertices, const LevelTriangles& triangles) {
+    if (!s.components.empty()) return;
+    const std::vector<std::uint32_t> roots = joinedVertices(s);
+    std::vector<std::uint32_t> numbers(roots.size(), noComponent);
+    forEachLiveFace(s, [&](std::uint32_t face) {
+        std::uint32_t& number = numbers[roots[s.corners.vertex[3 * face]]];
+        if (number != noComponent) return;
+        number = static_cast<std::uint32_t>(s.components.size());
+        s.components.emplace_back().primitive = s.corners.primitive[face];
+    });
+    s.componentOf.reserve(roots.size());
+    for (const std::uint32_t root : roots) s.componentOf.push_back(numbers[root]);
+    measureComponents(s, vertices, triangles);
+}
+
+void removeComponents(Simplifier& s, std::size_t target) {
+    std::vector<Removable> rest = removableComponents(s);
+    const CentreTree tree(s.components);
+
+    // A class of sizes after the other. What has taken another's place stays until all of its class have had their
+    // turn, so that they thin out evenly.
+    for (std::size_t begin = 0; begin < rest.size() && s.liveFaces > target;) {
+        std::size_t end = begin;
+        while (end < rest.size() && rest[end].size == rest[begin].size) ++end;
+        std::vector<std::uint32_t> turn;
+        for (std::size_t i = begin; i < end; ++i) turn.push_back(static_cast<std::uint32_t>(i));
+        while (!turn.empty() && s.liveFaces > target) {
+            std::vector<std::uint8_t> stays(s.components.size(), 0);
+            std::vector<std::uint32_t> later;
+            for (const std::uint32_t i : turn) {
+                if (s.liveFaces <= target) break;
+                Component& gone = s.components[rest[i].component];
+                if (stays[rest[i].component] != 0) {
+                    later.push_back(i);
+                    continue;
+                }
+                removeComponent(s, rest[i]);
+                const std::uint32_t heir = tree.nearest(gone.ball.centre, [&](std::uint32_t c) {
+                    const Component& other = s.components[c];
+                    return !other.removed && other.primitive == gone.primitive &&
+                           other.ball.radius <= mostLarger * gone.ball.radius;
+                });
+                if (heir == noComponent) continue;
+                s.components[heir].area += gone.area;
+                s.components[heir].standsIn = true;
+                stays[heir] = 1;
+            }
+            turn = std::move(later);
+        }
+        begin = end;
+    }
+}
+
+bool isRemoved(const Simplifier& s, std::uint32_t v) {
+    return !s.componentOf.empty() && s.componentOf[v] != noComponent && s.components[s.componentOf[v]].removed;
+}
+
+std::vector<Ball> removedBalls(const Simplifier& s) {
+    std::vector<Ball> balls;
+    for (const Component& component : s.components)
+        if (component.removed) balls.push_back(component.ball);
+    return balls;
+}
+
+std::vector<Growth> growths(const Simplifier& s) {
+    std::vector<std::uint32_t> faces(s.components.size(), 0);
+    forEachLiveFace(s, [&](std::uint32_t face) { ++faces[s.componentOf[s.corners.vertex[3 * face]]]; });
+    const CentreTree tree(s.components);
+    std::vector<Growth> result(s.components.size());
+    for (std::uint32_t c = 0; c < result.size(); ++c) {
+        const Component& own = s.components[c];
+        if (own.removed || !(own.standsIn || faces[c] <= fewestFaces) || !(own.ball.radius > 0)) continue;
+        const std::uint32_t next = tree.nearest(own.ball.centre, [&](std::uint32_t other) { return other != c; });
+        if (next == noComponent) continue;
+        const double reach = glm::distance(own.ball.centre, s.components[next].ball.centre);
+        result[c] = {own.ball.centre, own.area, std::max(1.0, reach / own.ball.radius)};
+    }
+    return result;
+}
+
+}  // namespace defocus
