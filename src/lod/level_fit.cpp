@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
+#include <unordered_map>
 
 #include "lod/least_squares.h"
 #include "lod/smoothing_groups.h"
@@ -130,18 +131,19 @@ struct Grouping {
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 };
 
-// `leaders` are by the mesh's vertices. With `twinsApart`, vertices that stand apart are alone.
-Grouping grouped(const LevelMesh& level, const std::vector<std::uint32_t>& leaders, bool twinsApart) {
+// `leaders` are by the mesh's vertices. With `sidesApart`, vertices that stand apart have groups of their own.
+Grouping grouped(const LevelMesh& level, const std::vector<std::uint32_t>& leaders, bool sidesApart) {
     std::vector<std::uint32_t> numbers(leaders.size(), ungrouped);
+    std::unordered_map<std::uint32_t, std::uint32_t> numbersApart;
     Grouping groups;
     for (std::size_t v = 0; v < level.sources.size(); ++v) {
-        const bool alone = twinsApart && level.apart[v] != 0;
-        const std::uint32_t leader = alone ? level.sources[v] : leaders[level.sources[v]];
-        std::uint32_t number = alone ? ungrouped : numbers[leader];
+        const std::uint32_t leader = leaders[level.sources[v]];
+        std::uint32_t& number = sidesApart && level.apart[v] != 0
+                                    ? numbersApart.try_emplace(leader, ungrouped).first->second
+                                    : numbers[leader];
         if (number == ungrouped) {
             number = static_cast<std::uint32_t>(groups.sources.size());
             groups.sources.push_back(leader);
-            if (!alone) numbers[leader] = number;
         }
         groups.of.push_back(number);
     }

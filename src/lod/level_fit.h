@@ -26,7 +26,9 @@ struct Anchor {
 struct LevelMesh {
     std::vector<std::uint32_t> indices;
     std::vector<std::uint32_t> sources;  // for each vertex, which one of the mesh's it has its values from
-    std::vector<std::uint8_t> apart;     // 1: it shares its normal and colour with no other (a twin, see simplify.h)
+    // 1: on the other side of a thin sheet than the others at its place, it shares its normal and colour only with
+    // those that are as well.
+    std::vector<std::uint8_t> apart;
 };
 
 // Of each vertex of a LevelMesh.

@@ -277,7 +277,8 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
             std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
         Tasks tasks(workers);
         simplification =
-            simplify(vertices, positions, levels[0].triangles, {options.leastTriangles, options.mostLevels - 1}, tasks,
+            simplify(vertices, positions, source.smoothing, levels[0].triangles,
+                     {options.leastTriangles, options.mostLevels - 1}, tasks,
                      [&](std::uint32_t l, SimplifiedLevel level) { coarser[l] = fitted(source, std::move(level)); });
         tasks.wait();
         coarser.resize(simplification.levelCount);

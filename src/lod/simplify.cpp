@@ -172,19 +172,20 @@ Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
     level.nearest.reserve(s.points.size());
     for (std::uint32_t v = 0; v < s.points.size(); ++v) level.nearest.push_back(numbers[survivorOf(s, v)]);
 
-    const std::vector<std::uint32_t> wedges = creasedWedges(s);
+    Creases found = creases(s);
     level.primitiveIndexCounts.assign(primitiveCount, 0);
     level.wedges.reserve(3 * s.liveFaces);
     level.corners.reserve(3 * s.liveFaces);
     for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
         if (!isAlive(s, face)) continue;
         for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
-            level.wedges.push_back(wedges[corner]);
+            level.wedges.push_back(found.wedges[corner]);
             level.corners.push_back(numbers[s.corners.vertex[corner]]);
         }
         level.primitiveIndexCounts[s.corners.primitive[face]] += 3;
     }
     level.twins = s.twins;
+    level.behind = std::move(found.behind);
     noteComponents(s, level);
     return level;
 }
@@ -205,7 +206,8 @@ SimplifiedLevel described(const Simplifier& s, const Snapshot& snapshot) {
             const bool twin = wedge >= vertexCount;
             level.numbers.push_back(wedge);
             level.mesh.sources.push_back(twin ? snapshot.twins[wedge - vertexCount] : wedge);
-            level.mesh.apart.push_back(twin ? 1 : 0);
+            const bool behind = std::binary_search(snapshot.behind.begin(), snapshot.behind.end(), wedge);
+            level.mesh.apart.push_back(twin || behind ? 1 : 0);
             if (!snapshot.growthsOf.empty()) level.growthsOf.push_back(snapshot.growthsOf[snapshot.corners[i]]);
         }
         level.mesh.indices.push_back(local[wedge]);
@@ -250,13 +252,14 @@ std::size_t collapseFloor(const Simplifier& s) {
 
 }  // namespace
 
-Simplification simplify(const Vertices& vertices, const Welded& positions, const LevelTriangles& triangles,
-                        const SimplifyOptions& options, Tasks& tasks,
+Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
+                        const LevelTriangles& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take) {
     Simplification result;
     const auto s = std::make_shared<Simplifier>(prepareSimplifier(vertices, positions, triangles));
     result.repairedFaces = s->repairedFaces;
     rememberCorners(*s, vertices.count());
+    s->smoothing = smoothing;
 
     // Collapse, and take a picture whenever half of the triangles are gone.
     s->candidates.resize(s->points.size());

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/parallel.h"
@@ -64,9 +65,9 @@ struct Simplification {
 
 // Each level halves the triangles; the levels end where less than a quarter can be saved. Each is given to
 // take(l, level) once, l = 0 … levelCount − 1, by whichever thread of `tasks` has made its anchors; all are when
-// tasks.wait() has returned, which the caller does.
-Simplification simplify(const Vertices& vertices, const Welded& positions, const LevelTriangles& triangles,
-                        const SimplifyOptions& options, Tasks& tasks,
+// tasks.wait() has returned, which the caller does. `smoothing` (see FitSource) and `vertices` are read until then.
+Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
+                        const LevelTriangles& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);
 
 }  // namespace defocus

@@ -1,5 +1,6 @@
 // Where the two sides of a thin sheet meet after their rim has collapsed, one normal cannot serve both: it would point
-// sideways and darken either side. Such a wedge is split, as Hoppe 1998 allows at any corner.
+// sideways and darken either side. Such a wedge is split, as Hoppe 1998 allows at any corner. At a seam of the texture
+// each side may have a wedge of its own already; as they shared a normal before, they are looked at together.
 
 #include <algorithm>
 #include <cmath>
@@ -73,33 +74,47 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
 
 }  // namespace
 
-std::vector<std::uint32_t> creasedWedges(Simplifier& s) {
-    std::vector<std::uint32_t> wedges = s.corners.wedge;
+Creases creases(Simplifier& s) {
+    Creases result;
+    result.wedges = s.corners.wedge;
+    std::vector<std::uint32_t>& wedges = result.wedges;
 
-    // The live corners of each wedge, one wedge after the other.
+    // The live corners of each group of wedges that share a normal, one group after the other.
     std::vector<std::uint32_t> first(s.firstCorner.size() + 1, 0);
     const auto forEachCorner = [&](const auto& visit) {
         for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face)
             if (isAlive(s, face))
                 for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) visit(corner);
     };
-    forEachCorner([&](std::uint32_t corner) { ++first[wedges[corner] + 1]; });
-    for (std::size_t w = 1; w < first.size(); ++w) first[w] += first[w - 1];
+    forEachCorner([&](std::uint32_t corner) { ++first[s.smoothing[wedges[corner]] + 1]; });
+    for (std::size_t g = 1; g < first.size(); ++g) first[g] += first[g - 1];
     std::vector<CornerNormal> corners(first.back());
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    forEachCorner([&](std::uint32_t corner) { corners[next[wedges[corner]]++] = cornerNormal(s, corner); });
+    forEachCorner(
+        [&](std::uint32_t corner) { corners[next[s.smoothing[wedges[corner]]]++] = cornerNormal(s, corner); });
 
-    for (std::uint32_t wedge = 0; wedge + 1 < first.size(); ++wedge) {
-        const std::span<CornerNormal> around(corners.data() + first[wedge], corners.data() + first[wedge + 1]);
+    std::vector<std::uint32_t> inFront;
+    for (std::uint32_t group = 0; group + 1 < first.size(); ++group) {
+        const std::span<CornerNormal> around(corners.data() + first[group], corners.data() + first[group + 1]);
         if (around.size() < 2) continue;
-        const std::size_t kept = splitSides(around, s.corners.attributes[wedge].normal);
+        const std::size_t kept = splitSides(around, s.corners.attributes[group].normal);
         if (kept == around.size() || kept == 0) continue;
-        const auto [twin, isNew] =
-            s.twinOf.try_emplace(wedge, static_cast<std::uint32_t>(s.firstCorner.size() + s.twins.size()));
-        if (isNew) s.twins.push_back(wedge);
-        for (const CornerNormal& c : around.subspan(kept)) wedges[c.corner] = twin->second;
+        inFront.clear();
+        for (const CornerNormal& c : around.first(kept)) inFront.push_back(wedges[c.corner]);
+        for (const CornerNormal& c : around.subspan(kept)) {
+            const std::uint32_t wedge = wedges[c.corner];
+            if (std::find(inFront.begin(), inFront.end(), wedge) == inFront.end()) {
+                result.behind.push_back(wedge);  // all of it: at a seam, each side has a wedge of its own
+                continue;
+            }
+            const auto [twin, isNew] =
+                s.twinOf.try_emplace(wedge, static_cast<std::uint32_t>(s.firstCorner.size() + s.twins.size()));
+            if (isNew) s.twins.push_back(wedge);
+            wedges[c.corner] = twin->second;
+        }
     }
-    return wedges;
+    std::sort(result.behind.begin(), result.behind.end());
+    return result;
 }
 
 }  // namespace defocus

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -64,6 +65,7 @@ struct Simplifier {
     std::vector<std::uint32_t> firstCorner;  // of each mesh vertex, as the mesh was; EdgeSide::none if it has no face
     std::vector<std::uint32_t> firstVertex;  // of each mesh vertex's first corner, as the mesh was
 
+    std::span<const std::uint32_t> smoothing;                 // of each mesh vertex, see FitSource
     std::vector<std::uint32_t> twins;                         // see Simplification
     std::unordered_map<std::uint32_t, std::uint32_t> twinOf;  // mesh vertex → the number of its twin
 
@@ -126,8 +128,13 @@ void addAttributeQuadric(Simplifier& s, std::uint32_t from, std::uint32_t to, co
 // link condition allows.
 void removeEdge(OpenMesh::TriConnectivity& mesh, OpenMesh::HalfedgeHandle edge);
 
-// simplify_creases.cpp: the wedges of all corners, split into two where the faces around one look opposite ways.
-std::vector<std::uint32_t> creasedWedges(Simplifier& s);
+// simplify_creases.cpp: the wedges of all corners; where the faces around those that share a normal look opposite ways,
+// those on one side lie behind the others, and a wedge that is on both sides is split.
+struct Creases {
+    std::vector<std::uint32_t> wedges;  // of each corner; numbers from the mesh's vertex count on are twins
+    std::vector<std::uint32_t> behind;  // those of whose corners all lie behind; sorted
+};
+Creases creases(Simplifier& s);
 
 // simplify_components.cpp: are many faces of components that can be no smaller?
 bool manyAreSmallest(const Simplifier& s);
@@ -150,6 +157,7 @@ struct Snapshot {
     std::vector<std::uint32_t> nearest;  // for each vertex of the mesh's surface, the level's that it collapsed onto,
                                          // or EdgeSide::none
     std::vector<std::uint32_t> twins;
+    std::vector<std::uint32_t> behind;     // see Creases
     std::vector<Ball> removed;             // see SimplifiedLevel
     std::vector<Growth> growths;           // the same
     std::vector<std::uint32_t> growthsOf;  // of each of the level's vertices, into `growths`; empty without any

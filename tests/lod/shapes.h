@@ -46,7 +46,8 @@ Mesh parametricSurface(std::uint32_t columns, std::uint32_t rows, const Place& p
     std::vector<std::uint32_t> indices;
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const auto& p = vertices.positions;
-        if (p[a] != p[b] && p[b] != p[c] && p[c] != p[a]) indices.insert(indices.end(), {a, b, c});
+        if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return;
+        for (const std::uint32_t v : {a, b, c}) indices.push_back(v);
     };
     for (std::uint32_t j = 0; j < rows; ++j)
         for (std::uint32_t i = 0; i < columns; ++i) {
