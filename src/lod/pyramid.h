@@ -35,7 +35,8 @@ struct PyramidLevel {
 
     // Object units. The distance between the level's surface and level 0's (99th percentile over the area, whichever
     // way it is larger), estimated on the safe side from 256 to 1,024 points each, and raised where needed so
-    // that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0. See surface_distance.h.
+    // that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0. See surface_distance.h. Of
+    // whole parts that the level lacks no point is farther from it, and none is larger (up to the box's diagonal).
     double error = 0;
 };
 
