@@ -87,24 +87,21 @@ PyramidLevel appendLevel(Pyramid& pyramid, const LevelTriangles& triangles, std:
     return level;
 }
 
-// The value that the 99th percentile of the distances that `sample` was drawn from does not exceed, but for the bad
-// luck of two standard deviations of the number of points beyond it.
-double upperPercentile(std::vector<double> sample) {
-    if (sample.empty()) return 0;
-    const auto count = static_cast<double>(sample.size());
-    const double deviation = std::sqrt(errorPercentile * (1 - errorPercentile) * count);
-    const auto rank = static_cast<std::ptrdiff_t>(std::min(errorPercentile * count + 2 * deviation, count - 1));
-    std::nth_element(sample.begin(), sample.begin() + rank, sample.end());
-    return sample[static_cast<std::size_t>(rank)];
+// How many of `count` distances are larger than, or as large as, the value that the 99th percentile of what they were
+// drawn from does not exceed, but for the bad luck of two standard deviations of the number of points beyond it.
+std::size_t percentileRank(std::size_t count) {
+    const auto number = static_cast<double>(count);
+    const double deviation = std::sqrt(errorPercentile * (1 - errorPercentile) * number);
+    return count - static_cast<std::size_t>(std::min(errorPercentile * number + 2 * deviation, number - 1));
 }
 
 // Of the level's surface from the mesh's, whichever way it is larger; at most the box's diagonal, where the level has
 // no area left.
 double levelError(const Surface& mesh, const Surface& level, double diagonal) {
     const std::size_t points = std::clamp(mesh.triangles.size(), leastErrorPoints, mostErrorPoints);
-    return std::min(std::max(upperPercentile(sampleDistances(mesh, level, points)),
-                             upperPercentile(sampleDistances(level, mesh, points))),
-                    diagonal);
+    const std::size_t rank = percentileRank(points);
+    const double oneWay = largeDistance(mesh, level, points, rank, 0);
+    return std::min(largeDistance(level, mesh, points, rank, oneWay), diagonal);
 }
 
 // Strictly growing, so that a level can be found for any target.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -146,8 +147,8 @@ struct Nearest {
     std::size_t triangle = 0;
 };
 
-// `guess`: a triangle that is likely near.
-Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t guess) {
+// `guess`: a triangle that is likely near. Any triangle whose squared distance is at most `enough` will do.
+Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t guess, double enough) {
     struct Entry {
         float squaredDistance;
         std::size_t node;
@@ -163,6 +164,7 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
     float most = bound();
     stack[size++] = {0, 0};
     while (size > 0) {
+        if (nearest.squaredDistance <= enough) break;
         const Entry entry = stack[--size];
         if (!(entry.squaredDistance < most)) continue;
         if (entry.node >= surface.nodes.size()) {
@@ -192,6 +194,19 @@ glm::dvec3 pointOf(const Triangle& t, double u, double v) {
     return (1 - root) * glm::dvec3(t[0]) + root * (1 - v) * glm::dvec3(t[1]) + root * v * glm::dvec3(t[2]);
 }
 
+// The points that sampleDistances speaks of.
+template <typename Visit>
+void forEachSample(const Surface& surface, std::size_t count, const Visit& visit) {
+    std::size_t triangle = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double area = (static_cast<double>(i) + 0.5) / static_cast<double>(count) * surface.areas.back();
+        while (triangle + 1 < surface.areas.size() && surface.areas[triangle] < area) ++triangle;
+        const double u = (static_cast<double>(i) + 0.5) * stepU;
+        const double v = (static_cast<double>(i) + 0.5) * stepV;
+        visit(pointOf(surface.triangles[triangle], u - std::floor(u), v - std::floor(v)));
+    }
+}
+
 Distances summary(std::vector<double> distances) {
     Distances result;
     if (distances.empty()) return result;
@@ -218,7 +233,7 @@ Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std
 }
 
 double distanceTo(const Surface& surface, const glm::dvec3& point) {
-    return surface.empty() ? infinity : std::sqrt(nearestTriangle(surface, point, 0).squaredDistance);
+    return surface.empty() ? infinity : std::sqrt(nearestTriangle(surface, point, 0, 0).squaredDistance);
 }
 
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count) {
@@ -226,19 +241,29 @@ std::vector<double> sampleDistances(const Surface& from, const Surface& to, std:
     if (to.empty()) return std::vector<double>(count, infinity);
     std::vector<double> distances;
     distances.reserve(count);
-    std::size_t triangle = 0;
     std::size_t nearest = 0;  // of the point before, which lies close by
-    for (std::size_t i = 0; i < count; ++i) {
-        const double area = (static_cast<double>(i) + 0.5) / static_cast<double>(count) * from.areas.back();
-        while (triangle + 1 < from.areas.size() && from.areas[triangle] < area) ++triangle;
-        const double u = (static_cast<double>(i) + 0.5) * stepU;
-        const double v = (static_cast<double>(i) + 0.5) * stepV;
-        const glm::dvec3 point = pointOf(from.triangles[triangle], u - std::floor(u), v - std::floor(v));
-        const Nearest found = nearestTriangle(to, point, nearest);
+    forEachSample(from, count, [&](const glm::dvec3& point) {
+        const Nearest found = nearestTriangle(to, point, nearest, 0);
         nearest = found.triangle;
         distances.push_back(std::sqrt(found.squaredDistance));
-    }
+    });
     return distances;
+}
+
+double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double least) {
+    if (from.empty() || rank == 0 || count < rank) return least;
+    if (to.empty()) return infinity;
+    std::vector<double> largest(rank, least * least);  // squared, a heap with the least of them first
+    std::size_t nearest = 0;                           // of the point before, which lies close by
+    forEachSample(from, count, [&](const glm::dvec3& point) {
+        const Nearest found = nearestTriangle(to, point, nearest, largest.front());
+        nearest = found.triangle;
+        if (!(found.squaredDistance > largest.front())) return;
+        std::pop_heap(largest.begin(), largest.end(), std::greater());
+        largest.back() = found.squaredDistance;
+        std::push_heap(largest.begin(), largest.end(), std::greater());
+    });
+    return std::max(least, std::sqrt(largest.front()));
 }
 
 SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count) {
