@@ -96,7 +96,7 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level, std::span
         const glm::vec3& normal = vertices.normals[v];
         const glm::vec3& face = normals[anchor.triangle];
         // How much of its triangle the vertex stands for, seen straight on.
-        float share = source.areas[v];
+        float share = anchor.count * source.areas[v];
         if (!atCorner && face != glm::vec3(0)) share *= std::clamp(glm::dot(face, normal), leastForeshortening, 1.0f);
 
         // Displacements are fitted rather than positions: they are small, so that single precision does far from the

@@ -20,6 +20,7 @@ namespace defocus {
 struct Anchor {
     std::uint32_t triangle = 0;
     float weight[3] = {0, 0, 0};
+    float count = 1;  // of vertices that it stands for
 };
 
 // A level's triangles with vertices numbered from 0.

@@ -21,14 +21,21 @@ using OpenMesh::VertexHandle;
 constexpr float poorPenalty = 10;
 // Up to this many faces every collapse is known at its cost at any time; coarse levels are what one sees best.
 constexpr std::size_t mostFacesToFollow = 8192;
+// Down to this many faces collapses are made in sweeps.
+constexpr std::size_t leastFacesToSweep = 16'384;
+constexpr std::size_t sweepsPerLevel = 8;  // each allows for one in so many of the collapses that are still wanted …
+constexpr std::size_t leastSweepShare = 128;  // … or of the faces, if that is more
+constexpr std::size_t costSample = 8192;      // vertices whose costs tell those of all
 // A further level must save a quarter of the triangles …
 constexpr double largestShare = 0.75;
 // … but leave this share of those that can still go: where many components are as small as they get, halving all would
 // be at the cost of the few large ones.
 constexpr double leastShareOfMovable = 0.25;
 
+// What the vertex waits for, in the queue once there is one.
 void enqueue(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
     s.candidates[v] = candidate;
+    if (!s.queued) return;
     if (candidate.edge.is_valid())
         s.queue.put(v, candidate.cost, candidate.fit == Fit::bad);
     else
@@ -47,7 +54,8 @@ void enqueueBest(Simplifier& s, std::uint32_t v) {
     forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) {
         const Fit fit = judgeCollapse(s, edge);
         if (fit == Fit::impossible || (fit == Fit::bad && best.fit < Fit::bad)) return;
-        const float cost = collapseCost(s, edge) * (fit == Fit::poor ? poorPenalty : 1);
+        const float cost =
+            collapseCost(s, edge, std::numeric_limits<float>::infinity()) * (fit == Fit::poor ? poorPenalty : 1);
         if (!(cost < best.cost) && (fit == Fit::bad || best.fit < Fit::bad)) return;
         best = {edge, index(s.mesh.to_vertex_handle(edge)), cost, fit};
     });
@@ -55,9 +63,18 @@ void enqueueBest(Simplifier& s, std::uint32_t v) {
 }
 
 void fillQueue(Simplifier& s) {
+    s.queued = true;
     s.queue.reset(s.points.size());
     for (std::uint32_t v = 0; v < s.points.size(); ++v)
         if (s.survivors[v] == v && !isRemoved(s, v)) enqueueCheapest(s, v);
+}
+
+// From here on vertices wait in the queue for what they have waited for before.
+void startQueue(Simplifier& s) {
+    s.queued = true;
+    s.queue.reset(s.points.size());
+    for (std::uint32_t v = 0; v < s.points.size(); ++v)
+        if (s.survivors[v] == v && !isRemoved(s, v)) enqueue(s, v, Candidate(s.candidates[v]));
 }
 
 // The survivor, and its neighbours that would have collapsed onto it or onto what is gone, or not at all, look for
@@ -81,7 +98,7 @@ void requeueAround(Simplifier& s, VertexHandle survivor, std::uint32_t gone) {
         if (!known) return outdate(v);
         if (!atOnce || candidate.outdated) return;
         const HalfedgeHandle back = s.mesh.opposite_halfedge_handle(edge);
-        if (const float cost = collapseCost(s, back); cost < candidate.cost)
+        if (const float cost = collapseCost(s, back, candidate.cost); cost < candidate.cost)
             enqueue(s, v, {back, index(survivor), cost});
     });
 }
@@ -106,6 +123,7 @@ void collapse(Simplifier& s, HalfedgeHandle edge) {
     }
     s.quadrics[to].add(s.quadrics[from], step);
     s.survivors[from] = to;
+    s.candidates[from] = Candidate();
     removeEdge(s.mesh, edge);
     requeueAround(s, survivor, from);
 }
@@ -144,6 +162,60 @@ void collapseTo(Simplifier& s, std::size_t target) {
         collapse(s, candidate.edge);
         collapsed = true;
     }
+}
+
+// The cost that `rank` of the collapses that are not bad are cheaper than, about.
+float costAtRank(const Simplifier& s, std::size_t rank) {
+    std::vector<float> costs;
+    const std::size_t stride = 1 + s.points.size() / costSample;
+    for (std::size_t v = 0; v < s.points.size(); v += stride)
+        if (const Candidate& c = s.candidates[v]; c.edge.is_valid() && c.fit < Fit::bad)
+            costs.push_back(c.cost);
+    if (costs.size() <= rank / stride) return std::numeric_limits<float>::infinity();
+    const auto place = costs.begin() + static_cast<std::ptrdiff_t>(rank / stride);
+    std::nth_element(costs.begin(), place, costs.end());
+    return *place;
+}
+
+// Makes the collapses that cost at most `most` and aren't bad, in the order of vertices, until `target` faces are left.
+// Says whether there were any.
+bool sweep(Simplifier& s, const std::vector<std::uint32_t>& vertices, std::size_t target, float most) {
+    bool collapsed = false;
+    for (const std::uint32_t v : vertices) {
+        if (s.liveFaces <= target) break;
+        const auto ready = [&] {
+            const Candidate& c = s.candidates[v];
+            return c.cost <= most && c.fit < Fit::bad && c.edge.is_valid();
+        };
+        if (!ready()) continue;
+        if (s.candidates[v].outdated) enqueueCheapest(s, v);
+        while (ready()) {
+            const Candidate candidate = s.candidates[v];
+            if (judgeCollapse(s, candidate.edge) > candidate.fit) {
+                enqueueBest(s, v);
+                continue;
+            }
+            collapse(s, candidate.edge);
+            collapsed = true;
+            break;
+        }
+    }
+    return collapsed;
+}
+
+// The same as collapseTo, but for the order: while faces are many, vertices take turns as they lie in memory, sweep
+// after sweep with a higher cost allowed. False if that leads no further.
+bool sweepTo(Simplifier& s, std::size_t target) {
+    std::vector<std::uint32_t> vertices;
+    vertices.reserve(s.liveFaces / 2 + 2);  // of a closed surface
+    for (std::uint32_t v = 0; v < s.points.size(); ++v)
+        if (s.survivors[v] == v && !isRemoved(s, v)) vertices.push_back(v);
+    while (s.liveFaces > target) {
+        const std::size_t wanted = (s.liveFaces - target) / 2;
+        const float most = costAtRank(s, std::max(wanted / sweepsPerLevel, s.liveFaces / leastSweepShare));
+        if (!sweep(s, vertices, target, most) && !(most < std::numeric_limits<float>::infinity())) return false;
+    }
+    return true;
 }
 
 std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
@@ -263,13 +335,17 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, std::
 
     // Collapse, and take a picture whenever half of the triangles are gone.
     s->candidates.resize(s->points.size());
-    fillQueue(*s);
+    for (std::uint32_t v = 0; v < s->points.size(); ++v) enqueueCheapest(*s, v);
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
         const std::size_t target = nextTarget(*s, options.leastTriangles);
         const std::size_t floor = std::max(target, collapseFloor(*s));
         const auto enough = static_cast<std::size_t>(largestShare * static_cast<double>(s->liveFaces));
         if (target > enough || s->liveFaces == 0) break;
-        if (floor <= enough) collapseTo(*s, floor);
+        if (floor <= enough) {
+            if (floor >= leastFacesToSweep) sweepTo(*s, floor);
+            if (s->liveFaces > floor && !s->queued) startQueue(*s);
+            collapseTo(*s, floor);
+        }
         if (s->liveFaces > enough || manyAreSmallest(*s)) findComponents(*s, vertices, triangles);
         if (s->liveFaces > enough) removeComponents(*s, target);
         if (s->liveFaces > enough) break;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -18,6 +19,8 @@ constexpr std::size_t mostSteps = 12;  // vertices whose faces are looked at, on
 constexpr double noDistance = 1e-24;   // squared, where the mesh is about 1 wide: rounding
 constexpr double leastUpright = 0.99;  // squared cosine of the angle between a face's normal and the way straight up
 constexpr std::uint32_t noFace = 0xffffffffu;
+// Of the vertices that have collapsed onto one, at least so many are looked for: each second, fourth … of more.
+constexpr std::uint32_t enoughAnchors = 32;
 
 // The level's faces, and which lie around each vertex.
 struct FaceRings {
@@ -116,6 +119,16 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t sta
     return result;
 }
 
+// For each vertex of the level, of how many mesh vertices that have collapsed onto it one is enough.
+std::vector<std::uint32_t> anchorStrides(const Simplifier& s, const Snapshot& level) {
+    std::vector<std::uint32_t> strides(level.points.size(), 0);
+    for (std::size_t wedge = 0; wedge < s.firstCorner.size(); ++wedge)
+        if (s.firstCorner[wedge] != EdgeSide::none && level.nearest[s.firstVertex[wedge]] != EdgeSide::none)
+            ++strides[level.nearest[s.firstVertex[wedge]]];
+    for (std::uint32_t& stride : strides) stride = std::bit_floor(std::max(1u, stride / enoughAnchors));
+    return strides;
+}
+
 }  // namespace
 
 std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level) {
@@ -127,13 +140,17 @@ std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level) {
     for (const std::uint32_t count : level.primitiveIndexCounts) firstFaces.push_back(firstFaces.back() + count / 3);
 
     std::vector<Anchor> result(s.firstCorner.size());
+    const std::vector<std::uint32_t> strides = anchorStrides(s, level);
+    std::vector<std::uint32_t> waiting(strides.size(), 0);
     for (std::uint32_t wedge = 0; wedge < result.size(); ++wedge) {
         if (s.firstCorner[wedge] == EdgeSide::none) continue;
         Anchor& anchor = result[wedge];
         const std::uint32_t v = s.firstVertex[wedge];
-        if (level.nearest[v] == EdgeSide::none) continue;
+        const std::uint32_t survivor = level.nearest[v];
+        if (survivor == EdgeSide::none || waiting[survivor]++ % strides[survivor] != 0) continue;
+        anchor.count = static_cast<float>(strides[survivor]);
         const glm::dvec3 side = s.corners.attributes[wedge].normal;
-        const Closest closest = closestTo(rings, s.points[v], level.nearest[v], side);
+        const Closest closest = closestTo(rings, s.points[v], survivor, side);
         if (closest.face == noFace) {
             const std::uint32_t corner = cornerOf[wedge];
             if (closest.squaredDistance != 0 || corner == noFace) continue;

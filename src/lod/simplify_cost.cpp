@@ -35,27 +35,11 @@ glm::vec3 stepBetween(const Simplifier& s, std::uint32_t from, std::uint32_t to)
     return glm::vec3(s.points[to] - s.points[from]);
 }
 
-Spoke spokeAlong(const Simplifier& s, HalfedgeHandle edge, std::uint32_t v) {
-    Spoke spoke;
-    spoke.edge = edge;
-    spoke.to = index(s.mesh.to_vertex_handle(edge));
-    prefetch(&s.points[spoke.to]);
-    prefetch(&s.quadrics[spoke.to]);
-    const FaceHandle face = s.mesh.face_handle(edge);
-    if (!face.is_valid()) return spoke;
-    spoke.face = index(face);
-    for (std::uint32_t corner = 3 * spoke.face; corner < 3 * spoke.face + 3; ++corner) {
-        const std::uint32_t at = s.corners.vertex[corner];
-        (at == v ? spoke.wedge : at == spoke.to ? spoke.toWedge : spoke.farWedge) = s.corners.wedge[corner];
-    }
-    prefetch(&s.wedges[spoke.toWedge]);
-    return spoke;
-}
-
 }  // namespace
 
-// Quadric errors of both vertices at the survivor, of place and of attributes, plus what edge length weighs.
-float collapseCost(const Simplifier& s, HalfedgeHandle edge) {
+// Quadric errors of both vertices at the survivor, of place and of attributes, plus what edge length weighs. None of
+// them is negative.
+float collapseCost(const Simplifier& s, HalfedgeHandle edge, float most) {
     const HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
     const std::uint32_t from = index(s.mesh.to_vertex_handle(opposite));
     const std::uint32_t to = index(s.mesh.to_vertex_handle(edge));
@@ -64,6 +48,7 @@ float collapseCost(const Simplifier& s, HalfedgeHandle edge) {
     std::uint32_t lastFrom = EdgeSide::none;
     std::uint32_t lastTo = EdgeSide::none;
     for (const HalfedgeHandle side : {edge, opposite}) {
+        if (!(cost < most)) return cost;
         const FaceHandle face = s.mesh.face_handle(side);
         if (!face.is_valid()) continue;
         const std::uint32_t wedgeFrom = s.corners.wedge[s.corners.at(index(face), from)];
@@ -78,21 +63,19 @@ float collapseCost(const Simplifier& s, HalfedgeHandle edge) {
 
 Candidate cheapestCollapse(Simplifier& s, std::uint32_t v) {
     s.spokes.clear();
-    forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) { s.spokes.push_back(spokeAlong(s, edge, v)); });
+    forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) {
+        const std::uint32_t to = index(s.mesh.to_vertex_handle(edge));
+        prefetch(&s.points[to]);
+        prefetch(&s.quadrics[to]);
+        s.spokes.push_back(edge);
+    });
     Candidate best;
-    for (std::size_t i = 0; i < s.spokes.size(); ++i) {
-        const Spoke& spoke = s.spokes[i];
-        const Spoke& other = s.spokes[i + 1 < s.spokes.size() ? i + 1 : 0];  // along the edge's other side
-        const glm::vec3 step = stepBetween(s, v, spoke.to);
-        float cost = placeCost(s, v, spoke.to, step);
-        if (spoke.face != EdgeSide::none) cost += wedgeCost(s, spoke.wedge, spoke.toWedge, step);
-        if (other.face != EdgeSide::none && (other.wedge != spoke.wedge || other.farWedge != spoke.toWedge))
-            cost += wedgeCost(s, other.wedge, other.farWedge, step);
-        if (cost < best.cost) {
-            best.edge = spoke.edge;
-            best.to = spoke.to;
-            best.cost = cost;
-        }
+    for (const HalfedgeHandle edge : s.spokes) {
+        const float cost = collapseCost(s, edge, best.cost);
+        if (!(cost < best.cost)) continue;
+        best.edge = edge;
+        best.to = index(s.mesh.to_vertex_handle(edge));
+        best.cost = cost;
     }
     return best;
 }

@@ -20,21 +20,30 @@ constexpr int rounds = 3;  // of two means
 
 struct CornerNormal {
     std::uint32_t corner;
-    glm::dvec3 normal;  // of the face, as long as the corner's angle
+    glm::dvec3 normal;  // of the face, as long as twice its area; then as long as the corner's angle
 };
 
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-CornerNormal cornerNormal(const Simplifier& s, std::uint32_t corner) {
-    const std::uint32_t first = corner / 3 * 3;
-    const glm::dvec3& p = s.points[s.corners.vertex[corner]];
-    const glm::dvec3 a = s.points[s.corners.vertex[first + (corner + 1 - first) % 3]] - p;
-    const glm::dvec3 b = s.points[s.corners.vertex[first + (corner + 2 - first) % 3]] - p;
-    const glm::dvec3 normal = glm::cross(a, b);
-    const double length = glm::length(normal);
-    return {corner, length > 0 ? normal * (angleBetween(a, b) / length) : glm::dvec3(0)};
+// Where all faces look within 60° of the first, their resultant is long enough whatever the angles are.
+bool surelyAgree(std::span<const CornerNormal> corners) {
+    const glm::dvec3& first = corners[0].normal;
+    const double limit = leastAgreement * leastAgreement * glm::dot(first, first);
+    return std::all_of(corners.begin(), corners.end(), [&](const CornerNormal& c) {
+        const double along = glm::dot(first, c.normal);
+        return along > 0 && along * along > limit * glm::dot(c.normal, c.normal);
+    });
+}
+
+void weighByAngle(const Simplifier& s, CornerNormal& c) {
+    const std::uint32_t first = c.corner / 3 * 3;
+    const glm::dvec3& p = s.points[s.corners.vertex[c.corner]];
+    const glm::dvec3 a = s.points[s.corners.vertex[first + (c.corner + 1 - first) % 3]] - p;
+    const glm::dvec3 b = s.points[s.corners.vertex[first + (c.corner + 2 - first) % 3]] - p;
+    const double length = glm::length(c.normal);
+    c.normal *= length > 0 ? angleBetween(a, b) / length : 0;
 }
 
 // Moves the corners of one of the two sides behind the returned place; all stay before it where one side is enough.
@@ -90,13 +99,20 @@ Creases creases(Simplifier& s) {
     for (std::size_t g = 1; g < first.size(); ++g) first[g] += first[g - 1];
     std::vector<CornerNormal> corners(first.back());
     std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    forEachCorner(
-        [&](std::uint32_t corner) { corners[next[s.smoothing[wedges[corner]]]++] = cornerNormal(s, corner); });
+    for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
+        if (!isAlive(s, face)) continue;
+        const glm::dvec3& p = s.points[s.corners.vertex[3 * face]];
+        const glm::dvec3 normal =
+            glm::cross(s.points[s.corners.vertex[3 * face + 1]] - p, s.points[s.corners.vertex[3 * face + 2]] - p);
+        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner)
+            corners[next[s.smoothing[wedges[corner]]]++] = {corner, normal};
+    }
 
     std::vector<std::uint32_t> inFront;
     for (std::uint32_t group = 0; group + 1 < first.size(); ++group) {
         const std::span<CornerNormal> around(corners.data() + first[group], corners.data() + first[group + 1]);
-        if (around.size() < 2) continue;
+        if (around.size() < 2 || surelyAgree(around)) continue;
+        for (CornerNormal& c : around) weighByAngle(s, c);
         const std::size_t kept = splitSides(around, s.corners.attributes[group].normal);
         if (kept == around.size() || kept == 0) continue;
         inFront.clear();

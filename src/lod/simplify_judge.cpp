@@ -40,14 +40,19 @@ Fit judgeMovedFace(const Simplifier& s, std::uint32_t face, std::uint32_t from, 
     const glm::dvec3& a = s.points[from];
     const glm::dvec3 before = glm::cross(b - a, c - a);
     const glm::dvec3 after = glm::cross(b - target, c - target);
-    const double lengthBefore = glm::length(before);
-    const double lengthAfter = glm::length(after);
-    if (glm::dot(before, after) < leastTurnCosine * lengthBefore * lengthAfter || !(lengthAfter > 0)) return Fit::bad;
+    const double squareBefore = glm::dot(before, before);
+    const double squareAfter = glm::dot(after, after);
+    const double along = glm::dot(before, after);
+    if (!(squareAfter > 0) || along < 0) return Fit::bad;
+    if (along * along < leastTurnCosine * leastTurnCosine * squareBefore * squareAfter) return Fit::bad;
     const auto edges = [&](const glm::dvec3& p) {
         return glm::dot(b - p, b - p) + glm::dot(c - p, c - p) + glm::dot(c - b, c - b);
     };
-    const double quality = lengthAfter / edges(target);
-    return quality < sliverQuality && quality * edges(a) < lengthBefore ? Fit::poor : Fit::good;
+    // Quality is an area over squared edges; all sides squared, as roots are dear.
+    const double edgesAfter = edges(target);
+    if (!(squareAfter < sliverQuality * sliverQuality * edgesAfter * edgesAfter)) return Fit::good;
+    const double edgesBefore = edges(a);
+    return squareAfter * edgesBefore * edgesBefore < squareBefore * edgesAfter * edgesAfter ? Fit::poor : Fit::good;
 }
 
 bool isOnBorder(const Simplifier& s, VertexHandle v) {

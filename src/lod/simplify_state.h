@@ -26,16 +26,6 @@ struct Candidate {
     bool outdated = false;  // no longer its best, or not at this cost
 };
 
-// An edge out of a vertex, and the face that it runs along.
-struct Spoke {
-    OpenMesh::HalfedgeHandle edge;
-    std::uint32_t to = 0;
-    std::uint32_t face = EdgeSide::none;
-    std::uint32_t wedge = EdgeSide::none;     // of the vertex on the face
-    std::uint32_t toWedge = EdgeSide::none;   // of `to` on the face
-    std::uint32_t farWedge = EdgeSide::none;  // of the face's third vertex
-};
-
 struct WedgeQuadric {
     AttributeRow row;  // attributes as lengths that weigh as much as distances do
     AttributeQuadric quadric;
@@ -60,6 +50,7 @@ struct Simplifier {
     std::vector<std::uint32_t> survivors;  // for each vertex the one it collapsed onto, itself while it lives
     std::vector<Candidate> candidates;
     CollapseQueue queue;
+    bool queued = false;  // vertices wait in it
     std::size_t liveFaces = 0;
     std::uint32_t repairedFaces = 0;
     std::vector<std::uint32_t> firstCorner;  // of each mesh vertex, as the mesh was; EdgeSide::none if it has no face
@@ -72,7 +63,7 @@ struct Simplifier {
     std::vector<Component> components;       // once many are as small as they get
     std::vector<std::uint32_t> componentOf;  // for each vertex; EdgeSide::none if none of its faces were left
 
-    std::vector<Spoke> spokes;                      // scratch of cheapestCollapse
+    std::vector<OpenMesh::HalfedgeHandle> spokes;   // scratch of cheapestCollapse
     std::vector<std::uint32_t> facesFrom, facesTo;  // scratch of judgeCollapse
     std::vector<std::uint32_t> marks;               // the same, one a vertex: the markNumber that it has been seen with
     std::uint32_t markNumber = 0;
@@ -117,9 +108,9 @@ Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions, 
 // simplify_judge.cpp: how good a collapse along `edge` is, which sets Simplifier::retargets.
 Fit judgeCollapse(Simplifier& s, OpenMesh::HalfedgeHandle edge);
 
-// simplify_cost.cpp: what a good collapse along `edge` costs, and the cheapest of those from `v` (an invalid edge if
-// there is none).
-float collapseCost(const Simplifier& s, OpenMesh::HalfedgeHandle edge);
+// simplify_cost.cpp: what a good collapse along `edge` costs, or at least (where that is `most` or more), and the
+// cheapest of those from `v` (an invalid edge if there is none).
+float collapseCost(const Simplifier& s, OpenMesh::HalfedgeHandle edge, float most);
 Candidate cheapestCollapse(Simplifier& s, std::uint32_t v);
 // Adds the quadric of wedge `from` to that of `to`, `step` away.
 void addAttributeQuadric(Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step);
