@@ -14,12 +14,13 @@
 namespace defocus {
 
 // Σ share·weightᵢ·weightⱼ over the points of one triangle, for (i, j) = 00, 11, 22, 01, 12, 20.
-using TriangleSums = std::array<double, 6>;
+using TriangleSums = std::array<float, 6>;
 
-template <std::size_t channels>
 struct LeastSquares {
-    using Row = std::array<float, channels>;
+    // Up to four values at each corner, with which GCC and Clang compute at once; those not needed are 0.
+    using Row = float __attribute__((vector_size(16)));
     using Rows = std::vector<Row>;
+    static constexpr std::size_t channels = 4;
 
     std::span<const TriangleSums> triangles;
     std::vector<std::uint32_t> corners;  // the unknown at each corner, three a triangle
@@ -36,12 +37,11 @@ struct LeastSquares {
         diagonal_.resize(weights.size());
         for (std::size_t g = 0; g < weights.size(); ++g) diagonal_[g] = pull * weights[g];
         for (std::size_t t = 0; t < triangles.size(); ++t)
-            for (std::size_t k = 0; k < 3; ++k) diagonal_[corners[3 * t + k]] += static_cast<float>(triangles[t][k]);
+            for (std::size_t k = 0; k < 3; ++k) diagonal_[corners[3 * t + k]] += triangles[t][k];
         residual_.resize(weights.size());
         apply(solution, residual_);
         for (std::size_t g = 0; g < weights.size(); ++g)
-            for (std::size_t c = 0; c < channels; ++c)
-                residual_[g][c] = sums[g][c] + pull * weights[g] * solution[g][c] - residual_[g][c];
+            residual_[g] = sums[g] + pull * weights[g] * solution[g] - residual_[g];
 
         Rows next = preconditioned();
         Rows direction = next;
@@ -52,16 +52,15 @@ struct LeastSquares {
             const Row curvature = dot(direction, image);
             Row step{};
             for (std::size_t c = 0; c < channels; ++c) step[c] = curvature[c] > 0 ? energy[c] / curvature[c] : 0;
-            for (std::size_t g = 0; g < weights.size(); ++g)
-                for (std::size_t c = 0; c < channels; ++c) {
-                    solution[g][c] += step[c] * direction[g][c];
-                    residual_[g][c] -= step[c] * image[g][c];
-                }
+            for (std::size_t g = 0; g < weights.size(); ++g) {
+                solution[g] += step * direction[g];
+                residual_[g] -= step * image[g];
+            }
             next = preconditioned();
             const Row nextEnergy = dot(residual_, next);
-            for (std::size_t g = 0; g < weights.size(); ++g)
-                for (std::size_t c = 0; c < channels; ++c)
-                    direction[g][c] = next[g][c] + (energy[c] > 0 ? nextEnergy[c] / energy[c] : 0) * direction[g][c];
+            Row turn{};
+            for (std::size_t c = 0; c < channels; ++c) turn[c] = energy[c] > 0 ? nextEnergy[c] / energy[c] : 0;
+            for (std::size_t g = 0; g < weights.size(); ++g) direction[g] = next[g] + turn * direction[g];
             energy = nextEnergy;
         }
     }
@@ -69,28 +68,23 @@ struct LeastSquares {
 private:
     // The normal equations' matrix times `x`.
     void apply(const Rows& x, Rows& result) const {
-        for (std::size_t g = 0; g < x.size(); ++g)
-            for (std::size_t c = 0; c < channels; ++c) result[g][c] = pull * weights[g] * x[g][c];
+        for (std::size_t g = 0; g < x.size(); ++g) result[g] = pull * weights[g] * x[g];
         for (std::size_t t = 0; t < triangles.size(); ++t) {
-            std::array<float, 6> m;
-            std::copy(triangles[t].begin(), triangles[t].end(), m.begin());
+            const TriangleSums& m = triangles[t];
             const std::uint32_t* g = &corners[3 * t];
             const Row a = x[g[0]];
             const Row b = x[g[1]];
             const Row d = x[g[2]];
-            for (std::size_t c = 0; c < channels; ++c) {
-                result[g[0]][c] += m[0] * a[c] + m[3] * b[c] + m[5] * d[c];
-                result[g[1]][c] += m[3] * a[c] + m[1] * b[c] + m[4] * d[c];
-                result[g[2]][c] += m[5] * a[c] + m[4] * b[c] + m[2] * d[c];
-            }
+            result[g[0]] += m[0] * a + m[3] * b + m[5] * d;
+            result[g[1]] += m[3] * a + m[1] * b + m[4] * d;
+            result[g[2]] += m[5] * a + m[4] * b + m[2] * d;
         }
     }
 
     Rows preconditioned() const {
         Rows result(residual_.size());
         for (std::size_t g = 0; g < result.size(); ++g)
-            for (std::size_t c = 0; c < channels; ++c)
-                result[g][c] = diagonal_[g] > 0 ? residual_[g][c] / diagonal_[g] : 0;
+            result[g] = diagonal_[g] > 0 ? residual_[g] * (1 / diagonal_[g]) : Row{};
         return result;
     }
 
@@ -98,8 +92,8 @@ private:
         std::array<double, channels> sums{};
         for (std::size_t g = 0; g < a.size(); ++g)
             for (std::size_t c = 0; c < channels; ++c) sums[c] += double{a[g][c]} * double{b[g][c]};
-        Row result;
-        std::copy(sums.begin(), sums.end(), result.begin());
+        Row result{};
+        for (std::size_t c = 0; c < channels; ++c) result[c] = static_cast<float>(sums[c]);
         return result;
     }
 

@@ -108,8 +108,8 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level, std::span
         for (std::size_t k = 0; k < 3; ++k) {
             const double weight = double{share} * double{w[k]};
             if (weight == 0) continue;
-            triangle[k] += weight * double{w[k]};
-            triangle[3 + k] += weight * double{w[(k + 1) % 3]};
+            triangle[k] += share * w[k] * w[k];
+            triangle[3 + k] += share * w[k] * w[(k + 1) % 3];
             VertexSums& own = sums.vertices[corner[k]];
             own.weight += weight;
             for (std::size_t c = 0; c < 3; ++c) {
@@ -152,9 +152,8 @@ Grouping grouped(const LevelMesh& level, const std::vector<std::uint32_t>& leade
 
 // The equations with every unknown's sums; solutions start at zero. `value` picks a VertexSums' values.
 template <std::size_t channels, typename Value>
-LeastSquares<channels> equations(const LevelMesh& level, const AnchorSums& sums, const Grouping& groups,
-                                 const Value& value) {
-    LeastSquares<channels> result;
+LeastSquares equations(const LevelMesh& level, const AnchorSums& sums, const Grouping& groups, const Value& value) {
+    LeastSquares result;
     result.triangles = sums.triangles;
     result.corners.reserve(level.indices.size());
     for (const std::uint32_t v : level.indices) result.corners.push_back(groups.of[v]);
@@ -168,14 +167,14 @@ LeastSquares<channels> equations(const LevelMesh& level, const AnchorSums& sums,
     result.weights.assign(weights.begin(), weights.end());
     result.sums.resize(groups.count());
     for (std::size_t g = 0; g < groups.count(); ++g)
-        std::copy(targets[g].begin(), targets[g].end(), result.sums[g].begin());
-    result.solution.assign(groups.count(), {});
+        for (std::size_t c = 0; c < channels; ++c) result.sums[g][c] = static_cast<float>(targets[g][c]);
+    result.solution.assign(groups.count(), LeastSquares::Row{});
     return result;
 }
 
 // Starts from the mean of what each unknown stands for; from `own(group)` where it stands for nothing.
 template <std::size_t channels, typename Own>
-void startFromMeans(LeastSquares<channels>& fit, const Own& own) {
+void startFromMeans(LeastSquares& fit, const Own& own) {
     for (std::size_t g = 0; g < fit.weights.size(); ++g)
         for (std::size_t c = 0; c < channels; ++c)
             fit.solution[g][c] = fit.weights[g] > 0 ? fit.sums[g][c] / fit.weights[g] : own(g, c);
@@ -245,7 +244,7 @@ std::vector<glm::vec3> fitNormals(const FitSource& source, const LevelMesh& leve
     const Grouping groups = grouped(level, source.smoothing, true);
     const std::vector<glm::vec3>& own = source.vertices.normals;
     auto fit = equations<3>(level, sums, groups, [](const VertexSums& v) { return v.normal; });
-    startFromMeans(fit, [&](std::size_t g, std::size_t c) { return own[groups.sources[g]][static_cast<int>(c)]; });
+    startFromMeans<3>(fit, [&](std::size_t g, std::size_t c) { return own[groups.sources[g]][static_cast<int>(c)]; });
     fit.solve();
 
     const std::vector<glm::dvec3> faces = faceNormals(positions, level, groups);
@@ -270,7 +269,7 @@ std::vector<glm::u8vec4> fitColors(const FitSource& source, const LevelMesh& lev
     if (own.empty()) return {};
     const Grouping groups = grouped(level, source.shades, true);
     auto fit = equations<4>(level, sums, groups, [](const VertexSums& v) { return v.color; });
-    startFromMeans(fit, [&](std::size_t g, std::size_t c) { return own[groups.sources[g]][static_cast<int>(c)]; });
+    startFromMeans<4>(fit, [&](std::size_t g, std::size_t c) { return own[groups.sources[g]][static_cast<int>(c)]; });
     fit.solve();
     std::vector<glm::u8vec4> fitted(groups.of.size());
     for (std::size_t v = 0; v < fitted.size(); ++v)

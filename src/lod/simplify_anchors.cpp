@@ -91,7 +91,8 @@ bool liesBelow(const FaceRings& rings, std::uint32_t face, const glm::dvec2& alo
 Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t start, const glm::dvec3& side) {
     Closest result;
     std::uint32_t nearest = start;
-    glm::dvec3 away = p - rings.level.points[start];
+    const glm::dvec3 away = p - rings.level.points[start];
+    bool below = false;
     double least = glm::dot(away, away);
     std::array<std::uint32_t, mostSteps> seen;
     for (std::size_t step = 0; step < mostSteps && nearest != noFace; ++step) {
@@ -108,11 +109,12 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t sta
             const double distance = glm::dot(offset, offset);
             if (!(distance < least)) continue;  // NaN of a degenerate face is passed over
             least = distance;
-            away = offset;
             result.along = along;
             result.face = face;
+            below = liesBelow(rings, face, along, offset);
+            if (below) break;
         }
-        if (result.face == noFace || liesBelow(rings, result.face, result.along, away)) break;
+        if (result.face == noFace || below) break;
         nearest = nearestUnseen(rings, result.face, p, std::span(seen.data(), step + 1));
     }
     result.squaredDistance = least;
