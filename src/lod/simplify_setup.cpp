@@ -76,9 +76,9 @@ glm::dvec3 faceCross(const Simplifier& s, std::uint32_t face) {
 }
 
 // Whether the surface ends at edge `e` of the manifold; a face without area beyond it is no surface.
-bool isBorder(const Simplifier& s, const Manifold& manifold, std::uint32_t e) {
+bool isBorder(const std::vector<glm::dvec3>& crosses, const Manifold& manifold, std::uint32_t e) {
     const std::uint32_t twin = manifold.twins[e];
-    return twin == Manifold::none || !(glm::length(faceCross(s, twin / 3)) > 0);
+    return twin == Manifold::none || !(glm::dot(crosses[twin / 3], crosses[twin / 3]) > 0);
 }
 
 // Weight of the constraint that a seam or border at edge `e` (of the manifold) puts on its face's side.
@@ -99,12 +99,12 @@ double seamConstraint(const Corners& corners, const Manifold& manifold, std::uin
 
 // The same for an edge where the surface turns by more than 60°: without it the rim of a thin sheet, whose own area is
 // next to nothing, would cost nothing to cut back.
-double rimConstraint(const Simplifier& s, const Manifold& manifold, std::uint32_t e) {
+double rimConstraint(const std::vector<glm::dvec3>& crosses, const Manifold& manifold, std::uint32_t e) {
     const std::uint32_t twin = manifold.twins[e];
     if (twin == Manifold::none) return 0;
-    const glm::dvec3 mine = faceCross(s, e / 3);
-    const glm::dvec3 theirs = faceCross(s, twin / 3);
-    const double lengths = glm::length(mine) * glm::length(theirs);
+    const glm::dvec3& mine = crosses[e / 3];
+    const glm::dvec3& theirs = crosses[twin / 3];
+    const double lengths = std::sqrt(glm::dot(mine, mine) * glm::dot(theirs, theirs));
     return lengths > 0 ? rimWeight * std::max(0.0, 0.5 - glm::dot(mine, theirs) / lengths) : 0;
 }
 
@@ -142,8 +142,11 @@ void buildAttributeQuadrics(Simplifier& s) {
 
 void buildQuadrics(Simplifier& s, const Manifold& manifold) {
     s.quadrics.resize(s.points.size());
+    std::vector<glm::dvec3> crosses;
+    crosses.reserve(manifold.faces.size());
+    for (std::uint32_t face = 0; face < manifold.faces.size(); ++face) crosses.push_back(faceCross(s, face));
     for (std::uint32_t face = 0; face < manifold.faces.size(); ++face) {
-        const glm::dvec3 cross = faceCross(s, face);
+        const glm::dvec3& cross = crosses[face];
         const double doubleArea = glm::length(cross);
         if (!(doubleArea > 0)) continue;
         const glm::dvec3 normal = cross / doubleArea;
@@ -151,9 +154,10 @@ void buildQuadrics(Simplifier& s, const Manifold& manifold) {
             const std::uint32_t a = s.corners.vertex[e];
             const std::uint32_t b = s.corners.vertex[e % 3 == 2 ? e - 2 : e + 1];
             s.quadrics[a].addPlane(glm::vec3(normal), static_cast<float>(doubleArea / 6));
-            const bool border = isBorder(s, manifold, e);
+            const bool border = isBorder(crosses, manifold, e);
             const double weight =
-                border ? borderWeight : std::max(seamConstraint(s.corners, manifold, e), rimConstraint(s, manifold, e));
+                border ? borderWeight
+                       : std::max(seamConstraint(s.corners, manifold, e), rimConstraint(crosses, manifold, e));
             const glm::dvec3 edge = s.points[b] - s.points[a];
             const glm::dvec3 upright = glm::cross(edge, normal);
             const double length = glm::length(upright);
