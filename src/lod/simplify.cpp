@@ -1,6 +1,7 @@
 // Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics; half-edge collapses over OpenMesh's
-// half-edges (Botsch, Steinberg, Bischoff and Kobbelt 2002). One pass with a priority queue, which holds each vertex's
-// cheapest collapse by cost alone, and whether it is allowed is only looked at when it comes up.
+// half-edges (Botsch, Steinberg, Bischoff and Kobbelt 2002). Each vertex waits for its cheapest collapse by cost alone,
+// and whether it is allowed is only looked at when it comes up: while faces are many, in sweeps over memory that allow
+// for more and more cost; then by a priority queue.
 
 #include "lod/simplify.h"
 
