@@ -18,7 +18,7 @@ namespace {
 constexpr std::array comparedModes = {LodMode::off, LodMode::fractional};
 constexpr int gridTriangles = 500;        // of an instance
 constexpr int smallFactor = 40;           // by which the image shrinks for the work of vertices alone
-constexpr double bytesPerTriangle = 400;  // mesh, pyramid while it is made, and what the driver keeps
+constexpr double bytesPerTriangle = 600;  // mesh, pyramid while it is made, and what the driver keeps
 constexpr double mostOfMemory = 0.8;
 
 FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode) {
