@@ -83,7 +83,7 @@ void addObjects(Hasher& hasher, const Pose& pose) {
 void addMeshes(Hasher& hasher, const World& world) {
     hasher.add(world.scene->meshes.size(), world.pose.objects.size());
     for (const Mesh& mesh : world.scene->meshes) {
-        hasher.add(pyramidKey(mesh, {}).mesh);
+        hasher.add(meshHash(mesh));
         for (const Primitive& primitive : mesh.primitives) hasher.add(primitive.material);
     }
     addObjects(hasher, world.pose);

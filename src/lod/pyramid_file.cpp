@@ -215,16 +215,19 @@ bool readStreams(Reader& reader, Pyramid& pyramid) {
 
 }  // namespace
 
+std::uint64_t meshHash(const Mesh& mesh) {
+    const std::uint64_t parts[2] = {mesh.primitives.size(), mesh.morphTargets.size()};
+    std::uint64_t hash = hashBytes(std::as_bytes(std::span(parts)));
+    hashVertices(hash, mesh.vertices);
+    for (const Primitive& primitive : mesh.primitives) hashStream(hash, primitive.indices);
+    for (const MorphTarget& target : mesh.morphTargets) hashMorphTarget(hash, target);
+    return hash;
+}
+
 PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options) {
     // The build's hash of this folder's sources: no file outlives a change of what buildPyramid does.
     constexpr std::uint64_t sources[1] = {DEFOCUS_PYRAMID_SOURCES};
-    PyramidKey key{hashBytes(std::as_bytes(std::span(sources))), options};
-    hashVertices(key.mesh, mesh.vertices);
-    for (const Primitive& primitive : mesh.primitives) hashStream(key.mesh, primitive.indices);
-    const std::uint64_t parts[2] = {mesh.primitives.size(), mesh.morphTargets.size()};
-    key.mesh = hashBytes(std::as_bytes(std::span(parts)), key.mesh);
-    for (const MorphTarget& target : mesh.morphTargets) hashMorphTarget(key.mesh, target);
-    return key;
+    return {hashBytes(std::as_bytes(std::span(sources)), meshHash(mesh)), options};
 }
 
 std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {

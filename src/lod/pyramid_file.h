@@ -17,10 +17,12 @@
 
 namespace defocus {
 
+// Of every vertex stream, every primitive's indices and the morph targets.
+std::uint64_t meshHash(const Mesh& mesh);
+
 // What a pyramid depends on.
 struct PyramidKey {
-    // Hash of every vertex stream, every primitive's indices, the morph targets and the sources of src/lod.
-    std::uint64_t mesh = 0;
+    std::uint64_t mesh = 0;  // meshHash, and the hash of the sources of src/lod
     PyramidOptions options;
 };
 
