@@ -72,7 +72,14 @@ private:
     };
 
     [[nodiscard]] std::uint32_t sampleCount() const;
-    [[nodiscard]] SamplePoints samplePoints(int x, int y, std::uint32_t sample) const;
+    // Where the sample lies in its pixel (px, right and down) and on the lens.
+    struct SampleOffset {
+        glm::dvec2 pixel{0};
+        glm::dvec2 lens{0};
+    };
+
+    [[nodiscard]] SampleOffset sampleOffset(std::uint32_t stream, std::uint32_t sample) const;
+    [[nodiscard]] SamplePoints samplePoints(int x, int y, const SampleOffset& offset) const;
     [[nodiscard]] RTCRayHit cameraRay(const SamplePoints& points) const;
     [[nodiscard]] RTCRayHit rayBehindLens(const SamplePoints& points) const;
     void traceBehindLens(std::span<const SamplePoints> points, std::span<RTCRayHit> rays) const;
@@ -121,24 +128,20 @@ std::uint32_t EmbreeRenderer::sampleCount() const {
     return sampling_ == EmbreeSampling::planned ? static_cast<std::uint32_t>(planned_.size()) : settings_.sampleCount;
 }
 
-EmbreeRenderer::SamplePoints EmbreeRenderer::samplePoints(int x, int y, std::uint32_t sample) const {
-    glm::dvec2 place(x, y);  // px from the image's top left corner
-    SamplePoints points;
+EmbreeRenderer::SampleOffset EmbreeRenderer::sampleOffset(std::uint32_t stream, std::uint32_t sample) const {
     if (sampling_ == EmbreeSampling::planned) {
         const LensSample& planned = planned_[sample];
-        place += glm::dvec2(0.5 + planned.pixel.x, 0.5 - planned.pixel.y);
-        points.lens = glm::dvec2(planned.lens);
-    } else {
-        const auto pixel = static_cast<std::uint32_t>(y * view_.width + x);
-        const std::uint32_t stream = sampling_ == EmbreeSampling::shared ? 0 : pixel;
-        const std::uint32_t index = settings_.firstSample + sample;
-        place += scrambledPoint(index, stream, SamplePair::pixel, settings_.seed);
-        points.lens = mask_
-                          ? mask_->lensPoint(index, stream, settings_.seed)
-                          : aperturePoint(view_.lens, scrambledPoint(index, stream, SamplePair::lens, settings_.seed));
+        return {{0.5 + planned.pixel.x, 0.5 - planned.pixel.y}, glm::dvec2(planned.lens)};
     }
-    points.image = {2 * place.x / view_.width - 1, 1 - 2 * place.y / view_.height};
-    return points;
+    const std::uint32_t index = settings_.firstSample + sample;
+    return {scrambledPoint(index, stream, SamplePair::pixel, settings_.seed),
+            mask_ ? mask_->lensPoint(index, stream, settings_.seed)
+                  : aperturePoint(view_.lens, scrambledPoint(index, stream, SamplePair::lens, settings_.seed))};
+}
+
+EmbreeRenderer::SamplePoints EmbreeRenderer::samplePoints(int x, int y, const SampleOffset& offset) const {
+    const glm::dvec2 place = glm::dvec2(x, y) + offset.pixel;  // px from the image's top left corner
+    return {{2 * place.x / view_.width - 1, 1 - 2 * place.y / view_.height}, offset.lens};
 }
 
 RTCRayHit EmbreeRenderer::cameraRay(const SamplePoints& points) const {
@@ -185,9 +188,12 @@ void EmbreeRenderer::traceTile(int tile, std::uint32_t sample) {
     std::array<SamplePoints, tileSize * tileSize> points;
     std::array<RTCRayHit, tileSize * tileSize> rays;
     std::size_t count = 0;
+    const SampleOffset shared = sampleOffset(0, sample);
     for (int y = top; y < bottom; ++y) {
         for (int x = left; x < right; ++x) {
-            points[count] = samplePoints(x, y, sample);
+            const bool own = sampling_ == EmbreeSampling::perPixel;
+            const auto stream = static_cast<std::uint32_t>(y * view_.width + x);
+            points[count] = samplePoints(x, y, own ? sampleOffset(stream, sample) : shared);
             rays[count] = cameraRay(points[count]);
             ++count;
         }
