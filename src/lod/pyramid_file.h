@@ -31,7 +31,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
     // Of the format. What buildPyramid makes of a mesh is in the key: see pyramidKey.
-    static constexpr std::uint32_t expectedVersion = 3;
+    static constexpr std::uint32_t expectedVersion = 2;
 
     std::uint64_t magic = expectedMagic;
     std::uint64_t checksum = 0;  // hashBytes of all that follows this field

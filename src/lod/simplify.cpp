@@ -170,8 +170,7 @@ float costAtRank(const Simplifier& s, std::size_t rank) {
     std::vector<float> costs;
     const std::size_t stride = 1 + s.points.size() / costSample;
     for (std::size_t v = 0; v < s.points.size(); v += stride)
-        if (const Candidate& c = s.candidates[v]; c.edge.is_valid() && c.fit < Fit::bad)
-            costs.push_back(c.cost);
+        if (const Candidate& c = s.candidates[v]; c.edge.is_valid() && c.fit < Fit::bad) costs.push_back(c.cost);
     if (costs.size() <= rank / stride) return std::numeric_limits<float>::infinity();
     const auto place = costs.begin() + static_cast<std::ptrdiff_t>(rank / stride);
     std::nth_element(costs.begin(), place, costs.end());

@@ -40,7 +40,7 @@ struct Ball {
 // and of those that it stands in for. It neither shrinks nor grows by more than `mostFactor`.
 struct Growth {
     glm::dvec3 centre{0};  // object units
-    double area = 0;       // object units
+    double area = 0;       // object units squared
     double mostFactor = 1;
 };
 

@@ -47,8 +47,8 @@ double distanceTo(const Surface& surface, const glm::dvec3& point);
 // of the running area, within its triangle by the R2 sequence. None where `from` is empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 
-// The `rank`-th largest (from 1) of what sampleDistances would return, or `least` if that is larger: without looking for
-// the closest point where one that is near enough is found. `least` if there are fewer.
+// The `rank`-th largest (from 1) of what sampleDistances would return, or `least` if that is larger: without looking
+// for the closest point where one that is near enough is found. `least` if there are fewer.
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double least);
 
 struct Distances {
