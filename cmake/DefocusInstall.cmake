@@ -8,12 +8,14 @@ add_library(defocus::defocus ALIAS defocus)
 target_link_libraries(defocus INTERFACE defocus_capture)
 
 get_property(MODULES GLOBAL PROPERTY DEFOCUS_MODULES)
+get_property(ABSENT GLOBAL PROPERTY DEFOCUS_ABSENT)
+list(TRANSFORM ABSENT REPLACE "(.+)" "PATTERN;\\1.h;EXCLUDE" OUTPUT_VARIABLE ABSENT_PATTERNS)
 list(TRANSFORM MODULES PREPEND defocus_ OUTPUT_VARIABLE MODULE_TARGETS)
 install(TARGETS defocus ${MODULE_TARGETS} EXPORT defocusTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS defocus_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 foreach(MODULE IN LISTS MODULES)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/${MODULE}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/defocus"
-            FILES_MATCHING PATTERN "*.h")
+            FILES_MATCHING PATTERN "*.h" ${ABSENT_PATTERNS})
 endforeach()
 install(EXPORT defocusTargets NAMESPACE defocus:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/defocus")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/defocusConfig.cmake.in"

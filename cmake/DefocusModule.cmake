@@ -1,4 +1,5 @@
-# defocus_module(NAME LINK ...): the folder src/NAME as one static library defocus_NAME, exported as defocus::NAME.
+# defocus_module(NAME [WITHOUT file] LINK ...): the folder src/NAME as one static library defocus_NAME, exported as
+# defocus::NAME. WITHOUT: the .cpp and .h that are left out, by their common name.
 # A module links only the modules above it in the layout, so that an include against the order fails to build.
 
 include(CheckIPOSupported)
@@ -19,8 +20,11 @@ if(DEFOCUS_SANITIZE)
 endif()
 
 function(defocus_module NAME)
-    cmake_parse_arguments(ARG "" "" "LINK;PRIVATE_LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "WITHOUT" "LINK;PRIVATE_LINK" ${ARGN})
     file(GLOB SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp")
+    if(ARG_WITHOUT)
+        list(REMOVE_ITEM SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/${ARG_WITHOUT}.cpp")
+    endif()
     add_library(defocus_${NAME} STATIC ${SOURCES})
     add_library(defocus::${NAME} ALIAS defocus_${NAME})
     set_target_properties(defocus_${NAME} PROPERTIES EXPORT_NAME ${NAME} POSITION_INDEPENDENT_CODE ON)
@@ -30,4 +34,5 @@ function(defocus_module NAME)
                                           ${ARG_PRIVATE_LINK})
     target_compile_features(defocus_${NAME} PUBLIC cxx_std_20)
     set_property(GLOBAL APPEND PROPERTY DEFOCUS_MODULES ${NAME})
+    set_property(GLOBAL APPEND PROPERTY DEFOCUS_ABSENT ${ARG_WITHOUT})
 endfunction()

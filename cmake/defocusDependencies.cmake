@@ -1,4 +1,4 @@
-# What the libraries link; read by the build and by an installed find_package(defocus) alike.
+# What the libraries link; read by the build and by an installed find_package(defocus) alike. DEFOCUS_VIEWER: with the window.
 
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
@@ -9,10 +9,15 @@ find_package(meshoptimizer REQUIRED)
 find_package(OpenMesh REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
-find_package(glfw3 REQUIRED)
+if(DEFOCUS_VIEWER)
+    find_package(glfw3 REQUIRED)
+endif()
 find_package(PkgConfig REQUIRED)
 if(NOT TARGET PkgConfig::epoxy)
     pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+endif()
+if(NOT TARGET PkgConfig::stb)
+    pkg_check_modules(stb REQUIRED IMPORTED_TARGET stb)
 endif()
 if(NOT TARGET PkgConfig::egl)
     pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)

@@ -11,8 +11,8 @@
 #include <memory>
 #include <numbers>
 
-#include "app/image_text.h"
 #include "app/number_text.h"
+#include "image/text.h"
 #include "plan/frame_plan.h"
 #include "render/methods.h"
 #include "scene/defaults.h"
@@ -34,8 +34,8 @@ constexpr int cellArea = 320 * 240;  // px
 constexpr int sheetMargin = 16;
 constexpr int cellGap = 4;
 constexpr int labelColumn = 210;
-constexpr double titleSize = 26;
-constexpr double textSize = 17;
+constexpr int titleSize = 22;        // em
+constexpr int textSize = 14;         // em
 constexpr float paperGrey = 0.018f;  // linear grey
 constexpr float inkGrey = 0.83f;
 constexpr float quietGrey = 0.42f;
@@ -80,7 +80,7 @@ void paste(Image& sheet, const Image& picture, const TurntableCell& cell) {
 }
 
 TurntableSheet emptySheet(std::size_t levels, const View& view) {
-    const int top = sheetMargin + static_cast<int>(titleSize + textSize) + 2 * cellGap;
+    const int top = sheetMargin + titleSize + textSize + 6 * cellGap;
     TurntableSheet sheet;
     for (std::size_t l = 0; l < levels; ++l) {
         std::vector<TurntableCell>& row = sheet.cells.emplace_back();
@@ -95,31 +95,26 @@ TurntableSheet emptySheet(std::size_t levels, const View& view) {
 }
 
 void writeLabels(TurntableSheet& sheet, const Pyramid& pyramid, const std::string& title) {
-    const ImageFont large(titleSize);
-    const ImageFont small(textSize);
-    large.draw(sheet.image, sheetMargin, 0.5 * sheetMargin, title, inkGrey);
+    Image& image = sheet.image;
+    writeText(image, sheetMargin, sheetMargin + titleSize, title, titleSize, inkGrey);
     for (int i = 0; i < turntableViews; ++i) {
         const TurntableCell& cell = sheet.cells.front()[static_cast<std::size_t>(i)];
-        small.draw(sheet.image, cell.x, cell.y - cellGap - textSize, fmt::format("{}°", 360 * i / turntableViews),
-                   quietGrey);
+        writeText(image, cell.x, cell.y - 2 * cellGap, fmt::format("{}°", 360 * i / turntableViews), textSize,
+                  quietGrey);
     }
     const double diagonal = glm::length(pyramid.bounds.size());
     for (std::size_t l = 0; l < sheet.cells.size(); ++l) {
         const PyramidLevel& level = pyramid.levels[l];
-        const TurntableCell& cell = sheet.cells[l].front();
-        double y = cell.y;
-        large.draw(sheet.image, sheetMargin, y, fmt::format("Level {}", l), inkGrey);
-        y += titleSize + 2 * cellGap;
-        small.draw(sheet.image, sheetMargin, y,
-                   fmt::format("{} triangle{}", grouped(level.triangleCount), level.triangleCount == 1 ? "" : "s"),
-                   inkGrey);
-        y += textSize + cellGap;
+        int line = sheet.cells[l].front().y + titleSize;
+        writeText(image, sheetMargin, line, fmt::format("Level {}", l), titleSize, inkGrey);
+        const auto write = [&](const std::string& text, float grey) {
+            line += textSize + 2 * cellGap;
+            writeText(image, sheetMargin, line, text, textSize, grey);
+        };
+        write(fmt::format("{} triangle{}", grouped(level.triangleCount), level.triangleCount == 1 ? "" : "s"), inkGrey);
         if (l == 0) continue;
-        small.draw(sheet.image, sheetMargin, y, fmt::format("error {:.3g}", level.error), inkGrey);
-        y += textSize + cellGap;
-        if (diagonal > 0)
-            small.draw(sheet.image, sheetMargin, y, fmt::format("{:.2g} % of diagonal", 100 * level.error / diagonal),
-                       quietGrey);
+        write(fmt::format("error {:.3g}", level.error), inkGrey);
+        if (diagonal > 0) write(fmt::format("{:.2g} % of diagonal", 100 * level.error / diagonal), quietGrey);
     }
 }
 

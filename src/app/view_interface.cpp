@@ -3,7 +3,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 
-#include "app/interface_font.h"
+#include "app/view_font.h"
 
 namespace defocus {
 
@@ -14,7 +14,7 @@ constexpr double fontSize = 15;  // units
 void loadFont(double scale) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
-    addInterfaceFont(atlas, fontSize * scale);
+    addViewFont(atlas, fontSize * scale);
 }
 
 ImVec4 grey(float value, float alpha = 1) {
