@@ -10,9 +10,10 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "embree/aperture_mask.h"
-#include "embree/lens_rays.h"
+#include "embree/packet_rays.h"
+#include "embree/packet_samples.h"
+#include "embree/packet_shading.h"
 #include "embree/traced_scene.h"
-#include "embree/traced_shading.h"
 #include "lens/circle_of_confusion.h"
 #include "render/methods.h"
 
@@ -20,7 +21,8 @@ namespace defocus {
 
 namespace {
 
-constexpr int tileSize = 16;  // px; a tile's rays go to Embree as one stream
+// Samples of an advance(). A tile takes them one after the other, while its part of the scene is in the cache.
+constexpr std::uint32_t samplesPerWave = 16;
 
 using Clock = std::chrono::steady_clock;
 
@@ -28,19 +30,39 @@ double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-RTCRayHit rayOf(const LensRay& ray, double nearest, double farthest) {
-    RTCRayHit traced{};
-    traced.ray.org_x = ray.origin.x;
-    traced.ray.org_y = ray.origin.y;
-    traced.ray.org_z = ray.origin.z;
-    traced.ray.dir_x = ray.direction.x;
-    traced.ray.dir_y = ray.direction.y;
-    traced.ray.dir_z = ray.direction.z;
-    traced.ray.tnear = static_cast<float>(nearest);
-    traced.ray.tfar = static_cast<float>(farthest);
-    traced.ray.mask = ~0u;
-    traced.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    return traced;
+constexpr float infinitelyFar = std::numeric_limits<float>::infinity();
+
+// Of a tile's pixels.
+struct TileSeeds {
+    std::array<PacketSeeds, packetsPerTile> pixel;
+    std::array<PacketSeeds, packetsPerTile> lens;
+};
+
+RTCRayHit16 emptyPacket(double nearest) {
+    RTCRayHit16 packet{};
+    std::fill(std::begin(packet.ray.tnear), std::end(packet.ray.tnear), static_cast<float>(nearest));
+    std::fill(std::begin(packet.ray.mask), std::end(packet.ray.mask), ~0u);
+    std::fill(std::begin(packet.hit.geomID), std::end(packet.hit.geomID), RTC_INVALID_GEOMETRY_ID);
+    return packet;
+}
+
+void setRay(RTCRayHit16& packet, int lane, const LensRay& ray, double nearest) {
+    packet.ray.org_x[lane] = ray.origin.x;
+    packet.ray.org_y[lane] = ray.origin.y;
+    packet.ray.org_z[lane] = ray.origin.z;
+    packet.ray.dir_x[lane] = ray.direction.x;
+    packet.ray.dir_y[lane] = ray.direction.y;
+    packet.ray.dir_z[lane] = ray.direction.z;
+    packet.ray.tnear[lane] = static_cast<float>(nearest);
+}
+
+PacketPoints samePoints(const glm::dvec2& pixel, const glm::dvec2& lens) {
+    PacketPoints points;
+    points.pixelX.values.fill(static_cast<float>(pixel.x));
+    points.pixelY.values.fill(static_cast<float>(pixel.y));
+    points.lensX.values.fill(static_cast<float>(lens.x));
+    points.lensY.values.fill(static_cast<float>(lens.y));
+    return points;
 }
 
 // Of what bends the blur to an artist's will, only the limit of the foreground has a lens that does the same.
@@ -65,26 +87,33 @@ public:
     [[nodiscard]] RenderStats stats() const override;
 
 private:
-    // The image point ([-1, 1]², right and up) and the lens point of a pixel's sample.
-    struct SamplePoints {
-        glm::dvec2 image{0};
-        glm::dvec2 lens{0};
-    };
-
-    [[nodiscard]] std::uint32_t sampleCount() const;
-    // Where the sample lies in its pixel (px, right and down) and on the lens.
+    // Where a sample lies in its pixel ([0, 1)² px, right and down) and on the lens (unit disk).
     struct SampleOffset {
         glm::dvec2 pixel{0};
         glm::dvec2 lens{0};
     };
+    // A tile's place: its number, its first pixel, and its packets' first sum.
+    struct Tile {
+        int left = 0;
+        int top = 0;
+        PacketSum* sums = nullptr;
+    };
 
-    [[nodiscard]] SampleOffset sampleOffset(std::uint32_t stream, std::uint32_t sample) const;
-    [[nodiscard]] SamplePoints samplePoints(int x, int y, const SampleOffset& offset) const;
-    [[nodiscard]] RTCRayHit cameraRay(const SamplePoints& points) const;
-    [[nodiscard]] RTCRayHit rayBehindLens(const SamplePoints& points) const;
-    void traceBehindLens(std::span<const SamplePoints> points, std::span<RTCRayHit> rays) const;
-    [[nodiscard]] glm::vec4 radiance(const RTCRayHit& ray) const;
-    void traceTile(int tile, std::uint32_t sample);
+    [[nodiscard]] std::uint32_t sampleCount() const;
+    [[nodiscard]] int tileColumns() const { return (view_.width + tileSide - 1) / tileSide; }
+    [[nodiscard]] int tileRows() const { return (view_.height + tileSide - 1) / tileSide; }
+    [[nodiscard]] bool ownSamples() const { return sampling_ == EmbreeSampling::perPixel; }
+
+    [[nodiscard]] std::uint32_t streamOf(const Tile& tile, int place, int lane) const;
+    [[nodiscard]] SampleOffset sharedOffset(std::uint32_t sample) const;
+    [[nodiscard]] TileSeeds tileSeeds(const Tile& tile) const;
+    [[nodiscard]] PacketPoints ownPoints(const Tile& tile, int place, const TileSeeds& seeds,
+                                         std::uint32_t sample) const;
+    [[nodiscard]] LaneMask lanesInside(const Tile& tile, int place) const;
+    void traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
+                      RTCRayHit16& packet) const;
+    void traceSample(const Tile& tile, const TileSeeds& seeds, std::uint32_t sample, RTCRayHit16& packet);
+    void traceTile(int number, std::uint32_t firstSample, std::uint32_t count);
 
     const World& world_;
     EmbreeSampling sampling_;
@@ -93,10 +122,11 @@ private:
     std::vector<LensSample> planned_;  // EmbreeSampling::planned only
     LensCamera camera_;
     std::optional<ApertureMask> mask_;  // of apertures that need one
-    glm::dmat3 worldFromCamera_{1.0};
+    ApertureMap aperture_{Lens{}};      // of all others
     std::unique_ptr<TracedScene> scene_;
-    glm::dmat4 tracedFrom_{0.0};  // the camera that scene_ was built for
-    std::vector<glm::dvec4> sum_;
+    std::unique_ptr<PacketShading> shading_;
+    glm::dmat4 tracedFrom_{0.0};   // the camera that scene_ was built for
+    std::vector<PacketSum> sums_;  // tile by tile
     std::uint32_t samples_ = 0;
     double setupMilliseconds_ = 0;
     double renderMilliseconds_ = 0;
@@ -111,15 +141,18 @@ void EmbreeRenderer::start(const FramePlan& plan) {
     camera_ = lensCamera(view_);
     mask_.reset();
     if (ApertureMask::isNeeded(view_.lens) && sampling_ != EmbreeSampling::planned) mask_.emplace(view_.lens);
-    worldFromCamera_ = glm::dmat3(view_.worldFromCamera);
+    aperture_ = ApertureMap(view_.lens);
     if (!scene_ || tracedFrom_ != view_.worldFromCamera) {
         const Clock::time_point begin = Clock::now();
+        shading_.reset();
         scene_.reset();
-        scene_ = std::make_unique<TracedScene>(world_, view_.worldFromCamera);
+        const TraceOptions options{.watertight = sampling_ == EmbreeSampling::planned, .coherent = !ownSamples()};
+        scene_ = std::make_unique<TracedScene>(world_, view_.worldFromCamera, options);
+        shading_ = std::make_unique<PacketShading>(world_, *scene_, glm::dmat3(view_.worldFromCamera));
         tracedFrom_ = view_.worldFromCamera;
         setupMilliseconds_ += millisecondsSince(begin);
     }
-    sum_.assign(static_cast<std::size_t>(view_.width) * static_cast<std::size_t>(view_.height), glm::dvec4(0));
+    sums_.assign(static_cast<std::size_t>(tileColumns()) * static_cast<std::size_t>(tileRows()) * packetsPerTile, {});
     samples_ = 0;
     renderMilliseconds_ = 0;
 }
@@ -128,93 +161,137 @@ std::uint32_t EmbreeRenderer::sampleCount() const {
     return sampling_ == EmbreeSampling::planned ? static_cast<std::uint32_t>(planned_.size()) : settings_.sampleCount;
 }
 
-EmbreeRenderer::SampleOffset EmbreeRenderer::sampleOffset(std::uint32_t stream, std::uint32_t sample) const {
+// ---- samples --------------------------------------------------------------------------------------------------------
+
+EmbreeRenderer::SampleOffset EmbreeRenderer::sharedOffset(std::uint32_t sample) const {
+    if (ownSamples()) return {};
     if (sampling_ == EmbreeSampling::planned) {
         const LensSample& planned = planned_[sample];
         return {{0.5 + planned.pixel.x, 0.5 - planned.pixel.y}, glm::dvec2(planned.lens)};
     }
     const std::uint32_t index = settings_.firstSample + sample;
-    return {scrambledPoint(index, stream, SamplePair::pixel, settings_.seed),
-            mask_ ? mask_->lensPoint(index, stream, settings_.seed)
-                  : aperturePoint(view_.lens, scrambledPoint(index, stream, SamplePair::lens, settings_.seed))};
+    return {scrambledPoint(index, 0, SamplePair::pixel, settings_.seed),
+            mask_ ? mask_->lensPoint(index, 0, settings_.seed)
+                  : aperturePoint(view_.lens, scrambledPoint(index, 0, SamplePair::lens, settings_.seed))};
 }
 
-EmbreeRenderer::SamplePoints EmbreeRenderer::samplePoints(int x, int y, const SampleOffset& offset) const {
-    const glm::dvec2 place = glm::dvec2(x, y) + offset.pixel;  // px from the image's top left corner
-    return {{2 * place.x / view_.width - 1, 1 - 2 * place.y / view_.height}, offset.lens};
+std::uint32_t EmbreeRenderer::streamOf(const Tile& tile, int place, int lane) const {
+    const int x = tile.left + place % packetsPerTileRow * packetSide + lane % packetSide;
+    const int y = tile.top + place / packetsPerTileRow * packetSide + lane / packetSide;
+    return static_cast<std::uint32_t>(y * view_.width + x);
 }
 
-RTCRayHit EmbreeRenderer::cameraRay(const SamplePoints& points) const {
-    if (camera_.lensDepth == 0)
-        return rayOf(lensRay(camera_, points.image, points.lens), view_.nearPlane,
-                     std::numeric_limits<double>::infinity());
-    return rayOf(eyeRay(camera_, points.image, points.lens), view_.nearPlane, camera_.lensDepth);
-}
-
-RTCRayHit EmbreeRenderer::rayBehindLens(const SamplePoints& points) const {
-    const LensRay eye = eyeRay(camera_, points.image, points.lens);
-    return rayOf(refractedRay(camera_, points.image, eye), std::max(0.0, view_.nearPlane - camera_.lensDepth),
-                 std::numeric_limits<double>::infinity());
-}
-
-glm::vec4 EmbreeRenderer::radiance(const RTCRayHit& ray) const {
-    if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID) return {surfaceRadiance(world_, *scene_, ray), 1};
-    if (world_.environment.type == EnvironmentType::none || !world_.environment.visible) return glm::vec4(0);
-    const glm::dvec3 direction(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z);
-    return {backgroundRadiance(world_.environment, worldFromCamera_ * direction), 1};
-}
-
-// Goes on with those rays that met nothing before the lens.
-void EmbreeRenderer::traceBehindLens(std::span<const SamplePoints> points, std::span<RTCRayHit> rays) const {
-    std::array<RTCRayHit, tileSize * tileSize> behind;
-    std::array<std::size_t, tileSize * tileSize> places{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (rays[i].hit.geomID != RTC_INVALID_GEOMETRY_ID) continue;
-        places[count] = i;
-        behind[count++] = rayBehindLens(points[i]);
+TileSeeds EmbreeRenderer::tileSeeds(const Tile& tile) const {
+    TileSeeds seeds;
+    if (!ownSamples()) return seeds;
+    for (int place = 0; place < packetsPerTile; ++place) {
+        Lanes<std::uint32_t> streams;
+        for (int i = 0; i < packetSize; ++i) streams[i] = streamOf(tile, place, i);
+        const auto at = static_cast<std::size_t>(place);
+        seeds.pixel[at] = packetSeeds(streams, SamplePair::pixel, settings_.seed);
+        seeds.lens[at] = packetSeeds(streams, SamplePair::lens, settings_.seed);
     }
-    if (count > 0) scene_->trace(std::span(behind).first(count));
-    for (std::size_t i = 0; i < count; ++i) rays[places[i]] = behind[i];
+    return seeds;
 }
 
-void EmbreeRenderer::traceTile(int tile, std::uint32_t sample) {
-    const int columns = (view_.width + tileSize - 1) / tileSize;
-    const int left = tile % columns * tileSize;
-    const int top = tile / columns * tileSize;
-    const int right = std::min(left + tileSize, view_.width);
-    const int bottom = std::min(top + tileSize, view_.height);
+PacketPoints EmbreeRenderer::ownPoints(const Tile& tile, int place, const TileSeeds& seeds,
+                                       std::uint32_t sample) const {
+    const std::uint32_t index = settings_.firstSample + sample;
+    const auto at = static_cast<std::size_t>(place);
+    PacketPoints points;
+    scramblePoints(unscrambledPoint(index, SamplePair::pixel, settings_.seed), seeds.pixel[at], points.pixelX,
+                   points.pixelY);
+    if (!mask_) {
+        scramblePoints(unscrambledPoint(index, SamplePair::lens, settings_.seed), seeds.lens[at], points.lensX,
+                       points.lensY);
+        mapToAperture(aperture_, points.lensX, points.lensY);
+        return points;
+    }
+    for (int i = 0; i < packetSize; ++i) {
+        const glm::vec2 lens(mask_->lensPoint(index, streamOf(tile, place, i), settings_.seed));
+        points.lensX[i] = lens.x;
+        points.lensY[i] = lens.y;
+    }
+    return points;
+}
 
-    std::array<SamplePoints, tileSize * tileSize> points;
-    std::array<RTCRayHit, tileSize * tileSize> rays;
-    std::size_t count = 0;
-    const SampleOffset shared = sampleOffset(0, sample);
-    for (int y = top; y < bottom; ++y) {
-        for (int x = left; x < right; ++x) {
-            const bool own = sampling_ == EmbreeSampling::perPixel;
-            const auto stream = static_cast<std::uint32_t>(y * view_.width + x);
-            points[count] = samplePoints(x, y, own ? sampleOffset(stream, sample) : shared);
-            rays[count] = cameraRay(points[count]);
-            ++count;
+// ---- rays -----------------------------------------------------------------------------------------------------------
+
+LaneMask EmbreeRenderer::lanesInside(const Tile& tile, int place) const {
+    const int left = tile.left + place % packetsPerTileRow * packetSide;
+    const int top = tile.top + place / packetsPerTileRow * packetSide;
+    LaneMask mask;
+    for (int i = 0; i < packetSize; ++i)
+        mask[i] = left + i % packetSide < view_.width && top + i / packetSide < view_.height ? -1 : 0;
+    return mask;
+}
+
+// With a lens of its own before every pixel: from the eye to that lens, and those rays that met nothing behind it.
+void EmbreeRenderer::traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
+                                  RTCRayHit16& packet) const {
+    const int left = tile.left + place % packetsPerTileRow * packetSide;
+    const int top = tile.top + place / packetsPerTileRow * packetSide;
+    std::array<LensRay, packetSize> behind;
+    for (int i = 0; i < packetSize; ++i) {
+        const glm::dvec2 at(left + i % packetSide + static_cast<double>(points.pixelX[i]),
+                            top + i / packetSide + static_cast<double>(points.pixelY[i]));
+        const glm::dvec2 image(2 * at.x / view_.width - 1, 1 - 2 * at.y / view_.height);
+        const LensRay eye = eyeRay(camera_, image, {points.lensX[i], points.lensY[i]});
+        behind[static_cast<std::size_t>(i)] = refractedRay(camera_, image, eye);
+        setRay(packet, i, eye, view_.nearPlane);
+    }
+    scene_->trace(mask, static_cast<float>(camera_.lensDepth), packet);
+
+    LaneMask missed;
+    for (int i = 0; i < packetSize; ++i) {
+        if (packet.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID || mask[i] == 0) continue;
+        missed[i] = -1;
+        setRay(packet, i, behind[static_cast<std::size_t>(i)], std::max(0.0, view_.nearPlane - camera_.lensDepth));
+    }
+    scene_->trace(missed, infinitelyFar, packet);
+}
+
+void EmbreeRenderer::traceSample(const Tile& tile, const TileSeeds& seeds, std::uint32_t sample, RTCRayHit16& packet) {
+    const SampleOffset shared = sharedOffset(sample);
+    const TileRays rays = tileRays(camera_, view_, tile.left, tile.top, shared.pixel, shared.lens);
+    for (int place = 0; place < packetsPerTile; ++place) {
+        const LaneMask mask = lanesInside(tile, place);
+        if (mask[0] == 0) continue;
+        PacketPoints points;
+        if (ownSamples())
+            points = ownPoints(tile, place, seeds, sample);
+        else if (camera_.lensDepth > 0)
+            points = samePoints(shared.pixel, shared.lens);
+
+        if (camera_.lensDepth > 0) {
+            traceLimited(tile, place, points, mask, packet);
+        } else {
+            if (ownSamples())
+                makeRays(rays, place, camera_, view_, points, packet);
+            else
+                makeRays(rays, place, packet);
+            scene_->trace(mask, infinitelyFar, packet);
         }
+        addTo(tile.sums[place], shading_->radiance(packet));
     }
-    scene_->trace(std::span(rays).first(count));
-    if (camera_.lensDepth > 0) traceBehindLens(std::span(points).first(count), std::span(rays).first(count));
-    const RTCRayHit* ray = rays.data();
-    for (int y = top; y < bottom; ++y) {
-        glm::dvec4* row = sum_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(view_.width);
-        for (int x = left; x < right; ++x) row[x] += glm::dvec4(radiance(*ray++));
-    }
+}
+
+void EmbreeRenderer::traceTile(int number, std::uint32_t firstSample, std::uint32_t count) {
+    const Tile tile{.left = number % tileColumns() * tileSide,
+                    .top = number / tileColumns() * tileSide,
+                    .sums = sums_.data() + static_cast<std::size_t>(number) * packetsPerTile};
+    const TileSeeds seeds = tileSeeds(tile);
+    RTCRayHit16 packet = emptyPacket(view_.nearPlane);
+    for (std::uint32_t i = 0; i < count; ++i) traceSample(tile, seeds, firstSample + i, packet);
 }
 
 bool EmbreeRenderer::advance() {
     if (samples_ >= sampleCount()) return false;
     const Clock::time_point begin = Clock::now();
-    const int columns = (view_.width + tileSize - 1) / tileSize;
-    const int rows = (view_.height + tileSize - 1) / tileSize;
-    parallelFor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
-                [&](std::size_t tile) { traceTile(static_cast<int>(tile), samples_); });
-    ++samples_;
+    const std::uint32_t count = std::min(samplesPerWave, sampleCount() - samples_);
+    parallelFor(static_cast<std::size_t>(tileColumns()) * static_cast<std::size_t>(tileRows()),
+                [&](std::size_t tile) { traceTile(static_cast<int>(tile), samples_, count); });
+    samples_ += count;
     renderMilliseconds_ += millisecondsSince(begin);
     return samples_ < sampleCount();
 }
@@ -222,10 +299,16 @@ bool EmbreeRenderer::advance() {
 Image EmbreeRenderer::image() {
     if (samples_ == 0) fail("method embree: no sample has been traced yet");
     Image result(view_.width, view_.height, 4);
-    for (std::size_t i = 0; i < sum_.size(); ++i) {
-        const glm::vec4 mean(sum_[i] / static_cast<double>(samples_));
-        for (glm::length_t c = 0; c < 4; ++c) result.pixels[4 * i + static_cast<std::size_t>(c)] = mean[c];
-    }
+    for (int y = 0; y < view_.height; ++y)
+        for (int x = 0; x < view_.width; ++x) {
+            const int tile = y / tileSide * tileColumns() + x / tileSide;
+            const int place = y % tileSide / packetSide * packetsPerTileRow + x % tileSide / packetSide;
+            const PacketSum& sum =
+                sums_[static_cast<std::size_t>(tile) * packetsPerTile + static_cast<std::size_t>(place)];
+            const int lane = y % packetSide * packetSide + x % packetSide;
+            for (std::size_t c = 0; c < 4; ++c)
+                result.at(x, y)[c] = static_cast<float>(sum.channels[c][lane] / static_cast<double>(samples_));
+        }
     return result;
 }
 
@@ -234,8 +317,8 @@ RenderStats EmbreeRenderer::stats() const {
     stats.samples = samples_;
     stats.setupMilliseconds = setupMilliseconds_;
     stats.renderMilliseconds = renderMilliseconds_;
-    stats.peakBytes = (scene_ ? scene_->peakBytes() : 0) + sum_.size() * sizeof(glm::dvec4);
-    stats.wave = 1;
+    stats.peakBytes = (scene_ ? scene_->peakBytes() + shading_->bytes() : 0) + sums_.size() * sizeof(PacketSum);
+    stats.wave = samplesPerWave;
     stats.layerFormat = "double";
     stats.device = fmt::format("CPU, {} threads", std::max(1u, std::thread::hardware_concurrency()));
     stats.driver = "Embree " RTC_VERSION_STRING;

@@ -3,19 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "embree/sample_scramble.h"
+
 namespace defocus {
 
 namespace {
 
 constexpr double fullTurn = 2 * std::numbers::pi;
-
-std::uint32_t reversedBits(std::uint32_t x) {
-    x = ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
-    x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
-    x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
-    x = ((x & 0x00ff00ffu) << 8) | ((x >> 8) & 0x00ff00ffu);
-    return (x << 16) | (x >> 16);
-}
 
 // A well mixed value of (value, salt): two rounds of multiply and shift.
 std::uint32_t mixed(std::uint32_t value, std::uint32_t salt) {
@@ -23,17 +17,6 @@ std::uint32_t mixed(std::uint32_t value, std::uint32_t salt) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
     return static_cast<std::uint32_t>((x ^ (x >> 31)) >> 16);
-}
-
-// Owen scrambling of a 32-bit fraction: each bit is flipped by a hash of the bits above it (Laine and Karras 2011,
-// whose permutation lets bits act upwards only, on the reversed bits).
-std::uint32_t owenScrambled(std::uint32_t fraction, std::uint32_t seed) {
-    std::uint32_t x = reversedBits(fraction) + seed;
-    x ^= x * 0x6c50b47cu;
-    x ^= x * 0xb82f1e52u;
-    x ^= x * 0xc7afe638u;
-    x ^= x * 0x8d22f6e6u;
-    return reversedBits(x);
 }
 
 // Second dimension of Sobol's sequence as a 32-bit fraction (Kollig and Keller 2002); the first is the reversed index.
@@ -85,14 +68,23 @@ LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dv
     return {glm::vec3(point, 0), glm::vec3(slope, -1)};
 }
 
-glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed) {
+ReversedPoint unscrambledPoint(std::uint32_t index, SamplePair pair, std::uint32_t seed) {
     // Each pair visits the points in its own order, so that lens and pixel positions are not tied to each other.
     // Scrambled as a fraction, an index keeps to its aligned block of 2^n, so that such blocks stay nets.
+    const std::uint32_t order = mixed(mixed(seed, static_cast<std::uint32_t>(pair)), 1);
+    const std::uint32_t shuffled = owenScrambled(reversedBits(index), order);
+    return {shuffled, reversedBits(sobolSecond(shuffled))};
+}
+
+ReversedPoint scrambleSeeds(std::uint32_t stream, SamplePair pair, std::uint32_t seed) {
     const std::uint32_t salt = mixed(stream, mixed(seed, static_cast<std::uint32_t>(pair)));
-    const std::uint32_t shuffled = owenScrambled(index, mixed(salt, 1));
-    const std::uint32_t x = owenScrambled(reversedBits(shuffled), mixed(salt, 2));
-    const std::uint32_t y = owenScrambled(sobolSecond(shuffled), mixed(salt, 3));
-    return {x * 0x1p-32, y * 0x1p-32};
+    return {mixed(salt, 2), mixed(salt, 3)};
+}
+
+glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed) {
+    const ReversedPoint point = unscrambledPoint(index, pair, seed);
+    const ReversedPoint own = scrambleSeeds(stream, pair, seed);
+    return {owenScrambled(point.x, own.x) * 0x1p-32, owenScrambled(point.y, own.y) * 0x1p-32};
 }
 
 glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square) {

@@ -18,9 +18,8 @@
 // (Munkberg, Toth and Akenine-Möller 2012, whose print has f for the right-hand side), by which a ray that arrives at a
 // distance h from the middle of the lens is bent by −h/f: eyeRay and refractedRay.
 //
-// Sampling: Owen-scrambled (0, 2)-sequences, one pair of dimensions for the lens and one for the pixel, after
-//   Sobol' 1967; Kollig and Keller 2002, Efficient Multidimensional Sampling; Laine and Karras 2011, Stratified
-//   Sampling for Stochastic Transparency; Burley 2020, Practical Hash-based Owen Scrambling.
+// Sampling: Owen-scrambled (0, 2)-sequences, one pair of dimensions for the lens and one for the pixel, as in
+// sample_scramble.h. packet_samples.h has the same for packets of rays.
 
 #include <cstdint>
 #include <glm/vec2.hpp>

@@ -1,5 +1,6 @@
 #include "embree/traced_scene.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "core/error.h"
@@ -13,6 +14,7 @@ namespace {
 // Rejects hits on the back of single-sided surfaces. Embree's geometric normal is (p1 − p0) × (p2 − p0).
 void cullBackFaces(const RTCFilterFunctionNArguments* arguments) {
     const auto& geometry = *static_cast<const TracedGeometry*>(arguments->geometryUserPtr);
+    if (geometry.material->doubleSided) return;
     for (unsigned i = 0; i < arguments->N; ++i) {
         if (arguments->valid[i] != -1) continue;
         const float towards =
@@ -20,6 +22,27 @@ void cullBackFaces(const RTCFilterFunctionNArguments* arguments) {
             RTCRayN_dir_y(arguments->ray, arguments->N, i) * RTCHitN_Ng_y(arguments->hit, arguments->N, i) +
             RTCRayN_dir_z(arguments->ray, arguments->N, i) * RTCHitN_Ng_z(arguments->hit, arguments->N, i);
         if (towards * geometry.facing > 0) arguments->valid[i] = 0;
+    }
+}
+
+// Which lanes of `mask` hit the back of a single-sided surface; whether any did.
+DEFOCUS_VECTOR_CLONES bool findBackFaces(const float* culledFacing, std::uint32_t miss, const LaneMask& mask,
+                                         const RTCRayHit16& packet, LaneMask& back) {
+    int any = 0;
+    for (int i = 0; i < packetSize; ++i) {
+        const float towards = packet.ray.dir_x[i] * packet.hit.Ng_x[i] + packet.ray.dir_y[i] * packet.hit.Ng_y[i] +
+                              packet.ray.dir_z[i] * packet.hit.Ng_z[i];
+        const auto geometry = static_cast<std::int32_t>(std::min(packet.hit.geomID[i], miss));
+        back[i] = towards * culledFacing[geometry] > 0 ? mask[i] : 0;
+        any |= back[i];
+    }
+    return any != 0;
+}
+
+void forgetHits(const LaneMask& mask, float farthest, RTCRayHit16& packet) {
+    for (int i = 0; i < packetSize; ++i) {
+        packet.ray.tfar[i] = mask[i] != 0 ? farthest : packet.ray.tfar[i];
+        packet.hit.geomID[i] = mask[i] != 0 ? RTC_INVALID_GEOMETRY_ID : packet.hit.geomID[i];
     }
 }
 
@@ -56,7 +79,7 @@ void TracedScene::addPrimitive(const TracedGeometry& geometry, const std::vector
                                3 * sizeof(std::uint32_t), indices.size() / 3);
     geometries_.push_back(geometry);
     rtcSetGeometryUserData(handle, &geometries_.back());
-    if (!geometry.material->doubleSided) rtcSetGeometryIntersectFilterFunction(handle, cullBackFaces);
+    culledFacing_.push_back(geometry.material->doubleSided ? 0 : geometry.facing);
     rtcCommitGeometry(handle);
     rtcAttachGeometryByID(scene_, handle, static_cast<unsigned>(geometries_.size() - 1));
     rtcReleaseGeometry(handle);
@@ -89,15 +112,16 @@ void TracedScene::addObject(const World& world, const Object& object, const glm:
     }
 }
 
-TracedScene::TracedScene(const World& world, const glm::dmat4& worldFromCamera) : device_(rtcNewDevice(nullptr)) {
+TracedScene::TracedScene(const World& world, const glm::dmat4& worldFromCamera, const TraceOptions& options)
+    : device_(rtcNewDevice(nullptr)), options_(options) {
     if (device_ == nullptr) fail("Embree: no device (error {})", static_cast<int>(rtcGetDeviceError(nullptr)));
     rtcSetDeviceMemoryMonitorFunction(device_, countMemory, this);
     scene_ = rtcNewScene(device_);
     try {
-        // Robust: rays that run along shared edges must not slip through.
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        if (options_.watertight) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
         for (const Object& object : world.pose.objects) addObject(world, object, cameraFromWorld);
+        culledFacing_.push_back(0);
         rtcCommitScene(scene_);
         checkEmbree("building the hierarchy");
     } catch (...) {
@@ -112,11 +136,18 @@ TracedScene::~TracedScene() {
     rtcReleaseDevice(device_);
 }
 
-void TracedScene::trace(std::span<RTCRayHit> rays) const {
+void TracedScene::trace(const LaneMask& mask, float farthest, RTCRayHit16& packet) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect1M(scene_, &context, rays.data(), static_cast<unsigned>(rays.size()), sizeof(RTCRayHit));
+    context.flags = options_.coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    forgetHits(mask, farthest, packet);
+    rtcIntersect16(mask.values.data(), scene_, &context, &packet);
+
+    LaneMask back;
+    if (!findBackFaces(culledFacing_.data(), geometryCount(), mask, packet, back)) return;
+    context.filter = cullBackFaces;
+    forgetHits(back, farthest, packet);
+    rtcIntersect16(back.values.data(), scene_, &context, &packet);
 }
 
 }  // namespace defocus

@@ -2,8 +2,9 @@
 // A posed scene as one Embree bounding-volume hierarchy in camera space: level 0 of every mesh as it was read, not the
 // pyramid's copy of it. Transforms are composed in double and reach Embree relative to the camera.
 //
-// Single-sided materials are culled from behind, with the winding turned by mirroring transforms, as glTF asks. Every
-// surface is opaque: alpha masks and blending are not traced.
+// Single-sided materials are culled from behind, with the winding turned by mirroring transforms, as glTF asks. Packets
+// are traced without asking at every hit; only rays that ended on the back of such a surface are traced once more, with
+// a filter. Every surface is opaque: alpha masks and blending are not traced.
 
 #include <embree3/rtcore.h>
 
@@ -12,9 +13,9 @@
 #include <deque>
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
-#include <span>
 #include <vector>
 
+#include "embree/ray_packet.h"
 #include "plan/view.h"
 
 namespace defocus {
@@ -30,16 +31,23 @@ struct TracedGeometry {
     float facing = 1;                       // −1 where the transform mirrors, so that front faces are clockwise
 };
 
+struct TraceOptions {
+    bool watertight = true;  // no ray slips through between two triangles; a little slower
+    bool coherent = true;    // the rays of a packet go much the same way
+};
+
 class TracedScene {
 public:
-    TracedScene(const World& world, const glm::dmat4& worldFromCamera);
+    TracedScene(const World& world, const glm::dmat4& worldFromCamera, const TraceOptions& options);
     ~TracedScene();
     TracedScene(const TracedScene&) = delete;
     TracedScene& operator=(const TracedScene&) = delete;
 
-    // Nearest hits of camera-space rays. Called from any number of threads.
-    void trace(std::span<RTCRayHit> rays) const;
+    // Nearest hits of camera-space rays, from tnear to `farthest`, of the lanes in `mask`; the others stay as they are.
+    // Called from any number of threads.
+    void trace(const LaneMask& mask, float farthest, RTCRayHit16& packet) const;
     [[nodiscard]] const TracedGeometry& geometry(std::uint32_t id) const { return geometries_[id]; }
+    [[nodiscard]] std::uint32_t geometryCount() const { return static_cast<std::uint32_t>(geometries_.size()); }
     [[nodiscard]] std::uint64_t triangleCount() const { return triangleCount_; }
     [[nodiscard]] std::uint64_t peakBytes() const { return peakBytes_; }
 
@@ -51,10 +59,13 @@ private:
 
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
+    TraceOptions options_;
     Material defaultMaterial_;
     std::deque<TracedGeometry> geometries_;         // by Embree geometry id; addresses stay put for the filter
     std::deque<std::vector<glm::vec4>> positions_;  // camera space, one array an object; Embree reads them in place
     std::deque<std::vector<glm::vec3>> normals_;    // world space, one array a deformed object
+    // By Embree geometry id, and one more for a miss: facing of single-sided surfaces, 0 of all else.
+    std::vector<float> culledFacing_;
     std::uint64_t triangleCount_ = 0;
     std::atomic<std::int64_t> bytes_ = 0;
     std::atomic<std::int64_t> peakBytes_ = 0;

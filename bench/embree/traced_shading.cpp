@@ -24,8 +24,8 @@ struct Corners {
     }
 };
 
-Corners cornersOf(const TracedGeometry& geometry, const RTCHit& hit) {
-    const std::uint32_t* first = geometry.primitive->indices.data() + 3 * static_cast<std::size_t>(hit.primID);
+Corners cornersOf(const TracedGeometry& geometry, const SurfaceHit& hit) {
+    const std::uint32_t* first = geometry.primitive->indices.data() + 3 * static_cast<std::size_t>(hit.triangle);
     return {{first[0], first[1], first[2]}, glm::vec3(1 - hit.u - hit.v, hit.u, hit.v)};
 }
 
@@ -96,10 +96,9 @@ glm::vec3 baseColor(const Scene& scene, const TracedGeometry& geometry, const Co
 }
 
 // Unit, world space, on the side that the ray came from.
-glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, const RTCRayHit& ray) {
-    const glm::vec3 facet(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
-    const float behind = glm::dot(facet, glm::vec3(ray.ray.dir_x, ray.ray.dir_y, ray.ray.dir_z)) * geometry.facing;
-    const glm::vec3 front = geometry.normals->empty() ? geometry.facing * (geometry.worldFromCamera * facet)
+glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, const SurfaceHit& hit) {
+    const float behind = glm::dot(hit.facet, hit.direction) * geometry.facing;
+    const glm::vec3 front = geometry.normals->empty() ? geometry.facing * (geometry.worldFromCamera * hit.facet)
                                                       : geometry.worldNormalFromObject * corners.mix(*geometry.normals);
     const float length = glm::length(front);
     return length > 0 ? front * ((behind > 0 ? -1.0f : 1.0f) / length) : glm::vec3(0);
@@ -107,13 +106,12 @@ glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, 
 
 }  // namespace
 
-glm::vec3 surfaceRadiance(const World& world, const TracedScene& scene, const RTCRayHit& ray) {
-    const TracedGeometry& geometry = scene.geometry(ray.hit.geomID);
-    const Corners corners = cornersOf(geometry, ray.hit);
+glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, const SurfaceHit& hit) {
+    const Corners corners = cornersOf(geometry, hit);
     const glm::vec3 base = baseColor(*world.scene, geometry, corners);
     if (geometry.material->unlit) return base;
 
-    const glm::vec3 normal = shadingNormal(geometry, corners, ray);
+    const glm::vec3 normal = shadingNormal(geometry, corners, hit);
     const glm::vec3 albedo = base * (1 - geometry.material->metallicFactor) / std::numbers::pi_v<float>;
     glm::vec3 radiance = geometry.material->emissiveFactor;
     for (const PlacedLight& light : world.lights) {
@@ -122,13 +120,6 @@ glm::vec3 surfaceRadiance(const World& world, const TracedScene& scene, const RT
         radiance += albedo * light.light.color * light.light.intensity * cosine;
     }
     return radiance;
-}
-
-glm::vec3 backgroundRadiance(const Environment& environment, const glm::dvec3& direction) {
-    if (environment.type == EnvironmentType::none) return glm::vec3(0);
-    if (environment.type == EnvironmentType::uniform) return environment.zenith;
-    const auto height = static_cast<float>(direction.y / glm::length(direction));
-    return glm::mix(environment.horizon, height >= 0 ? environment.zenith : environment.nadir, std::abs(height));
 }
 
 }  // namespace defocus

@@ -1,17 +1,23 @@
 #pragma once
-// What a ray sees: unlit surfaces, Lambert under the directional lights of the scene (no shadows, nothing from the
-// environment), and a uniform or gradient background evaluated exactly along the ray.
+// What a single ray sees of a surface: unlit surfaces, Lambert under the directional lights of the scene (no shadows,
+// nothing from the environment). What packets see, packet_shading.h.
 
-#include <embree3/rtcore.h>
+#include <cstdint>
 
 #include "embree/traced_scene.h"
 
 namespace defocus {
 
-// Linear radiance towards the camera at a hit. Base colour: factor × vertex colour × texture at level 0.
-glm::vec3 surfaceRadiance(const World& world, const TracedScene& scene, const RTCRayHit& ray);
+// As Embree gives it; camera space.
+struct SurfaceHit {
+    std::uint32_t triangle = 0;  // of the primitive
+    float u = 0;                 // weight of the triangle's second corner
+    float v = 0;                 // of its third
+    glm::vec3 facet{0.0f};       // normal of the triangle, any length
+    glm::vec3 direction{0.0f};   // of the ray
+};
 
-// Radiance from infinity along a world-space direction (any length). Environment maps are not traced.
-glm::vec3 backgroundRadiance(const Environment& environment, const glm::dvec3& direction);
+// Linear radiance towards the camera at a hit. Base colour: factor × vertex colour × texture at level 0.
+glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, const SurfaceHit& hit);
 
 }  // namespace defocus
