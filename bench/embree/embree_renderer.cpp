@@ -5,7 +5,9 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+#include <span>
 #include <thread>
+#include <vector>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -34,8 +36,19 @@ constexpr float infinitelyFar = std::numeric_limits<float>::infinity();
 
 // Of a tile's pixels.
 struct TileSeeds {
-    std::array<PacketSeeds, packetsPerTile> pixel;
-    std::array<PacketSeeds, packetsPerTile> lens;
+    std::array<ReversedLanes, packetsPerTile> pixel;
+    std::array<ReversedLanes, packetsPerTile> lens;
+};
+
+// What all tiles have in common of a sample.
+struct WaveSample {
+    std::uint32_t index = 0;  // in the sequence
+    // One point for all pixels: in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
+    glm::dvec2 pixel{0};
+    glm::dvec2 lens{0};
+    // Of pixels that have points of their own.
+    ReversedLanes ownPixel;
+    ReversedLanes ownLens;
 };
 
 RTCRayHit16 emptyPacket(double nearest) {
@@ -87,12 +100,7 @@ public:
     [[nodiscard]] RenderStats stats() const override;
 
 private:
-    // Where a sample lies in its pixel ([0, 1)² px, right and down) and on the lens (unit disk).
-    struct SampleOffset {
-        glm::dvec2 pixel{0};
-        glm::dvec2 lens{0};
-    };
-    // A tile's place: its number, its first pixel, and its packets' first sum.
+    // Its first pixel, and its packets' first sum.
     struct Tile {
         int left = 0;
         int top = 0;
@@ -104,16 +112,16 @@ private:
     [[nodiscard]] int tileRows() const { return (view_.height + tileSide - 1) / tileSide; }
     [[nodiscard]] bool ownSamples() const { return sampling_ == EmbreeSampling::perPixel; }
 
-    [[nodiscard]] std::uint32_t streamOf(const Tile& tile, int place, int lane) const;
-    [[nodiscard]] SampleOffset sharedOffset(std::uint32_t sample) const;
+    [[nodiscard]] WaveSample waveSample(std::uint32_t sample) const;
+    [[nodiscard]] std::uint32_t firstStream(const Tile& tile, int place) const;
     [[nodiscard]] TileSeeds tileSeeds(const Tile& tile) const;
     [[nodiscard]] PacketPoints ownPoints(const Tile& tile, int place, const TileSeeds& seeds,
-                                         std::uint32_t sample) const;
+                                         const WaveSample& sample) const;
     [[nodiscard]] LaneMask lanesInside(const Tile& tile, int place) const;
     void traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
                       RTCRayHit16& packet) const;
-    void traceSample(const Tile& tile, const TileSeeds& seeds, std::uint32_t sample, RTCRayHit16& packet);
-    void traceTile(int number, std::uint32_t firstSample, std::uint32_t count);
+    void traceSample(const Tile& tile, const TileSeeds& seeds, const WaveSample& sample, RTCRayHit16& packet);
+    void traceTile(int number, std::span<const WaveSample> wave);
 
     const World& world_;
     EmbreeSampling sampling_;
@@ -163,52 +171,57 @@ std::uint32_t EmbreeRenderer::sampleCount() const {
 
 // ---- samples --------------------------------------------------------------------------------------------------------
 
-EmbreeRenderer::SampleOffset EmbreeRenderer::sharedOffset(std::uint32_t sample) const {
-    if (ownSamples()) return {};
+WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
+    WaveSample sample;
+    sample.index = settings_.firstSample + number;
     if (sampling_ == EmbreeSampling::planned) {
-        const LensSample& planned = planned_[sample];
-        return {{0.5 + planned.pixel.x, 0.5 - planned.pixel.y}, glm::dvec2(planned.lens)};
+        const LensSample& planned = planned_[number];
+        sample.pixel = {0.5 + planned.pixel.x, 0.5 - planned.pixel.y};
+        sample.lens = glm::dvec2(planned.lens);
+    } else if (sampling_ == EmbreeSampling::shared) {
+        sample.pixel = scrambledPoint(sample.index, 0, SamplePair::pixel, settings_.seed);
+        sample.lens =
+            mask_ ? mask_->lensPoint(sample.index, 0, settings_.seed)
+                  : aperturePoint(view_.lens, scrambledPoint(sample.index, 0, SamplePair::lens, settings_.seed));
+    } else {
+        sample.ownPixel = unscrambledPoints(sample.index, SamplePair::pixel, settings_.seed);
+        sample.ownLens = unscrambledPoints(sample.index, SamplePair::lens, settings_.seed);
     }
-    const std::uint32_t index = settings_.firstSample + sample;
-    return {scrambledPoint(index, 0, SamplePair::pixel, settings_.seed),
-            mask_ ? mask_->lensPoint(index, 0, settings_.seed)
-                  : aperturePoint(view_.lens, scrambledPoint(index, 0, SamplePair::lens, settings_.seed))};
+    return sample;
 }
 
-std::uint32_t EmbreeRenderer::streamOf(const Tile& tile, int place, int lane) const {
-    const int x = tile.left + place % packetsPerTileRow * packetSide + lane % packetSide;
-    const int y = tile.top + place / packetsPerTileRow * packetSide + lane / packetSide;
-    return static_cast<std::uint32_t>(y * view_.width + x);
+// Pixels are numbered packet by packet.
+std::uint32_t EmbreeRenderer::firstStream(const Tile& tile, int place) const {
+    const int column = tile.left / packetSide + place % packetsPerTileRow;
+    const int row = tile.top / packetSide + place / packetsPerTileRow;
+    return static_cast<std::uint32_t>((row * tileColumns() * packetsPerTileRow + column) * packetSize);
 }
 
 TileSeeds EmbreeRenderer::tileSeeds(const Tile& tile) const {
     TileSeeds seeds;
     if (!ownSamples()) return seeds;
     for (int place = 0; place < packetsPerTile; ++place) {
-        Lanes<std::uint32_t> streams;
-        for (int i = 0; i < packetSize; ++i) streams[i] = streamOf(tile, place, i);
         const auto at = static_cast<std::size_t>(place);
-        seeds.pixel[at] = packetSeeds(streams, SamplePair::pixel, settings_.seed);
-        seeds.lens[at] = packetSeeds(streams, SamplePair::lens, settings_.seed);
+        const std::uint32_t stream = firstStream(tile, place);
+        seeds.pixel[at] = packetSeeds(stream, SamplePair::pixel, settings_.seed);
+        seeds.lens[at] = packetSeeds(stream, SamplePair::lens, settings_.seed);
     }
     return seeds;
 }
 
 PacketPoints EmbreeRenderer::ownPoints(const Tile& tile, int place, const TileSeeds& seeds,
-                                       std::uint32_t sample) const {
-    const std::uint32_t index = settings_.firstSample + sample;
+                                       const WaveSample& sample) const {
     const auto at = static_cast<std::size_t>(place);
     PacketPoints points;
-    scramblePoints(unscrambledPoint(index, SamplePair::pixel, settings_.seed), seeds.pixel[at], points.pixelX,
-                   points.pixelY);
+    scramblePoints(sample.ownPixel, seeds.pixel[at], points.pixelX, points.pixelY);
     if (!mask_) {
-        scramblePoints(unscrambledPoint(index, SamplePair::lens, settings_.seed), seeds.lens[at], points.lensX,
-                       points.lensY);
+        scramblePoints(sample.ownLens, seeds.lens[at], points.lensX, points.lensY);
         mapToAperture(aperture_, points.lensX, points.lensY);
         return points;
     }
     for (int i = 0; i < packetSize; ++i) {
-        const glm::vec2 lens(mask_->lensPoint(index, streamOf(tile, place, i), settings_.seed));
+        const std::uint32_t stream = firstStream(tile, place) + static_cast<std::uint32_t>(i);
+        const glm::vec2 lens(mask_->lensPoint(sample.index, stream, settings_.seed));
         points.lensX[i] = lens.x;
         points.lensY[i] = lens.y;
     }
@@ -251,9 +264,9 @@ void EmbreeRenderer::traceLimited(const Tile& tile, int place, const PacketPoint
     scene_->trace(missed, infinitelyFar, packet);
 }
 
-void EmbreeRenderer::traceSample(const Tile& tile, const TileSeeds& seeds, std::uint32_t sample, RTCRayHit16& packet) {
-    const SampleOffset shared = sharedOffset(sample);
-    const TileRays rays = tileRays(camera_, view_, tile.left, tile.top, shared.pixel, shared.lens);
+void EmbreeRenderer::traceSample(const Tile& tile, const TileSeeds& seeds, const WaveSample& sample,
+                                 RTCRayHit16& packet) {
+    const TileRays rays = tileRays(camera_, view_, tile.left, tile.top, sample.pixel, sample.lens);
     for (int place = 0; place < packetsPerTile; ++place) {
         const LaneMask mask = lanesInside(tile, place);
         if (mask[0] == 0) continue;
@@ -261,7 +274,7 @@ void EmbreeRenderer::traceSample(const Tile& tile, const TileSeeds& seeds, std::
         if (ownSamples())
             points = ownPoints(tile, place, seeds, sample);
         else if (camera_.lensDepth > 0)
-            points = samePoints(shared.pixel, shared.lens);
+            points = samePoints(sample.pixel, sample.lens);
 
         if (camera_.lensDepth > 0) {
             traceLimited(tile, place, points, mask, packet);
@@ -276,21 +289,23 @@ void EmbreeRenderer::traceSample(const Tile& tile, const TileSeeds& seeds, std::
     }
 }
 
-void EmbreeRenderer::traceTile(int number, std::uint32_t firstSample, std::uint32_t count) {
+void EmbreeRenderer::traceTile(int number, std::span<const WaveSample> wave) {
     const Tile tile{.left = number % tileColumns() * tileSide,
                     .top = number / tileColumns() * tileSide,
                     .sums = sums_.data() + static_cast<std::size_t>(number) * packetsPerTile};
     const TileSeeds seeds = tileSeeds(tile);
     RTCRayHit16 packet = emptyPacket(view_.nearPlane);
-    for (std::uint32_t i = 0; i < count; ++i) traceSample(tile, seeds, firstSample + i, packet);
+    for (const WaveSample& sample : wave) traceSample(tile, seeds, sample, packet);
 }
 
 bool EmbreeRenderer::advance() {
     if (samples_ >= sampleCount()) return false;
     const Clock::time_point begin = Clock::now();
     const std::uint32_t count = std::min(samplesPerWave, sampleCount() - samples_);
+    std::vector<WaveSample> wave;
+    for (std::uint32_t i = 0; i < count; ++i) wave.push_back(waveSample(samples_ + i));
     parallelFor(static_cast<std::size_t>(tileColumns()) * static_cast<std::size_t>(tileRows()),
-                [&](std::size_t tile) { traceTile(static_cast<int>(tile), samples_, count); });
+                [&](std::size_t tile) { traceTile(static_cast<int>(tile), wave); });
     samples_ += count;
     renderMilliseconds_ += millisecondsSince(begin);
     return samples_ < sampleCount();

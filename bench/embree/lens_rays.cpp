@@ -68,11 +68,11 @@ LensRay lensRay(const LensCamera& camera, const glm::dvec2& image, const glm::dv
     return {glm::vec3(point, 0), glm::vec3(slope, -1)};
 }
 
-ReversedPoint unscrambledPoint(std::uint32_t index, SamplePair pair, std::uint32_t seed) {
+ReversedPoint unscrambledPoint(std::uint32_t index, std::uint32_t order, SamplePair pair, std::uint32_t seed) {
     // Each pair visits the points in its own order, so that lens and pixel positions are not tied to each other.
     // Scrambled as a fraction, an index keeps to its aligned block of 2^n, so that such blocks stay nets.
-    const std::uint32_t order = mixed(mixed(seed, static_cast<std::uint32_t>(pair)), 1);
-    const std::uint32_t shuffled = owenScrambled(reversedBits(index), order);
+    const std::uint32_t salt = mixed(mixed(seed, static_cast<std::uint32_t>(pair)), 1);
+    const std::uint32_t shuffled = owenScrambled(reversedBits(index), mixed(order, salt));
     return {shuffled, reversedBits(sobolSecond(shuffled))};
 }
 
@@ -82,7 +82,7 @@ ReversedPoint scrambleSeeds(std::uint32_t stream, SamplePair pair, std::uint32_t
 }
 
 glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair pair, std::uint32_t seed) {
-    const ReversedPoint point = unscrambledPoint(index, pair, seed);
+    const ReversedPoint point = unscrambledPoint(index, stream % orderCount, pair, seed);
     const ReversedPoint own = scrambleSeeds(stream, pair, seed);
     return {owenScrambled(point.x, own.x) * 0x1p-32, owenScrambled(point.y, own.y) * 0x1p-32};
 }

@@ -32,14 +32,17 @@ DEFOCUS_VECTOR_CLONES void mapToDisk(const ApertureMap& map, FloatLanes& x, Floa
     }
 }
 
-DEFOCUS_VECTOR_CLONES void mapToPolygon(const ApertureMap& map, FloatLanes& x, FloatLanes& y) {
+DEFOCUS_VECTOR_CLONES void mapToPolygon(const ApertureMap& __restrict map, FloatLanes& __restrict x,
+                                        FloatLanes& __restrict y) {
     const auto blades = static_cast<float>(map.bladeCount);
+    const int last = map.bladeCount - 1;
     const float* cornerX = map.cornerX.data();
     const float* cornerY = map.cornerY.data();
     for (int i = 0; i < packetSize; ++i) {
         const float radius = std::sqrt(x[i]);
         const float turn = y[i] * blades;
-        const int blade = std::min(static_cast<int>(turn), map.bladeCount - 1);
+        const int whole = static_cast<int>(turn);
+        const int blade = whole < last ? whole : last;
         const float along = turn - static_cast<float>(blade);
         x[i] = map.scaleX * radius * (cornerX[blade] + along * (cornerX[blade + 1] - cornerX[blade]));
         y[i] = map.scaleY * radius * (cornerY[blade] + along * (cornerY[blade + 1] - cornerY[blade]));
@@ -48,22 +51,32 @@ DEFOCUS_VECTOR_CLONES void mapToPolygon(const ApertureMap& map, FloatLanes& x, F
 
 }  // namespace
 
-PacketSeeds packetSeeds(const Lanes<std::uint32_t>& streams, SamplePair pair, std::uint32_t seed) {
-    PacketSeeds seeds;
+ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed) {
+    ReversedLanes points;
     for (int i = 0; i < packetSize; ++i) {
-        const ReversedPoint own = scrambleSeeds(streams[i], pair, seed);
+        const ReversedPoint point = unscrambledPoint(index, static_cast<std::uint32_t>(i), pair, seed);
+        points.x[i] = point.x;
+        points.y[i] = point.y;
+    }
+    return points;
+}
+
+ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed) {
+    ReversedLanes seeds;
+    for (int i = 0; i < packetSize; ++i) {
+        const ReversedPoint own = scrambleSeeds(firstStream + static_cast<std::uint32_t>(i), pair, seed);
         seeds.x[i] = own.x;
         seeds.y[i] = own.y;
     }
     return seeds;
 }
 
-DEFOCUS_VECTOR_CLONES void scramblePoints(const ReversedPoint& point, const PacketSeeds& seeds, FloatLanes& x,
+DEFOCUS_VECTOR_CLONES void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x,
                                           FloatLanes& y) {
     for (int i = 0; i < packetSize; ++i)  // 24 bits are what a float has
-        x[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(point.x, seeds.x[i]) >> 8));
+        x[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(points.x[i], seeds.x[i]) >> 8));
     for (int i = 0; i < packetSize; ++i)
-        y[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(point.y, seeds.y[i]) >> 8));
+        y[i] = 0x1p-24f * static_cast<float>(static_cast<std::int32_t>(owenScrambled(points.y[i], seeds.y[i]) >> 8));
 }
 
 ApertureMap::ApertureMap(const Lens& lens)

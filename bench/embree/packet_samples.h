@@ -10,15 +10,19 @@
 
 namespace defocus {
 
-// Of 16 streams, for all samples.
-struct PacketSeeds {
+// A ReversedPoint a lane.
+struct ReversedLanes {
     Lanes<std::uint32_t> x, y;
 };
 
-PacketSeeds packetSeeds(const Lanes<std::uint32_t>& streams, SamplePair pair, std::uint32_t seed);
+// unscrambledPoint in all orders: the same for every packet.
+ReversedLanes unscrambledPoints(std::uint32_t index, SamplePair pair, std::uint32_t seed);
+
+// scrambleSeeds of the streams firstStream (a multiple of 16) and on: the same for every sample.
+ReversedLanes packetSeeds(std::uint32_t firstStream, SamplePair pair, std::uint32_t seed);
 
 // Points in [0, 1)².
-void scramblePoints(const ReversedPoint& point, const PacketSeeds& seeds, FloatLanes& x, FloatLanes& y);
+void scramblePoints(const ReversedLanes& points, const ReversedLanes& seeds, FloatLanes& x, FloatLanes& y);
 
 // aperturePoint for packets: what of it is the same for all points.
 struct ApertureMap {

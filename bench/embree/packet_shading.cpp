@@ -75,7 +75,7 @@ void PacketShading::addGeometry(const TracedGeometry& geometry) {
 }
 
 DEFOCUS_VECTOR_CLONES void PacketShading::baseColors(const Surfaces& surfaces, const RTCRayHit16& packet,
-                                                     PacketColors& colors) {
+                                                     PacketColors& __restrict colors) {
     const std::int32_t* firstColor = surfaces.firstColor.data();
     const std::int32_t* colorsPerTriangle = surfaces.colorsPerTriangle.data();
     const std::uint32_t* corners = surfaces.cornerColors.data();
@@ -100,22 +100,21 @@ DEFOCUS_VECTOR_CLONES void PacketShading::baseColors(const Surfaces& surfaces, c
 }
 
 DEFOCUS_VECTOR_CLONES void PacketShading::skyColors(const Sky& sky, std::uint32_t miss, const RTCRayHit16& packet,
-                                                    PacketColors& colors) {
+                                                    PacketColors& __restrict colors) {
+    const glm::vec3 toZenith = sky.zenith - sky.horizon;
+    const glm::vec3 toNadir = sky.nadir - sky.horizon;
     for (int i = 0; i < packetSize; ++i) {
         const float x = packet.ray.dir_x[i];
         const float y = packet.ray.dir_y[i];
         const float z = packet.ray.dir_z[i];
         const float height = (x * sky.up.x + y * sky.up.y + z * sky.up.z) / std::sqrt(x * x + y * y + z * z);
-        const float above = std::max(height, 0.0f);
-        const float below = std::max(-height, 0.0f);
-        const auto mixed = [&](float horizon, float zenith, float nadir) __attribute__((always_inline)) {
-            return horizon + above * (zenith - horizon) + below * (nadir - horizon);
-        };
-        const bool missed = packet.hit.geomID[i] >= miss;
-        colors.red[i] = missed ? mixed(sky.horizon.x, sky.zenith.x, sky.nadir.x) : colors.red[i];
-        colors.green[i] = missed ? mixed(sky.horizon.y, sky.zenith.y, sky.nadir.y) : colors.green[i];
-        colors.blue[i] = missed ? mixed(sky.horizon.z, sky.zenith.z, sky.nadir.z) : colors.blue[i];
-        colors.alpha[i] = missed ? sky.alpha : colors.alpha[i];
+        const float above = height > 0 ? height : 0;
+        const float below = height > 0 ? 0 : -height;
+        const float missed = packet.hit.geomID[i] >= miss ? 1.0f : 0.0f;  // colours of misses are black so far
+        colors.red[i] += missed * (sky.horizon.x + above * toZenith.x + below * toNadir.x);
+        colors.green[i] += missed * (sky.horizon.y + above * toZenith.y + below * toNadir.y);
+        colors.blue[i] += missed * (sky.horizon.z + above * toZenith.z + below * toNadir.z);
+        colors.alpha[i] = 1 - missed * (1 - sky.alpha);
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The integers behind lens_rays.h's scrambled points and their packets: one Sobol' point a sample for all streams, and
-// an Owen scramble of each stream's own, a few operations on 32 bits.
+// The integers behind lens_rays.h's scrambled points and their packets: a Sobol' point that many streams share, and an
+// Owen scramble of each stream's own, a few operations on 32 bits.
 //
 //   Sobol' 1967; Kollig and Keller 2002, Efficient Multidimensional Sampling; Laine and Karras 2011, Stratified
 //   Sampling for Stochastic Transparency; Burley 2020, Practical Hash-based Owen Scrambling.
@@ -37,8 +37,10 @@ DEFOCUS_ALWAYS_INLINE std::uint32_t owenScrambled(std::uint32_t reversed, std::u
     return reversedBits(x);
 }
 
-// Point `index` of a pair's sequence before it is scrambled, the same for all streams.
-ReversedPoint unscrambledPoint(std::uint32_t index, SamplePair pair, std::uint32_t seed);
+// Point `index` of a pair's sequence before it is scrambled, in one of 16 orders. Stream s has order s % 16, so that a
+// packet's pixels have one of each, made once a sample for all packets: what an order does badly, others do well.
+ReversedPoint unscrambledPoint(std::uint32_t index, std::uint32_t order, SamplePair pair, std::uint32_t seed);
+inline constexpr std::uint32_t orderCount = packetSize;
 
 // What a stream scrambles the two dimensions of a pair with.
 ReversedPoint scrambleSeeds(std::uint32_t stream, SamplePair pair, std::uint32_t seed);
