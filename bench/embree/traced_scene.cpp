@@ -118,7 +118,8 @@ TracedScene::TracedScene(const World& world, const glm::dmat4& worldFromCamera, 
     rtcSetDeviceMemoryMonitorFunction(device_, countMemory, this);
     scene_ = rtcNewScene(device_);
     try {
-        if (options_.watertight) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION |
+                                                            (options_.watertight ? RTC_SCENE_FLAG_ROBUST : 0)));
         const glm::dmat4 cameraFromWorld = glm::inverse(worldFromCamera);
         for (const Object& object : world.pose.objects) addObject(world, object, cameraFromWorld);
         culledFacing_.push_back(0);
