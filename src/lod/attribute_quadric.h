@@ -61,6 +61,16 @@ struct AttributeQuadric {
         }
     }
 
+    // Another quadric of this vertex, of faces that have not been collapsed.
+    void addFaces(const AttributeQuadric& other) {
+        squares.add(other.squares, glm::vec3(0));
+        for (std::size_t j = 0; j < attributeCount; ++j) {
+            gradients.x[j] += other.gradients.x[j];
+            gradients.y[j] += other.gradients.y[j];
+            gradients.z[j] += other.gradients.z[j];
+        }
+    }
+
     // The quadric of another vertex, from which `step` and `change` lead to this one's place and attributes.
     void add(const AttributeQuadric& other, const glm::vec3& step, const AttributeRow& change) {
         const float cost = other.at(step, change);

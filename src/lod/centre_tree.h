@@ -21,7 +21,7 @@ public:
         build(0, order_.size(), 0);
     }
 
-    // The nearest that counts(component), in the units of the centres, or EdgeSide::none; the search gives up after
+    // The nearest that counts(component), in the units of the centres, or Corner::none; the search gives up after
     // mostVisits, so that it may miss one among many that don't count.
     template <typename Counts>
     [[nodiscard]] std::uint32_t nearest(const glm::dvec3& point, const Counts& counts) const {
@@ -36,7 +36,7 @@ private:
     struct Search {
         glm::dvec3 point;
         double leastSquared = std::numeric_limits<double>::infinity();
-        std::uint32_t best = EdgeSide::none;
+        std::uint32_t best = Corner::none;
         std::uint32_t visits = 0;
     };
 

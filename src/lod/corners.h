@@ -1,48 +1,91 @@
 #pragma once
-// Corners and wedges (Hoppe 1998): the surface is joined by position, but each corner of a face draws a mesh vertex of
-// its own, its wedge, so that UV seams, creases and material borders live on a closed surface. When a vertex collapses
-// onto another, each of its corners takes over a wedge of the survivor.
+// Corners, half-edges and wedges. The surface is joined by position, but each corner of a face draws a mesh vertex of
+// its own, its wedge (Hoppe 1998), so that UV seams, creases and material borders live on a closed surface. When a
+// vertex collapses onto another, each of its corners takes over a wedge of the survivor.
+//
+// Corner 3·f + i of face f is also the half-edge that runs from there to the face's next corner (Rossignac, Safonova
+// and Szymczak 2001, 3D Compression Made Simple: Edgebreaker on a Corner Table).
 
 #include <cstdint>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
+#include "lod/attribute_quadric.h"
+
 namespace defocus {
 
-// What makes wedges alike. Colours are in [0, 1]; uv is scaled to object lengths (see scaledAttributes).
-struct WedgeAttributes {
-    glm::vec3 normal{0};
-    glm::vec3 color{0};
-    glm::vec2 uv{0};
+struct Corner {
+    static constexpr std::uint32_t none = 0xffffffffu;
+    std::uint32_t vertex = none;  // of the surface; none: the face is gone (as told by its first corner)
+    std::uint32_t twin = none;    // the half-edge on the other side, which runs the other way; none at a border
+    std::uint32_t wedge = none;
 };
 
-struct Corners {
-    std::vector<std::uint32_t> vertex;        // of the surface, three a face
-    std::vector<std::uint32_t> wedge;         // mesh vertex, three a face
-    std::vector<std::uint32_t> primitive;     // one a face
-    std::vector<WedgeAttributes> attributes;  // of each mesh vertex
+constexpr std::uint32_t nextCorner(std::uint32_t corner) {
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+constexpr std::uint32_t previousCorner(std::uint32_t corner) {
+    return corner % 3 == 0 ? corner + 2 : corner - 1;
+}
 
-    // The corner of `face` at `v`, which it has.
-    [[nodiscard]] std::uint32_t at(std::uint32_t face, std::uint32_t v) const {
-        const std::uint32_t first = 3 * face;
-        return vertex[first] == v ? first : vertex[first + 1] == v ? first + 1 : first + 2;
+// The distance, in the mesh's longest sides, that weighs as much as a unit of an attribute (of uv: scaled to lengths of
+// the surface, so that it tells a texture that slides). Swept on the school of fish: half or twice as much costs up to
+// 0.5 dB at the same triangles.
+constexpr float normalWeight = 0.003f;
+constexpr float colorWeight = 0.005f;  // of colours in [0, 1]
+constexpr float uvWeight = 0.05f;
+
+// What all corners that draw one mesh vertex share.
+struct Wedge {
+    AttributeRow row{};  // attributes by the weights above: normal, colour, uv
+    AttributeQuadric quadric;
+    std::uint32_t source = 0;  // the mesh vertex
+};
+
+// Faces run around their corners so that neighbours agree.
+struct Faces {
+    std::vector<Corner> corners;            // three a face
+    std::vector<std::uint32_t> primitives;  // one a face
+    std::vector<std::uint8_t> turned;       // one a face; 1: the mesh has its last two corners the other way round
+    std::vector<Wedge> wedges;
+
+    [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(primitives.size()); }
+    [[nodiscard]] bool isAlive(std::uint32_t face) const {
+        return corners[3 * std::size_t{face}].vertex != Corner::none;
     }
 };
 
+// An edge that is to collapse: its half-edge from the vertex that goes to the one that stays, and the other way. One of
+// them may be none.
+struct Edge {
+    std::uint32_t along = Corner::none;
+    std::uint32_t back = Corner::none;
+};
+
+// Calls visit(corner) for every corner at a vertex; `first` as in SurfaceVertex.
+template <typename Visit>
+void forEachCorner(const Faces& faces, std::uint32_t first, const Visit& visit) {
+    std::uint32_t corner = first;
+    do {
+        visit(corner);
+        corner = faces.corners[previousCorner(corner)].twin;
+    } while (corner != Corner::none && corner != first);
+}
+
+// Calls visit(edge, neighbour) for every edge that leaves a vertex.
+template <typename Visit>
+void forEachEdge(const Faces& faces, std::uint32_t first, const Visit& visit) {
+    Edge edge{first, faces.corners[first].twin};
+    do {
+        visit(edge, faces.corners[nextCorner(edge.along)].vertex);
+        edge.back = previousCorner(edge.along);
+        edge.along = faces.corners[edge.back].twin;
+    } while (edge.along != Corner::none && edge.along != first);
+    if (edge.along == Corner::none) visit(edge, faces.corners[edge.back].vertex);
+}
+
 // How well a collapse, or the wedges that it hands over, suits the mesh. Worse ones wait until no better is left.
 enum class Fit : std::uint8_t { good, poor, bad, impossible };
-
-// One side of the edge that collapses: its face (or none) and the wedges of the vertex that goes and the one that
-// stays.
-struct EdgeSide {
-    static constexpr std::uint32_t none = 0xffffffffu;
-    std::uint32_t face = none;
-    std::uint32_t from = none;
-    std::uint32_t to = none;
-};
 
 struct Retarget {
     std::uint32_t corner = 0;
@@ -50,34 +93,18 @@ struct Retarget {
 };
 
 struct WedgeQuestion {
-    std::uint32_t from = 0;  // the vertex that goes
-    std::uint32_t to = 0;    // the vertex that stays
-    EdgeSide sides[2];
-    std::span<const std::uint32_t> facesFrom;  // around `from`
-    std::span<const std::uint32_t> facesTo;    // around `to`
-    double edgeLength = 0;                     // in the unit of the scaled uv
+    Edge edge;
+    std::span<const std::uint32_t> from;  // corners at the vertex that goes
+    std::span<const std::uint32_t> to;    // corners at the vertex that stays
+    double edgeLength = 0;                // in the unit of the scaled uv
 };
 
 // Picks a wedge of the survivor for every corner of the vertex that goes whose face stays: the one across the edge on
 // the same side of any seam, else the nearest of its primitive.
 //   poor: its texture would be stretched (a seam would be left); bad: it belongs to another primitive.
-Fit retargetWedges(const Corners& corners, const WedgeQuestion& question, std::vector<Retarget>& result);
+Fit retargetWedges(const Faces& faces, const WedgeQuestion& question, std::vector<Retarget>& result);
 
-// Squared difference of normals and (weighted 4) colours; and of uv as a squared length.
-inline double shadingDifference(const WedgeAttributes& a, const WedgeAttributes& b) {
-    const glm::vec3 normals = a.normal - b.normal;
-    const glm::vec3 colors = a.color - b.color;
-    return glm::dot(normals, normals) + 4 * glm::dot(colors, colors);
-}
-
-inline double uvDifference(const WedgeAttributes& a, const WedgeAttributes& b) {
-    const glm::vec2 step = a.uv - b.uv;
-    return glm::dot(step, step);
-}
-
-// No seam lies between wedges that differ in nothing but their normals.
-inline bool sameChart(const WedgeAttributes& a, const WedgeAttributes& b) {
-    return a.uv == b.uv && a.color == b.color;
-}
+// Whether no seam lies between wedges: they differ in nothing but their normals.
+bool sameChart(const AttributeRow& a, const AttributeRow& b);
 
 }  // namespace defocus

@@ -9,19 +9,14 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "lod/corners.h"
+
 namespace defocus {
 
 namespace {
 
 // Beyond this many faces at one edge nothing continues anything: all are cut apart, in time linear in their number.
 constexpr std::size_t mostFacesToPair = 32;
-
-std::uint32_t nextCorner(std::uint32_t corner) {
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-std::uint32_t previousCorner(std::uint32_t corner) {
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-}
 
 // What is known while the surface is put together; faces are those that were kept, corners and half-edges are 3·face +
 // i.

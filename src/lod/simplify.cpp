@@ -1,22 +1,18 @@
-// Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics; half-edge collapses over OpenMesh's
-// half-edges (Botsch, Steinberg, Bischoff and Kobbelt 2002). Each vertex waits for its cheapest collapse by cost alone,
-// and whether it is allowed is only looked at when it comes up: while faces are many, in sweeps over memory that allow
-// for more and more cost; then by a priority queue.
+// Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. Each vertex waits for its cheapest
+// collapse by cost alone, and whether it is allowed is only looked at when it comes up: while faces are many, in sweeps
+// over memory that allow for more and more cost; then by a priority queue. What is gone is cleared away at each level.
 
 #include "lod/simplify.h"
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "lod/simplify_state.h"
 
 namespace defocus {
 
 namespace {
-
-using OpenMesh::FaceHandle;
-using OpenMesh::HalfedgeHandle;
-using OpenMesh::VertexHandle;
 
 // A poor collapse is made when good ones cost this much more.
 constexpr float poorPenalty = 10;
@@ -37,7 +33,7 @@ constexpr double leastShareOfMovable = 0.25;
 void enqueue(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
     s.candidates[v] = candidate;
     if (!s.queued) return;
-    if (candidate.edge.is_valid())
+    if (candidate.possible())
         s.queue.put(v, candidate.cost, candidate.fit == Fit::bad);
     else
         s.queue.take(v);
@@ -52,90 +48,83 @@ void enqueueCheapest(Simplifier& s, std::uint32_t v) {
 void enqueueBest(Simplifier& s, std::uint32_t v) {
     Candidate best;
     best.fit = Fit::impossible;
-    forEachOutgoing(s.mesh, vertexHandle(v), [&](HalfedgeHandle edge) {
-        const Fit fit = judgeCollapse(s, edge);
+    forEachEdgeAround(s, v, [&](const Edge& edge, std::uint32_t to) {
+        const Fit fit = judgeCollapse(s, v, to);
         if (fit == Fit::impossible || (fit == Fit::bad && best.fit < Fit::bad)) return;
         const float cost =
-            collapseCost(s, edge, std::numeric_limits<float>::infinity()) * (fit == Fit::poor ? poorPenalty : 1);
+            collapseCost(s, edge, v, to, std::numeric_limits<float>::infinity()) * (fit == Fit::poor ? poorPenalty : 1);
         if (!(cost < best.cost) && (fit == Fit::bad || best.fit < Fit::bad)) return;
-        best = {edge, index(s.mesh.to_vertex_handle(edge)), cost, fit};
+        best = {to, cost, fit};
     });
     enqueue(s, v, best);
 }
 
 void fillQueue(Simplifier& s) {
     s.queued = true;
-    s.queue.reset(s.points.size());
-    for (std::uint32_t v = 0; v < s.points.size(); ++v)
-        if (s.survivors[v] == v && !isRemoved(s, v)) enqueueCheapest(s, v);
+    s.queue.reset(s.vertexCount());
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
+        if (s.isAlive(v)) enqueueCheapest(s, v);
 }
 
 // From here on vertices wait in the queue for what they have waited for before.
 void startQueue(Simplifier& s) {
     s.queued = true;
-    s.queue.reset(s.points.size());
-    for (std::uint32_t v = 0; v < s.points.size(); ++v)
-        if (s.survivors[v] == v && !isRemoved(s, v)) enqueue(s, v, Candidate(s.candidates[v]));
+    s.queue.reset(s.vertexCount());
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
+        if (s.isAlive(v)) enqueue(s, v, Candidate(s.candidates[v]));
 }
 
 // The survivor, and its neighbours that would have collapsed onto it or onto what is gone, or not at all, look for
 // their best anew. While faces are many, they do so when their turn comes: what they wait for has only become dearer,
 // but for the few to which the survivor is nearer than what is gone.
-void requeueAround(Simplifier& s, VertexHandle survivor, std::uint32_t gone) {
+void requeueAround(Simplifier& s, std::uint32_t survivor, std::uint32_t gone) {
     const bool atOnce = s.liveFaces <= mostFacesToFollow;
     const auto outdate = [&](std::uint32_t v) {
         Candidate& candidate = s.candidates[v];
-        if (!atOnce && candidate.edge.is_valid() && candidate.fit == Fit::good)
+        if (!atOnce && candidate.possible() && candidate.fit == Fit::good)
             candidate.outdated = true;
         else
             enqueueCheapest(s, v);
     };
-    outdate(index(survivor));
-    forEachOutgoing(s.mesh, survivor, [&](HalfedgeHandle edge) {
-        const std::uint32_t v = index(s.mesh.to_vertex_handle(edge));
+    outdate(survivor);
+    forEachEdgeAround(s, survivor, [&](const Edge& edge, std::uint32_t v) {
         const Candidate& candidate = s.candidates[v];
-        const bool known = candidate.edge.is_valid() && candidate.fit == Fit::good && candidate.to != gone &&
-                           candidate.to != index(survivor);
+        const bool known =
+            candidate.possible() && candidate.fit == Fit::good && candidate.to != gone && candidate.to != survivor;
         if (!known) return outdate(v);
         if (!atOnce || candidate.outdated) return;
-        const HalfedgeHandle back = s.mesh.opposite_halfedge_handle(edge);
-        if (const float cost = collapseCost(s, back, candidate.cost); cost < candidate.cost)
-            enqueue(s, v, {back, index(survivor), cost});
+        if (const float cost = collapseCost(s, {edge.back, edge.along}, v, survivor, candidate.cost);
+            cost < candidate.cost)
+            enqueue(s, v, {survivor, cost});
     });
 }
 
-// `s.retargets` are this edge's.
-void collapse(Simplifier& s, HalfedgeHandle edge) {
-    const HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
-    const std::uint32_t from = index(s.mesh.to_vertex_handle(opposite));
-    const VertexHandle survivor = s.mesh.to_vertex_handle(edge);
-    const std::uint32_t to = index(survivor);
-    const glm::vec3 step(s.points[to] - s.points[from]);
-    for (const HalfedgeHandle side : {edge, opposite})
-        if (s.mesh.face_handle(side).is_valid()) --s.liveFaces;
+// Of what was judged last.
+void collapse(Simplifier& s, std::uint32_t from, std::uint32_t to) {
+    const Edge edge = s.edge;
+    const glm::vec3 step(s.step(from, to));
+    for (const std::uint32_t side : {edge.along, edge.back})
+        if (side != Corner::none) --s.liveFaces;
     for (const Retarget& retarget : s.retargets) {
-        const std::uint32_t old = s.corners.wedge[retarget.corner];
-        if (old != retarget.wedge && s.wedges[old].quadric.squares.weight > 0) {
-            addAttributeQuadric(s, old, retarget.wedge, step);
-            s.wedges[old].quadric = {};
+        Corner& corner = s.faces.corners[retarget.corner];
+        Wedge& old = s.faces.wedges[corner.wedge];
+        if (corner.wedge != retarget.wedge && old.quadric.squares.weight > 0) {
+            addAttributeQuadric(s, corner.wedge, retarget.wedge, step);
+            old.quadric = {};
         }
-        s.corners.vertex[retarget.corner] = to;
-        s.corners.wedge[retarget.corner] = retarget.wedge;
+        corner.vertex = to;
+        corner.wedge = retarget.wedge;
     }
-    s.quadrics[to].add(s.quadrics[from], step);
-    s.survivors[from] = to;
+    s.vertices[to].quadric.add(s.vertices[from].quadric, step);
     s.candidates[from] = Candidate();
-    removeEdge(s.mesh, edge);
-    requeueAround(s, survivor, from);
+    removeEdge(s, edge, from, to);
+    requeueAround(s, to, from);
 }
 
 // What looking at the vertex's collapses begins with.
 void prefetchVertex(const Simplifier& s, std::uint32_t v) {
     prefetch(&s.candidates[v]);
-    prefetch(&s.points[v]);
-    prefetch(&s.quadrics[v]);
-    const HalfedgeHandle edge = s.mesh.halfedge_handle(vertexHandle(v));
-    prefetch(&s.mesh.halfedge(edge));
+    prefetch(&s.vertices[v]);
 }
 
 // Collapses in order of fit and cost until `target` faces are left or nothing more is possible.
@@ -156,11 +145,11 @@ void collapseTo(Simplifier& s, std::size_t target) {
             enqueueCheapest(s, v);
             continue;
         }
-        if (judgeCollapse(s, candidate.edge) > candidate.fit) {
+        if (judgeCollapse(s, v, candidate.to) > candidate.fit) {
             enqueueBest(s, v);
             continue;
         }
-        collapse(s, candidate.edge);
+        collapse(s, v, candidate.to);
         collapsed = true;
     }
 }
@@ -168,9 +157,9 @@ void collapseTo(Simplifier& s, std::size_t target) {
 // The cost that `rank` of the collapses that are not bad are cheaper than, about.
 float costAtRank(const Simplifier& s, std::size_t rank) {
     std::vector<float> costs;
-    const std::size_t stride = 1 + s.points.size() / costSample;
-    for (std::size_t v = 0; v < s.points.size(); v += stride)
-        if (const Candidate& c = s.candidates[v]; c.edge.is_valid() && c.fit < Fit::bad) costs.push_back(c.cost);
+    const std::size_t stride = 1 + s.vertexCount() / costSample;
+    for (std::size_t v = 0; v < s.vertexCount(); v += stride)
+        if (const Candidate& c = s.candidates[v]; c.possible() && c.fit < Fit::bad) costs.push_back(c.cost);
     if (costs.size() <= rank / stride) return std::numeric_limits<float>::infinity();
     const auto place = costs.begin() + static_cast<std::ptrdiff_t>(rank / stride);
     std::nth_element(costs.begin(), place, costs.end());
@@ -179,23 +168,22 @@ float costAtRank(const Simplifier& s, std::size_t rank) {
 
 // Makes the collapses that cost at most `most` and aren't bad, in the order of vertices, until `target` faces are left.
 // Says whether there were any.
-bool sweep(Simplifier& s, const std::vector<std::uint32_t>& vertices, std::size_t target, float most) {
+bool sweep(Simplifier& s, std::size_t target, float most) {
     bool collapsed = false;
-    for (const std::uint32_t v : vertices) {
-        if (s.liveFaces <= target) break;
+    for (std::uint32_t v = 0; v < s.vertexCount() && s.liveFaces > target; ++v) {
         const auto ready = [&] {
             const Candidate& c = s.candidates[v];
-            return c.cost <= most && c.fit < Fit::bad && c.edge.is_valid();
+            return c.cost <= most && c.fit < Fit::bad && c.possible();
         };
         if (!ready()) continue;
         if (s.candidates[v].outdated) enqueueCheapest(s, v);
         while (ready()) {
             const Candidate candidate = s.candidates[v];
-            if (judgeCollapse(s, candidate.edge) > candidate.fit) {
+            if (judgeCollapse(s, v, candidate.to) > candidate.fit) {
                 enqueueBest(s, v);
                 continue;
             }
-            collapse(s, candidate.edge);
+            collapse(s, v, candidate.to);
             collapsed = true;
             break;
         }
@@ -206,21 +194,12 @@ bool sweep(Simplifier& s, const std::vector<std::uint32_t>& vertices, std::size_
 // The same as collapseTo, but for the order: while faces are many, vertices take turns as they lie in memory, sweep
 // after sweep with a higher cost allowed. False if that leads no further.
 bool sweepTo(Simplifier& s, std::size_t target) {
-    std::vector<std::uint32_t> vertices;
-    vertices.reserve(s.liveFaces / 2 + 2);  // of a closed surface
-    for (std::uint32_t v = 0; v < s.points.size(); ++v)
-        if (s.survivors[v] == v && !isRemoved(s, v)) vertices.push_back(v);
     while (s.liveFaces > target) {
         const std::size_t wanted = (s.liveFaces - target) / 2;
         const float most = costAtRank(s, std::max(wanted / sweepsPerLevel, s.liveFaces / leastSweepShare));
-        if (!sweep(s, vertices, target, most) && !(most < std::numeric_limits<float>::infinity())) return false;
+        if (!sweep(s, target, most) && !(most < std::numeric_limits<float>::infinity())) return false;
     }
     return true;
-}
-
-std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
-    while (s.survivors[v] != v) v = s.survivors[v] = s.survivors[s.survivors[v]];
-    return v;
 }
 
 // What is known of components once many are as small as they get.
@@ -228,52 +207,44 @@ void noteComponents(const Simplifier& s, Snapshot& level) {
     if (s.components.empty()) return;
     level.removed = removedBalls(s);
     level.growths = growths(s);
-    for (std::uint32_t v = 0; v < s.points.size(); ++v)
-        if (s.survivors[v] == v && !isRemoved(s, v)) level.growthsOf.push_back(s.componentOf[v]);
+    level.growthsOf = s.componentOf;
 }
 
+// Of what compact() has left.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
     Snapshot level;
-    std::vector<std::uint32_t> numbers(s.points.size(), EdgeSide::none);
-    level.points.reserve(s.liveFaces / 2 + 2);  // of a closed surface
-    for (std::uint32_t v = 0; v < s.points.size(); ++v) {
-        if (s.survivors[v] != v || isRemoved(s, v)) continue;
-        numbers[v] = static_cast<std::uint32_t>(level.points.size());
-        level.points.push_back(s.points[v]);
-    }
-    level.nearest.reserve(s.points.size());
-    for (std::uint32_t v = 0; v < s.points.size(); ++v) level.nearest.push_back(numbers[survivorOf(s, v)]);
-
+    level.positions.reserve(s.vertexCount());
+    for (const SurfaceVertex& vertex : s.vertices) level.positions.push_back(vertex.position);
+    level.nearest = s.current;
     Creases found = creases(s);
+    level.wedges = std::move(found.wedges);
+    level.behind = std::move(found.behind);
+    level.corners.reserve(s.faces.corners.size());
+    for (const Corner& corner : s.faces.corners) level.corners.push_back(corner.vertex);
     level.primitiveIndexCounts.assign(primitiveCount, 0);
-    level.wedges.reserve(3 * s.liveFaces);
-    level.corners.reserve(3 * s.liveFaces);
-    for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
-        if (!isAlive(s, face)) continue;
-        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) {
-            level.wedges.push_back(found.wedges[corner]);
-            level.corners.push_back(numbers[s.corners.vertex[corner]]);
-        }
-        level.primitiveIndexCounts[s.corners.primitive[face]] += 3;
+    for (std::uint32_t face = 0; face < s.faces.count(); ++face) {
+        level.primitiveIndexCounts[s.faces.primitives[face]] += 3;
+        if (s.faces.turned[face] == 0) continue;
+        std::swap(level.wedges[3 * face + 1], level.wedges[3 * face + 2]);
+        std::swap(level.corners[3 * face + 1], level.corners[3 * face + 2]);
     }
     level.twins = s.twins;
-    level.behind = std::move(found.behind);
     noteComponents(s, level);
     return level;
 }
 
-SimplifiedLevel described(const Simplifier& s, const Snapshot& snapshot) {
+SimplifiedLevel described(const Origin& origin, const Snapshot& snapshot) {
     SimplifiedLevel level;
-    level.anchors = anchors(s, snapshot);
+    level.anchors = anchors(origin, snapshot);
     level.primitiveIndexCounts = snapshot.primitiveIndexCounts;
-    const auto vertexCount = static_cast<std::uint32_t>(s.firstCorner.size());
-    std::vector<std::uint32_t> local(vertexCount + snapshot.twins.size(), EdgeSide::none);
+    const auto vertexCount = static_cast<std::uint32_t>(origin.firstVertex.size());
+    std::vector<std::uint32_t> local(vertexCount + snapshot.twins.size(), Corner::none);
     level.mesh.indices.reserve(snapshot.wedges.size());
     level.removed = snapshot.removed;
     level.growths = snapshot.growths;
     for (std::size_t i = 0; i < snapshot.wedges.size(); ++i) {
         const std::uint32_t wedge = snapshot.wedges[i];
-        if (local[wedge] == EdgeSide::none) {
+        if (local[wedge] == Corner::none) {
             local[wedge] = static_cast<std::uint32_t>(level.numbers.size());
             const bool twin = wedge >= vertexCount;
             level.numbers.push_back(wedge);
@@ -287,24 +258,15 @@ SimplifiedLevel described(const Simplifier& s, const Snapshot& snapshot) {
     return level;
 }
 
-// Which surface vertex each mesh vertex is, before corners are handed over.
-void rememberCorners(Simplifier& s, std::size_t vertexCount) {
-    s.firstCorner.assign(vertexCount, EdgeSide::none);
-    s.firstVertex.assign(vertexCount, 0);
-    for (std::size_t corner = s.corners.wedge.size(); corner-- > 0;) {
-        s.firstCorner[s.corners.wedge[corner]] = static_cast<std::uint32_t>(corner);
-        s.firstVertex[s.corners.wedge[corner]] = s.corners.vertex[corner];
-    }
-}
-
 // Faces of whose vertices none can go: of tetrahedra, single triangles and the like.
 std::size_t stuckFaces(const Simplifier& s) {
     std::size_t count = 0;
-    for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
-        if (!isAlive(s, face)) continue;
-        const auto canGo = [&](std::uint32_t corner) { return s.candidates[s.corners.vertex[corner]].edge.is_valid(); };
+    forEachLiveFace(s, [&](std::uint32_t face) {
+        const auto canGo = [&](std::uint32_t corner) {
+            return s.candidates[s.faces.corners[corner].vertex].possible();
+        };
         if (!canGo(3 * face) && !canGo(3 * face + 1) && !canGo(3 * face + 2)) ++count;
-    }
+    });
     return count;
 }
 
@@ -328,31 +290,34 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, std::
                         const LevelTriangles& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take) {
     Simplification result;
-    const auto s = std::make_shared<Simplifier>(prepareSimplifier(vertices, positions, triangles));
-    result.repairedFaces = s->repairedFaces;
-    rememberCorners(*s, vertices.count());
-    s->smoothing = smoothing;
+    Simplifier s = prepareSimplifier(vertices, positions, smoothing, triangles);
+    result.repairedFaces = s.repairedFaces;
 
     // Collapse, and take a picture whenever half of the triangles are gone.
-    s->candidates.resize(s->points.size());
-    for (std::uint32_t v = 0; v < s->points.size(); ++v) enqueueCheapest(*s, v);
+    s.candidates.resize(s.vertexCount());
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v) enqueueCheapest(s, v);
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
-        const std::size_t target = nextTarget(*s, options.leastTriangles);
-        const std::size_t floor = std::max(target, collapseFloor(*s));
-        const auto enough = static_cast<std::size_t>(largestShare * static_cast<double>(s->liveFaces));
-        if (target > enough || s->liveFaces == 0) break;
+        const std::size_t target = nextTarget(s, options.leastTriangles);
+        const std::size_t floor = std::max(target, collapseFloor(s));
+        const auto enough = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
+        if (target > enough || s.liveFaces == 0) break;
         if (floor <= enough) {
-            if (floor >= leastFacesToSweep) sweepTo(*s, floor);
-            if (s->liveFaces > floor && !s->queued) startQueue(*s);
-            collapseTo(*s, floor);
+            s.queued = false;
+            if (floor >= leastFacesToSweep) sweepTo(s, floor);
+            if (s.liveFaces > floor) {
+                startQueue(s);
+                collapseTo(s, floor);
+            }
         }
-        if (s->liveFaces > enough || manyAreSmallest(*s)) findComponents(*s, vertices, triangles);
-        if (s->liveFaces > enough) removeComponents(*s, target);
-        if (s->liveFaces > enough) break;
-        const auto picture = std::make_shared<const Snapshot>(snapshot(*s, triangles.primitiveIndexCounts.size()));
-        tasks.add([s, picture, take, l = result.levelCount++] { take(l, described(*s, *picture)); });
+        if (s.liveFaces > enough || manyAreSmallest(s)) findComponents(s, triangles);
+        if (s.liveFaces > enough) removeComponents(s, target);
+        if (s.liveFaces > enough) break;
+        compact(s);
+        const auto picture = std::make_shared<const Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
+        tasks.add(
+            [origin = s.origin, picture, take, l = result.levelCount++] { take(l, described(*origin, *picture)); });
     }
-    result.twins = s->twins;
+    result.twins = s.twins;
     return result;
 }
 

@@ -25,6 +25,7 @@ constexpr std::uint32_t enoughAnchors = 32;
 // The level's faces, and which lie around each vertex.
 struct FaceRings {
     const Snapshot& level;
+    std::vector<glm::dvec3> points;    // of the vertices, in the frame
     std::vector<glm::dvec3> normals;   // of the faces, as long as twice the area
     std::vector<std::uint32_t> first;  // of each vertex, into `faces`
     std::vector<std::uint32_t> faces;
@@ -32,13 +33,15 @@ struct FaceRings {
     [[nodiscard]] std::span<const std::uint32_t> around(std::uint32_t v) const {
         return std::span(faces).subspan(first[v], first[v + 1] - first[v]);
     }
-    [[nodiscard]] const glm::dvec3& point(std::size_t corner) const { return level.points[level.corners[corner]]; }
+    [[nodiscard]] const glm::dvec3& point(std::size_t corner) const { return points[level.corners[corner]]; }
 };
 
-FaceRings faceRings(const Snapshot& level) {
-    FaceRings rings{level, {}, {}, {}};
+FaceRings faceRings(const Snapshot& level, const Frame& frame) {
+    FaceRings rings{level, {}, {}, {}, {}};
+    rings.points.reserve(level.positions.size());
+    for (const glm::vec3& position : level.positions) rings.points.push_back(frame.point(position));
     const std::vector<std::uint32_t>& corners = level.corners;
-    rings.first.assign(level.points.size() + 1, 0);
+    rings.first.assign(level.positions.size() + 1, 0);
     for (const std::uint32_t v : corners) ++rings.first[v + 1];
     std::partial_sum(rings.first.begin(), rings.first.end(), rings.first.begin());
     rings.faces.resize(corners.size());
@@ -91,7 +94,7 @@ bool liesBelow(const FaceRings& rings, std::uint32_t face, const glm::dvec2& alo
 Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t start, const glm::dvec3& side) {
     Closest result;
     std::uint32_t nearest = start;
-    const glm::dvec3 away = p - rings.level.points[start];
+    const glm::dvec3 away = p - rings.points[start];
     bool below = false;
     double least = glm::dot(away, away);
     std::array<std::uint32_t, mostSteps> seen;
@@ -122,37 +125,36 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t sta
 }
 
 // For each vertex of the level, of how many mesh vertices that have collapsed onto it one is enough.
-std::vector<std::uint32_t> anchorStrides(const Simplifier& s, const Snapshot& level) {
-    std::vector<std::uint32_t> strides(level.points.size(), 0);
-    for (std::size_t wedge = 0; wedge < s.firstCorner.size(); ++wedge)
-        if (s.firstCorner[wedge] != EdgeSide::none && level.nearest[s.firstVertex[wedge]] != EdgeSide::none)
-            ++strides[level.nearest[s.firstVertex[wedge]]];
+std::vector<std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
+    std::vector<std::uint32_t> strides(level.positions.size(), 0);
+    for (const std::uint32_t v : origin.firstVertex)
+        if (v != Corner::none && level.nearest[v] != Corner::none) ++strides[level.nearest[v]];
     for (std::uint32_t& stride : strides) stride = std::bit_floor(std::max(1u, stride / enoughAnchors));
     return strides;
 }
 
 }  // namespace
 
-std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level) {
-    const FaceRings rings = faceRings(level);
-    std::vector<std::uint32_t> cornerOf(s.firstCorner.size(), noFace);  // of each of the mesh's vertices
+std::vector<Anchor> anchors(const Origin& origin, const Snapshot& level) {
+    const FaceRings rings = faceRings(level, origin.frame);
+    std::vector<std::uint32_t> cornerOf(origin.firstVertex.size(), noFace);  // of each of the mesh's vertices
     for (std::uint32_t corner = 0; corner < level.wedges.size(); ++corner)
         if (level.wedges[corner] < cornerOf.size()) cornerOf[level.wedges[corner]] = corner;
     std::vector<std::uint32_t> firstFaces = {0};  // of each primitive
     for (const std::uint32_t count : level.primitiveIndexCounts) firstFaces.push_back(firstFaces.back() + count / 3);
 
-    std::vector<Anchor> result(s.firstCorner.size());
-    const std::vector<std::uint32_t> strides = anchorStrides(s, level);
+    std::vector<Anchor> result(origin.firstVertex.size());
+    const std::vector<std::uint32_t> strides = anchorStrides(origin, level);
     std::vector<std::uint32_t> waiting(strides.size(), 0);
     for (std::uint32_t wedge = 0; wedge < result.size(); ++wedge) {
-        if (s.firstCorner[wedge] == EdgeSide::none) continue;
+        const std::uint32_t v = origin.firstVertex[wedge];
+        if (v == Corner::none) continue;
         Anchor& anchor = result[wedge];
-        const std::uint32_t v = s.firstVertex[wedge];
         const std::uint32_t survivor = level.nearest[v];
-        if (survivor == EdgeSide::none || waiting[survivor]++ % strides[survivor] != 0) continue;
+        if (survivor == Corner::none || waiting[survivor]++ % strides[survivor] != 0) continue;
         anchor.count = static_cast<float>(strides[survivor]);
-        const glm::dvec3 side = s.corners.attributes[wedge].normal;
-        const Closest closest = closestTo(rings, s.points[v], survivor, side);
+        const glm::dvec3 side = origin.vertices.normals[wedge];
+        const Closest closest = closestTo(rings, origin.frame.point(origin.vertices.positions[wedge]), survivor, side);
         if (closest.face == noFace) {
             const std::uint32_t corner = cornerOf[wedge];
             if (closest.squaredDistance != 0 || corner == noFace) continue;
@@ -160,7 +162,7 @@ std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level) {
             anchor.weight[corner % 3] = 1;
             continue;
         }
-        const std::uint32_t primitive = s.corners.primitive[s.firstCorner[wedge] / 3];
+        const std::uint32_t primitive = origin.firstPrimitive[wedge];
         if (closest.face < firstFaces[primitive] || closest.face >= firstFaces[primitive + 1]) continue;
         anchor.triangle = closest.face;
         anchor.weight[0] = static_cast<float>(1 - closest.along.x - closest.along.y);

@@ -1,5 +1,7 @@
-// The half-edge collapse in a triangle mesh: two faces go, and with each one of the two edges that they would leave
-// between the same vertices. Without OpenMesh's marks for what is deleted, which cost memory and time.
+// The half-edge collapse on corners: two faces go, and the half-edges beyond them become each other's twins. And the
+// clearing away of what is gone.
+
+#include <utility>
 
 #include "lod/simplify_state.h"
 
@@ -7,70 +9,136 @@ namespace defocus {
 
 namespace {
 
-using OpenMesh::FaceHandle;
-using OpenMesh::HalfedgeHandle;
-using OpenMesh::TriConnectivity;
-using OpenMesh::VertexHandle;
-
-// `inner` takes the place of `outer`: it runs between the same vertices, along what lies beyond.
-void replaceOuter(TriConnectivity& mesh, HalfedgeHandle outer, HalfedgeHandle inner) {
-    const FaceHandle beyond = mesh.face_handle(outer);
-    mesh.set_face_handle(inner, beyond);
-    if (beyond.is_valid() && mesh.halfedge_handle(beyond) == outer) mesh.set_halfedge_handle(beyond, inner);
-    mesh.set_next_halfedge_handle(mesh.prev_halfedge_handle(outer), inner);
-    mesh.set_next_halfedge_handle(inner, mesh.next_halfedge_handle(outer));
+// The face along `halfEdge` goes: what lies beyond its other two edges is joined.
+void removeFace(Simplifier& s, std::uint32_t halfEdge) {
+    if (halfEdge == Corner::none) return;
+    std::vector<Corner>& corners = s.faces.corners;
+    const std::uint32_t a = corners[nextCorner(halfEdge)].twin;
+    const std::uint32_t b = corners[previousCorner(halfEdge)].twin;
+    if (a != Corner::none) corners[a].twin = b;
+    if (b != Corner::none) corners[b].twin = a;
+    corners[halfEdge / 3 * 3].vertex = Corner::none;
 }
 
-// The face beside `side`, one of the edge's two half-edges, goes; `kept` is its edge at the survivor, `lost` the one at
-// the vertex that goes.
-void removeSide(TriConnectivity& mesh, HalfedgeHandle side, HalfedgeHandle kept, HalfedgeHandle lost,
-                VertexHandle third) {
-    const FaceHandle face = mesh.face_handle(side);
-    if (!face.is_valid()) {
-        mesh.set_next_halfedge_handle(mesh.prev_halfedge_handle(side), mesh.next_halfedge_handle(side));
-        return;
+// The vertex across `halfEdge` is told of another corner if its first is in the face that goes.
+void moveThird(Simplifier& s, std::uint32_t halfEdge) {
+    if (halfEdge == Corner::none) return;
+    const std::uint32_t third = previousCorner(halfEdge);
+    SurfaceVertex& vertex = s.vertices[s.faces.corners[third].vertex];
+    if (vertex.corner == third) vertex.corner = s.faces.corners[nextCorner(halfEdge)].twin;
+}
+
+// The first corner of the survivor, read before the faces go. Where either vertex is on a border, so is the survivor,
+// and it begins where that border does.
+std::uint32_t survivorsCorner(const Simplifier& s, const Edge& edge, std::uint32_t from, std::uint32_t to) {
+    const std::vector<Corner>& corners = s.faces.corners;
+    const std::uint32_t firstFrom = s.vertices[from].corner;
+    const std::uint32_t firstTo = s.vertices[to].corner;
+    const bool fromBorder = corners[firstFrom].twin == Corner::none;
+    const bool toBorder = corners[firstTo].twin == Corner::none;
+    const bool fromsOwn = fromBorder && (!toBorder || edge.along == Corner::none);
+    const std::uint32_t first = fromsOwn ? firstFrom : firstTo;
+
+    // In a face that goes: the same edge's half-edge on the far side of the face.
+    if (edge.along != Corner::none && first == nextCorner(edge.along)) return corners[previousCorner(edge.along)].twin;
+    if (edge.back != Corner::none && (first == edge.back || first == nextCorner(edge.back)))
+        return corners[previousCorner(edge.back)].twin;
+    return first;
+}
+
+template <typename T>
+void shrink(std::vector<T>& values, std::size_t count) {
+    values.resize(count);
+    values.shrink_to_fit();
+}
+
+// The new number of each vertex that lives; none for others.
+std::vector<std::uint32_t> compactVertices(Simplifier& s) {
+    std::vector<std::uint32_t> numbers(s.vertexCount(), Corner::none);
+    std::uint32_t count = 0;
+    for (std::uint32_t v = 0; v < numbers.size(); ++v)
+        if (s.isAlive(v)) numbers[v] = count++;
+    const auto numberOf = [&](std::uint32_t v) {
+        const std::uint32_t survivor = v == Corner::none ? v : survivorOf(s, v);
+        return survivor == Corner::none ? survivor : numbers[survivor];
+    };
+    for (std::uint32_t& v : s.current) v = numberOf(v);
+    for (std::uint32_t v = 0; v < numbers.size(); ++v) {
+        if (numbers[v] == Corner::none) continue;
+        Candidate candidate = s.candidates[v];
+        candidate.to = numberOf(candidate.to);  // of an outdated one, what it stood for may be gone
+        s.candidates[numbers[v]] = candidate;
+        s.vertices[numbers[v]] = s.vertices[v];
+        if (!s.componentOf.empty()) s.componentOf[numbers[v]] = s.componentOf[v];
     }
-    mesh.set_halfedge_handle(face, HalfedgeHandle());
-    const HalfedgeHandle outer = mesh.opposite_halfedge_handle(lost);
-    const HalfedgeHandle thirdFirst = mesh.halfedge_handle(third);
-    if (thirdFirst == lost) mesh.set_halfedge_handle(third, mesh.opposite_halfedge_handle(kept));
-    if (thirdFirst == outer) mesh.set_halfedge_handle(third, kept);
-    replaceOuter(mesh, outer, kept);
+    for (std::uint32_t v = 0; v < count; ++v) s.survivors[v] = v;
+    shrink(s.survivors, count);
+    shrink(s.candidates, count);
+    shrink(s.vertices, count);
+    if (!s.componentOf.empty()) shrink(s.componentOf, count);
+    return numbers;
+}
+
+void compactFaces(Simplifier& s, const std::vector<std::uint32_t>& vertexNumbers) {
+    Faces& faces = s.faces;
+    std::vector<std::uint32_t> numbers(faces.count(), Corner::none);
+    std::uint32_t count = 0;
+    forEachLiveFace(s, [&](std::uint32_t face) { numbers[face] = count++; });
+    const auto numberOf = [&](std::uint32_t corner) {
+        return corner == Corner::none ? corner : 3 * numbers[corner / 3] + corner % 3;
+    };
+    for (SurfaceVertex& vertex : s.vertices) vertex.corner = numberOf(vertex.corner);
+    for (std::uint32_t face = 0; face < numbers.size(); ++face) {
+        if (numbers[face] == Corner::none) continue;
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            const Corner& corner = faces.corners[3 * face + i];
+            faces.corners[3 * numbers[face] + i] = {vertexNumbers[corner.vertex], numberOf(corner.twin), corner.wedge};
+        }
+        faces.primitives[numbers[face]] = faces.primitives[face];
+        faces.turned[numbers[face]] = faces.turned[face];
+    }
+    shrink(faces.corners, 3 * std::size_t{count});
+    shrink(faces.primitives, count);
+    shrink(faces.turned, count);
+}
+
+void compactWedges(Faces& faces) {
+    std::vector<std::uint32_t> numbers(faces.wedges.size(), Corner::none);
+    for (const Corner& corner : faces.corners) numbers[corner.wedge] = 0;
+    std::uint32_t count = 0;
+    for (std::uint32_t w = 0; w < numbers.size(); ++w) {
+        if (numbers[w] == Corner::none) continue;
+        numbers[w] = count++;
+        faces.wedges[numbers[w]] = faces.wedges[w];
+    }
+    for (Corner& corner : faces.corners) corner.wedge = numbers[corner.wedge];
+    shrink(faces.wedges, count);
 }
 
 }  // namespace
 
-void removeEdge(TriConnectivity& mesh, HalfedgeHandle edge) {
-    const HalfedgeHandle opposite = mesh.opposite_halfedge_handle(edge);
-    const VertexHandle from = mesh.to_vertex_handle(opposite);
-    const VertexHandle to = mesh.to_vertex_handle(edge);
-    const HalfedgeHandle fromFirst = mesh.halfedge_handle(from);
-    const HalfedgeHandle toFirst = mesh.halfedge_handle(to);
-    const bool fromBorder = !mesh.face_handle(fromFirst).is_valid();
-    const bool toBorder = !mesh.face_handle(toFirst).is_valid();
-    forEachOutgoing(mesh, from,
-                    [&](HalfedgeHandle out) { mesh.set_vertex_handle(mesh.opposite_halfedge_handle(out), to); });
-
-    // from → to → third, then to → from → third on the other side.
-    const HalfedgeHandle onward = mesh.next_halfedge_handle(edge);
-    const HalfedgeHandle back = mesh.prev_halfedge_handle(edge);
-    const HalfedgeHandle backBeyond = mesh.opposite_halfedge_handle(back);
-    removeSide(mesh, edge, onward, back, mesh.to_vertex_handle(onward));
-    const HalfedgeHandle lost = mesh.next_halfedge_handle(opposite);
-    const HalfedgeHandle inward = mesh.prev_halfedge_handle(opposite);
-    removeSide(mesh, opposite, inward, lost, mesh.to_vertex_handle(lost));
-
-    // The survivor's first half-edge: along the border if it lies there.
-    HalfedgeHandle first = toFirst;
-    if (toBorder) {
-        if (toFirst == opposite) first = lost;
-    } else if (fromBorder) {
-        first = fromFirst == backBeyond ? onward : fromFirst;
-    } else if (toFirst == opposite) {
-        first = onward;
+void removeEdge(Simplifier& s, const Edge& edge, std::uint32_t from, std::uint32_t to) {
+    s.vertices[to].corner = survivorsCorner(s, edge, from, to);
+    s.vertices[from].corner = Corner::none;
+    s.survivors[from] = to;
+    for (const std::uint32_t side : {edge.along, edge.back}) {
+        moveThird(s, side);
+        removeFace(s, side);
     }
-    mesh.set_halfedge_handle(to, first);
-    mesh.set_halfedge_handle(from, HalfedgeHandle());
+}
+
+std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
+    while (v != Corner::none && s.survivors[v] != v) {
+        const std::uint32_t next = s.survivors[v];
+        if (next != Corner::none) s.survivors[v] = s.survivors[next];
+        v = next;
+    }
+    return v;
+}
+
+void compact(Simplifier& s) {
+    compactFaces(s, compactVertices(s));
+    compactWedges(s.faces);
 }
 
 }  // namespace defocus

@@ -19,42 +19,32 @@ constexpr double largestRatio = 1.2;      // of sizes that count as equal when t
 constexpr double mostLarger = 4;          // a neighbour this many times as large stands in for nothing: it would swell
 constexpr double manyShare = 0.25;        // of the faces
 constexpr std::uint32_t fewestFaces = 4;  // of what collapses can't make smaller: a tetrahedron
-constexpr std::uint32_t noComponent = EdgeSide::none;
+constexpr std::uint32_t noComponent = Corner::none;
 
 std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t v) {
     while (parents[v] != v) v = parents[v] = parents[parents[v]];
     return v;
 }
 
-template <typename Visit>
-void forEachLiveFace(const Simplifier& s, const Visit& visit) {
-    for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face)
-        if (isAlive(s, face)) visit(face);
-}
-
 // Which vertices hang together, by faces, collapses or an equal position.
 std::vector<std::uint32_t> joinedVertices(const Simplifier& s) {
-    const auto count = static_cast<std::uint32_t>(s.points.size());
-    std::vector<std::uint32_t> parents(count);
+    std::vector<std::uint32_t> parents(s.vertexCount());
     std::iota(parents.begin(), parents.end(), 0u);
     const auto join = [&](std::uint32_t a, std::uint32_t b) { parents[rootOf(parents, a)] = rootOf(parents, b); };
-    for (std::uint32_t v = 0; v < count; ++v) join(v, s.survivors[v]);
     forEachLiveFace(s, [&](std::uint32_t face) {
-        join(s.corners.vertex[3 * face], s.corners.vertex[3 * face + 1]);
-        join(s.corners.vertex[3 * face], s.corners.vertex[3 * face + 2]);
+        join(s.faces.corners[3 * face].vertex, s.faces.corners[3 * face + 1].vertex);
+        join(s.faces.corners[3 * face].vertex, s.faces.corners[3 * face + 2].vertex);
     });
+    for (std::uint32_t v = 0; v < parents.size(); ++v) join(v, s.survivors[v]);
     // Cuts of the manifold leave several vertices at one position.
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    const auto before = [&](std::uint32_t a, std::uint32_t b) {
-        const glm::dvec3& p = s.points[a];
-        const glm::dvec3& q = s.points[b];
-        return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
-    };
-    std::sort(order.begin(), order.end(), before);
-    for (std::size_t i = 1; i < order.size(); ++i)
-        if (s.points[order[i - 1]] == s.points[order[i]]) join(order[i - 1], order[i]);
-    for (std::uint32_t v = 0; v < count; ++v) parents[v] = rootOf(parents, v);
+    const std::vector<std::uint32_t>& places = s.origin->places;
+    std::vector<std::uint32_t> seen(places.empty() ? 0 : 1 + *std::max_element(places.begin(), places.end()),
+                                    noComponent);  // a vertex that was at each position
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        if (seen[places[v]] == noComponent) seen[places[v]] = s.current[v];
+        join(s.current[v], seen[places[v]]);
+    }
+    for (std::uint32_t v = 0; v < parents.size(); ++v) parents[v] = rootOf(parents, v);
     return parents;
 }
 
@@ -66,16 +56,18 @@ double areaOf(const Vertices& vertices, const std::uint32_t* corner) {
 }
 
 // Of all that the mesh had of them, whatever is left.
-void measureComponents(Simplifier& s, const Vertices& vertices, const LevelTriangles& triangles) {
+void measureComponents(Simplifier& s, const LevelTriangles& triangles) {
+    const Vertices& vertices = s.origin->vertices;
+    const std::vector<std::uint32_t>& firstVertex = s.origin->firstVertex;
     const auto componentAt = [&](std::uint32_t v) {
-        return s.firstCorner[v] == EdgeSide::none ? noComponent : s.componentOf[s.firstVertex[v]];
+        return firstVertex[v] == Corner::none ? noComponent : s.componentOf[s.current[firstVertex[v]]];
     };
     std::vector<Bounds> boxes(s.components.size());
-    for (std::uint32_t v = 0; v < s.firstCorner.size(); ++v)
+    for (std::uint32_t v = 0; v < firstVertex.size(); ++v)
         if (const std::uint32_t c = componentAt(v); c != noComponent)
             boxes[c].extend(glm::dvec3(vertices.positions[v]));
     for (std::size_t c = 0; c < boxes.size(); ++c) s.components[c].ball.centre = boxes[c].centre();
-    for (std::uint32_t v = 0; v < s.firstCorner.size(); ++v) {
+    for (std::uint32_t v = 0; v < firstVertex.size(); ++v) {
         const std::uint32_t c = componentAt(v);
         if (c == noComponent) continue;
         Ball& ball = s.components[c].ball;
@@ -104,10 +96,10 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     std::vector<Removable> all(s.components.size());
     std::vector<std::uint8_t> movable(s.components.size(), 0);
     forEachLiveFace(s, [&](std::uint32_t face) {
-        const std::uint32_t c = s.componentOf[s.corners.vertex[3 * face]];
+        const std::uint32_t c = s.componentOf[s.faces.corners[3 * face].vertex];
         all[c].faces.push_back(face);
         for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner)
-            if (s.candidates[s.corners.vertex[corner]].edge.is_valid()) movable[c] = 1;
+            if (s.candidates[s.faces.corners[corner].vertex].possible()) movable[c] = 1;
     });
     std::uint32_t largest = 0;
     for (std::uint32_t c = 1; c < s.components.size(); ++c)
@@ -135,24 +127,24 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     return removable;
 }
 
-// The corner across the edge from its face's neighbour; invalid at a border.
-OpenMesh::VertexHandle cornerBeyond(const Simplifier& s, OpenMesh::HalfedgeHandle edge) {
-    const OpenMesh::HalfedgeHandle opposite = s.mesh.opposite_halfedge_handle(edge);
-    if (!s.mesh.face_handle(opposite).is_valid()) return OpenMesh::VertexHandle();
-    return s.mesh.to_vertex_handle(s.mesh.next_halfedge_handle(opposite));
+// The vertex across the half-edge from its face; none at a border.
+std::uint32_t vertexBeyond(const Simplifier& s, std::uint32_t halfEdge) {
+    const std::uint32_t twin = s.faces.corners[halfEdge].twin;
+    return twin == Corner::none ? Corner::none : s.faces.corners[previousCorner(twin)].vertex;
 }
 
 // Is the face a triangle of its own, or one of a tetrahedron?
 bool isSmallest(const Simplifier& s, std::uint32_t face) {
-    const OpenMesh::HalfedgeHandle a = s.mesh.halfedge_handle(OpenMesh::FaceHandle(static_cast<int>(face)));
-    const OpenMesh::HalfedgeHandle b = s.mesh.next_halfedge_handle(a);
-    const OpenMesh::VertexHandle apex = cornerBeyond(s, a);
-    return cornerBeyond(s, b) == apex && cornerBeyond(s, s.mesh.next_halfedge_handle(b)) == apex;
+    const std::uint32_t apex = vertexBeyond(s, 3 * face);
+    return vertexBeyond(s, 3 * face + 1) == apex && vertexBeyond(s, 3 * face + 2) == apex;
 }
 
 void removeComponent(Simplifier& s, const Removable& removable) {
-    for (const std::uint32_t face : removable.faces)
-        s.mesh.set_halfedge_handle(OpenMesh::FaceHandle(static_cast<int>(face)), OpenMesh::HalfedgeHandle());
+    for (const std::uint32_t face : removable.faces) {
+        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner)
+            s.survivors[s.faces.corners[corner].vertex] = Corner::none;
+        s.faces.corners[3 * face].vertex = Corner::none;
+    }
     s.liveFaces -= removable.faces.size();
     s.components[removable.component].removed = true;
 }
@@ -165,19 +157,19 @@ bool manyAreSmallest(const Simplifier& s) {
     return static_cast<double>(count) > manyShare * static_cast<double>(s.liveFaces);
 }
 
-void findComponents(Simplifier& s, const Vertices& vertices, const LevelTriangles& triangles) {
+void findComponents(Simplifier& s, const LevelTriangles& triangles) {
     if (!s.components.empty()) return;
     const std::vector<std::uint32_t> roots = joinedVertices(s);
     std::vector<std::uint32_t> numbers(roots.size(), noComponent);
     forEachLiveFace(s, [&](std::uint32_t face) {
-        std::uint32_t& number = numbers[roots[s.corners.vertex[3 * face]]];
+        std::uint32_t& number = numbers[roots[s.faces.corners[3 * face].vertex]];
         if (number != noComponent) return;
         number = static_cast<std::uint32_t>(s.components.size());
-        s.components.emplace_back().primitive = s.corners.primitive[face];
+        s.components.emplace_back().primitive = s.faces.primitives[face];
     });
     s.componentOf.reserve(roots.size());
     for (const std::uint32_t root : roots) s.componentOf.push_back(numbers[root]);
-    measureComponents(s, vertices, triangles);
+    measureComponents(s, triangles);
 }
 
 void removeComponents(Simplifier& s, std::size_t target) {
@@ -218,10 +210,6 @@ void removeComponents(Simplifier& s, std::size_t target) {
     }
 }
 
-bool isRemoved(const Simplifier& s, std::uint32_t v) {
-    return !s.componentOf.empty() && s.componentOf[v] != noComponent && s.components[s.componentOf[v]].removed;
-}
-
 std::vector<Ball> removedBalls(const Simplifier& s) {
     std::vector<Ball> balls;
     for (const Component& component : s.components)
@@ -231,7 +219,7 @@ std::vector<Ball> removedBalls(const Simplifier& s) {
 
 std::vector<Growth> growths(const Simplifier& s) {
     std::vector<std::uint32_t> faces(s.components.size(), 0);
-    forEachLiveFace(s, [&](std::uint32_t face) { ++faces[s.componentOf[s.corners.vertex[3 * face]]]; });
+    forEachLiveFace(s, [&](std::uint32_t face) { ++faces[s.componentOf[s.faces.corners[3 * face].vertex]]; });
     const CentreTree tree(s.components);
     std::vector<Growth> result(s.components.size());
     for (std::uint32_t c = 0; c < result.size(); ++c) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <span>
 
 #include "lod/simplify_state.h"
@@ -20,7 +21,8 @@ constexpr int rounds = 3;  // of two means
 
 struct CornerNormal {
     std::uint32_t corner;
-    glm::dvec3 normal;  // of the face, as long as twice its area; then as long as the corner's angle
+    glm::dvec3
+        normal;  // of the face as the mesh winds it, as long as twice its area; then as long as the corner's angle
 };
 
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
@@ -37,13 +39,19 @@ bool surelyAgree(std::span<const CornerNormal> corners) {
     });
 }
 
+CornerNormal cornerNormal(const Simplifier& s, std::uint32_t corner) {
+    const auto point = [&](std::uint32_t c) { return s.point(s.faces.corners[c].vertex); };
+    const glm::dvec3 p = point(corner);
+    const glm::dvec3 normal = glm::cross(point(nextCorner(corner)) - p, point(previousCorner(corner)) - p);
+    return {corner, s.faces.turned[corner / 3] != 0 ? -normal : normal};
+}
+
 void weighByAngle(const Simplifier& s, CornerNormal& c) {
-    const std::uint32_t first = c.corner / 3 * 3;
-    const glm::dvec3& p = s.points[s.corners.vertex[c.corner]];
-    const glm::dvec3 a = s.points[s.corners.vertex[first + (c.corner + 1 - first) % 3]] - p;
-    const glm::dvec3 b = s.points[s.corners.vertex[first + (c.corner + 2 - first) % 3]] - p;
+    const auto point = [&](std::uint32_t corner) { return s.point(s.faces.corners[corner].vertex); };
+    const glm::dvec3 p = point(c.corner);
     const double length = glm::length(c.normal);
-    c.normal *= length > 0 ? angleBetween(a, b) / length : 0;
+    c.normal *=
+        length > 0 ? angleBetween(point(nextCorner(c.corner)) - p, point(previousCorner(c.corner)) - p) / length : 0;
 }
 
 // Moves the corners of one of the two sides behind the returned place; all stay before it where one side is enough.
@@ -81,50 +89,66 @@ std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
     return static_cast<std::size_t>(border - corners.begin());
 }
 
+// Corners in groups of wedges that share a normal: group g has corners[first[g]] … corners[first[g + 1] − 1].
+struct CornerGroups {
+    std::vector<std::uint32_t> first;
+    std::vector<std::uint32_t> corners;
+};
+
+CornerGroups groupCorners(const Simplifier& s) {
+    // Number the groups that are left.
+    std::vector<std::uint32_t> numbers(s.origin->smoothing.size(), Corner::none);
+    std::vector<std::uint32_t> groupOf;  // of each wedge
+    groupOf.reserve(s.faces.wedges.size());
+    std::uint32_t count = 0;
+    for (const Wedge& wedge : s.faces.wedges) {
+        std::uint32_t& number = numbers[s.origin->smoothing[wedge.source]];
+        if (number == Corner::none) number = count++;
+        groupOf.push_back(number);
+    }
+
+    CornerGroups groups;
+    groups.first.assign(std::size_t{count} + 1, 0);
+    for (const Corner& corner : s.faces.corners) ++groups.first[groupOf[corner.wedge] + 1];
+    std::partial_sum(groups.first.begin(), groups.first.end(), groups.first.begin());
+    groups.corners.resize(s.faces.corners.size());
+    std::vector<std::uint32_t> next(groups.first.begin(), groups.first.end() - 1);
+    for (std::uint32_t corner = 0; corner < s.faces.corners.size(); ++corner)
+        groups.corners[next[groupOf[s.faces.corners[corner].wedge]]++] = corner;
+    return groups;
+}
+
 }  // namespace
 
 Creases creases(Simplifier& s) {
     Creases result;
-    result.wedges = s.corners.wedge;
     std::vector<std::uint32_t>& wedges = result.wedges;
+    wedges.reserve(s.faces.corners.size());
+    for (const Corner& corner : s.faces.corners) wedges.push_back(s.faces.wedges[corner.wedge].source);
 
-    // The live corners of each group of wedges that share a normal, one group after the other.
-    std::vector<std::uint32_t> first(s.firstCorner.size() + 1, 0);
-    const auto forEachCorner = [&](const auto& visit) {
-        for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face)
-            if (isAlive(s, face))
-                for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner) visit(corner);
-    };
-    forEachCorner([&](std::uint32_t corner) { ++first[s.smoothing[wedges[corner]] + 1]; });
-    for (std::size_t g = 1; g < first.size(); ++g) first[g] += first[g - 1];
-    std::vector<CornerNormal> corners(first.back());
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::uint32_t face = 0; face < s.corners.primitive.size(); ++face) {
-        if (!isAlive(s, face)) continue;
-        const glm::dvec3& p = s.points[s.corners.vertex[3 * face]];
-        const glm::dvec3 normal =
-            glm::cross(s.points[s.corners.vertex[3 * face + 1]] - p, s.points[s.corners.vertex[3 * face + 2]] - p);
-        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner)
-            corners[next[s.smoothing[wedges[corner]]]++] = {corner, normal};
-    }
-
+    const CornerGroups groups = groupCorners(s);
+    const auto vertexCount = static_cast<std::uint32_t>(s.origin->firstVertex.size());
+    std::vector<CornerNormal> around;
     std::vector<std::uint32_t> inFront;
-    for (std::uint32_t group = 0; group + 1 < first.size(); ++group) {
-        const std::span<CornerNormal> around(corners.data() + first[group], corners.data() + first[group + 1]);
+    for (std::size_t group = 0; group + 1 < groups.first.size(); ++group) {
+        around.clear();
+        for (std::size_t i = groups.first[group]; i < groups.first[group + 1]; ++i)
+            around.push_back(cornerNormal(s, groups.corners[i]));
         if (around.size() < 2 || surelyAgree(around)) continue;
         for (CornerNormal& c : around) weighByAngle(s, c);
-        const std::size_t kept = splitSides(around, s.corners.attributes[group].normal);
+        const std::uint32_t leader = s.origin->smoothing[wedges[around[0].corner]];
+        const std::size_t kept = splitSides(around, s.origin->vertices.normals[leader]);
         if (kept == around.size() || kept == 0) continue;
         inFront.clear();
-        for (const CornerNormal& c : around.first(kept)) inFront.push_back(wedges[c.corner]);
-        for (const CornerNormal& c : around.subspan(kept)) {
+        for (const CornerNormal& c : std::span(around).first(kept)) inFront.push_back(wedges[c.corner]);
+        for (const CornerNormal& c : std::span(around).subspan(kept)) {
             const std::uint32_t wedge = wedges[c.corner];
             if (std::find(inFront.begin(), inFront.end(), wedge) == inFront.end()) {
                 result.behind.push_back(wedge);  // all of it: at a seam, each side has a wedge of its own
                 continue;
             }
             const auto [twin, isNew] =
-                s.twinOf.try_emplace(wedge, static_cast<std::uint32_t>(s.firstCorner.size() + s.twins.size()));
+                s.twinOf.try_emplace(wedge, static_cast<std::uint32_t>(vertexCount + s.twins.size()));
             if (isNew) s.twins.push_back(wedge);
             wedges[c.corner] = twin->second;
         }

@@ -1,15 +1,14 @@
 #pragma once
-// What simplify works on while it collapses. Private to simplify*.cpp, the only files that know OpenMesh.
+// What simplify works on while it collapses. Private to simplify*.cpp and centre_tree.h.
 
-#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "lod/attribute_quadric.h"
 #include "lod/collapse_queue.h"
 #include "lod/corners.h"
 #include "lod/quadric.h"
@@ -17,18 +16,50 @@
 
 namespace defocus {
 
+// The mesh at unit size, so that no weight depends on its scale.
+struct Frame {
+    glm::dvec3 centre{0};
+    double inverse = 0;  // of the mesh's longest side; 0: it has none
+
+    [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
+        return (glm::dvec3(position) - centre) * inverse;
+    }
+    [[nodiscard]] glm::dvec3 step(const glm::vec3& from, const glm::vec3& to) const {
+        return (glm::dvec3(to) - glm::dvec3(from)) * inverse;
+    }
+};
+
+// The surface before any collapse, as far as it is asked for later. `vertices` and `smoothing` are the caller's.
+struct Origin {
+    const Vertices& vertices;
+    std::span<const std::uint32_t> smoothing;  // of each mesh vertex, see FitSource
+    Frame frame;
+    std::vector<std::uint32_t> firstVertex;     // of each mesh vertex's first corner; Corner::none if it has no face
+    std::vector<std::uint32_t> firstPrimitive;  // the same
+    std::vector<std::uint32_t> places;          // of each vertex of the surface: its welded position
+};
+
+struct alignas(64) SurfaceVertex {
+    glm::vec3 position{0};
+    // One at the vertex, from which all are reached by forEachCorner: at a border, the one whose half-edge has no twin.
+    std::uint32_t corner = Corner::none;
+    Quadric quadric;
+    std::uint32_t mark = 0;  // scratch of judgeCollapse: the markNumber that it has been seen with
+};
+
 // The collapse that a vertex waits for in the queue.
 struct Candidate {
-    OpenMesh::HalfedgeHandle edge;  // from the vertex to the survivor; invalid: none
-    std::uint32_t to = 0;           // the survivor
+    std::uint32_t to = Corner::none;  // the survivor, a neighbour; none: no collapse is possible
     float cost = std::numeric_limits<float>::infinity();
     Fit fit = Fit::good;    // as far as it has been looked at
     bool outdated = false;  // no longer its best, or not at this cost
+
+    [[nodiscard]] bool possible() const { return to != Corner::none; }
 };
 
-struct WedgeQuadric {
-    AttributeRow row;  // attributes as lengths that weigh as much as distances do
-    AttributeQuadric quadric;
+struct Spoke {
+    Edge edge;
+    std::uint32_t to = 0;
 };
 
 // A part of the mesh that shares no position with the rest; see simplify_components.cpp.
@@ -40,34 +71,40 @@ struct Component {
     bool removed = false;
 };
 
+// After compact() the arrays hold what lives and nothing else.
 struct Simplifier {
-    OpenMesh::TriConnectivity mesh;  // vertex and face numbers are those of the manifold
-    Corners corners;
-    std::vector<glm::dvec3> points;  // of the vertices; the mesh's longest side is 1
-    double scale = 0;                // object units per unit of `points`; 0: nothing to simplify
-    std::vector<Quadric> quadrics;
-    std::vector<WedgeQuadric> wedges;      // of each mesh vertex
-    std::vector<std::uint32_t> survivors;  // for each vertex the one it collapsed onto, itself while it lives
-    std::vector<Candidate> candidates;
+    std::shared_ptr<const Origin> origin;
+    Faces faces;
+    std::vector<SurfaceVertex> vertices;
+    std::vector<Candidate> candidates;     // one a vertex
+    std::vector<std::uint32_t> survivors;  // for each vertex the one it collapsed onto, itself while it lives, or
+                                           // Corner::none if it was taken out with its component
+    std::vector<std::uint32_t> current;    // for each vertex of Origin, the one that it is now or has collapsed onto
     CollapseQueue queue;
     bool queued = false;  // vertices wait in it
     std::size_t liveFaces = 0;
     std::uint32_t repairedFaces = 0;
-    std::vector<std::uint32_t> firstCorner;  // of each mesh vertex, as the mesh was; EdgeSide::none if it has no face
-    std::vector<std::uint32_t> firstVertex;  // of each mesh vertex's first corner, as the mesh was
 
-    std::span<const std::uint32_t> smoothing;                 // of each mesh vertex, see FitSource
     std::vector<std::uint32_t> twins;                         // see Simplification
     std::unordered_map<std::uint32_t, std::uint32_t> twinOf;  // mesh vertex → the number of its twin
 
     std::vector<Component> components;       // once many are as small as they get
-    std::vector<std::uint32_t> componentOf;  // for each vertex; EdgeSide::none if none of its faces were left
+    std::vector<std::uint32_t> componentOf;  // for each vertex
 
-    std::vector<OpenMesh::HalfedgeHandle> spokes;   // scratch of cheapestCollapse
-    std::vector<std::uint32_t> facesFrom, facesTo;  // scratch of judgeCollapse
-    std::vector<std::uint32_t> marks;               // the same, one a vertex: the markNumber that it has been seen with
+    // Scratch.
+    std::vector<Spoke> spokes;                          // of cheapestCollapse and judgeCollapse
+    std::vector<std::uint32_t> cornersFrom, cornersTo;  // of judgeCollapse
     std::uint32_t markNumber = 0;
-    std::vector<Retarget> retargets;  // the wedges that the collapse judged last hands over
+    // What judgeCollapse finds out for the collapse that may follow.
+    Edge edge;
+    std::vector<Retarget> retargets;  // the wedges that are handed over
+
+    [[nodiscard]] bool isAlive(std::uint32_t v) const { return survivors[v] == v; }
+    [[nodiscard]] glm::dvec3 point(std::uint32_t v) const { return origin->frame.point(vertices[v].position); }
+    [[nodiscard]] glm::dvec3 step(std::uint32_t from, std::uint32_t to) const {
+        return origin->frame.step(vertices[from].position, vertices[to].position);
+    }
+    [[nodiscard]] std::size_t vertexCount() const { return vertices.size(); }
 };
 
 // Asks the caches for what is needed soon: collapses come from all over the mesh.
@@ -75,52 +112,41 @@ inline void prefetch(const void* data) {
     __builtin_prefetch(data);
 }
 
-inline std::uint32_t index(OpenMesh::VertexHandle v) {
-    return static_cast<std::uint32_t>(v.idx());
-}
-inline std::uint32_t index(OpenMesh::FaceHandle f) {
-    return static_cast<std::uint32_t>(f.idx());
-}
-inline OpenMesh::VertexHandle vertexHandle(std::uint32_t v) {
-    return OpenMesh::VertexHandle(static_cast<int>(v));
-}
-
-inline bool isAlive(const Simplifier& s, std::uint32_t face) {
-    return s.mesh.halfedge_handle(OpenMesh::FaceHandle(static_cast<int>(face))).is_valid();
-}
-
-// Calls visit(half-edge) for every half-edge that leaves `v`, once around.
+// Calls visit(edge, neighbour) for every edge that leaves `v`.
 template <typename Visit>
-void forEachOutgoing(const OpenMesh::TriConnectivity& mesh, OpenMesh::VertexHandle v, const Visit& visit) {
-    const OpenMesh::HalfedgeHandle first = mesh.halfedge_handle(v);
-    OpenMesh::HalfedgeHandle edge = first;
-    do {
-        visit(edge);
-        edge = mesh.next_halfedge_handle(mesh.opposite_halfedge_handle(edge));
-    } while (edge != first);
+void forEachEdgeAround(const Simplifier& s, std::uint32_t v, const Visit& visit) {
+    forEachEdge(s.faces, s.vertices[v].corner, visit);
 }
 
-void facesAround(const Simplifier& s, OpenMesh::VertexHandle v, std::vector<std::uint32_t>& faces);
+template <typename Visit>
+void forEachLiveFace(const Simplifier& s, const Visit& visit) {
+    for (std::uint32_t face = 0; face < s.faces.count(); ++face)
+        if (s.faces.isAlive(face)) visit(face);
+}
 
-// simplify_setup.cpp: the mesh at unit size, its manifold in half-edges, quadrics; no queue yet.
-Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions, const LevelTriangles& triangles);
+// simplify_setup.cpp: the mesh's manifold with its quadrics; no candidates yet. Without a surface there are no
+// vertices.
+Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions,
+                             std::span<const std::uint32_t> smoothing, const LevelTriangles& triangles);
 
-// simplify_judge.cpp: how good a collapse along `edge` is, which sets Simplifier::retargets.
-Fit judgeCollapse(Simplifier& s, OpenMesh::HalfedgeHandle edge);
+// simplify_judge.cpp: how good the collapse of `from` onto its neighbour `to` is; sets Simplifier::edge and retargets.
+Fit judgeCollapse(Simplifier& s, std::uint32_t from, std::uint32_t to);
 
-// simplify_cost.cpp: what a good collapse along `edge` costs, or at least (where that is `most` or more), and the
-// cheapest of those from `v` (an invalid edge if there is none).
-float collapseCost(const Simplifier& s, OpenMesh::HalfedgeHandle edge, float most);
+// simplify_cost.cpp: what a good collapse costs, or at least (where that is `most` or more), and the cheapest of those
+// from `v`.
+float collapseCost(const Simplifier& s, const Edge& edge, std::uint32_t from, std::uint32_t to, float most);
 Candidate cheapestCollapse(Simplifier& s, std::uint32_t v);
 // Adds the quadric of wedge `from` to that of `to`, `step` away.
 void addAttributeQuadric(Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step);
 
-// simplify_collapse.cpp: takes the vertex that `edge` leaves and the faces beside the edge out of the mesh, which the
-// link condition allows.
-void removeEdge(OpenMesh::TriConnectivity& mesh, OpenMesh::HalfedgeHandle edge);
+// simplify_collapse.cpp: takes the vertex `from` and the faces beside the edge out of the surface, which the link
+// condition allows. Its corners in faces that stay must be those of `to` already.
+void removeEdge(Simplifier& s, const Edge& edge, std::uint32_t from, std::uint32_t to);
+// Numbers what lives anew, in the order it had, and gives back the memory of what is gone.
+void compact(Simplifier& s);
 
-// simplify_creases.cpp: the wedges of all corners; where the faces around those that share a normal look opposite ways,
-// those on one side lie behind the others, and a wedge that is on both sides is split.
+// simplify_creases.cpp: the mesh vertices that all corners draw; where the faces around those that share a normal look
+// opposite ways, those on one side lie behind the others, and a mesh vertex that is on both sides is split.
 struct Creases {
     std::vector<std::uint32_t> wedges;  // of each corner; numbers from the mesh's vertex count on are twins
     std::vector<std::uint32_t> behind;  // those of whose corners all lie behind; sorted
@@ -130,23 +156,23 @@ Creases creases(Simplifier& s);
 // simplify_components.cpp: are many faces of components that can be no smaller?
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components, of what is left of the mesh, once.
-void findComponents(Simplifier& s, const Vertices& vertices, const LevelTriangles& triangles);
+void findComponents(Simplifier& s, const LevelTriangles& triangles);
 // Takes whole ones out of the mesh until `target` faces are left, or nothing that may go.
 void removeComponents(Simplifier& s, std::size_t target);
-// Is the vertex, or the one it collapsed onto, of a component that was taken out?
-bool isRemoved(const Simplifier& s, std::uint32_t v);
 std::vector<Ball> removedBalls(const Simplifier& s);
 // One a component; see SimplifiedLevel.
 std::vector<Growth> growths(const Simplifier& s);
+
+// The vertex that `v` is or has collapsed onto; Corner::none if that was taken out.
+std::uint32_t survivorOf(Simplifier& s, std::uint32_t v);
 
 // A level as it was when the collapses had come to it, for what is found out about it while they go on.
 struct Snapshot {
     std::vector<std::uint32_t> wedges;   // three a face; numbers from the mesh's vertex count on are twins
     std::vector<std::uint32_t> corners;  // the same in vertices of the level's surface, numbered from 0
     std::vector<std::uint32_t> primitiveIndexCounts;
-    std::vector<glm::dvec3> points;      // of the level's surface
-    std::vector<std::uint32_t> nearest;  // for each vertex of the mesh's surface, the level's that it collapsed onto,
-                                         // or EdgeSide::none
+    std::vector<glm::vec3> positions;    // of the level's surface
+    std::vector<std::uint32_t> nearest;  // Simplifier::current
     std::vector<std::uint32_t> twins;
     std::vector<std::uint32_t> behind;     // see Creases
     std::vector<Ball> removed;             // see SimplifiedLevel
@@ -156,7 +182,6 @@ struct Snapshot {
 
 // simplify_anchors.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive and
 // component.
-// Reads nothing of `s` that collapses change.
-std::vector<Anchor> anchors(const Simplifier& s, const Snapshot& level);
+std::vector<Anchor> anchors(const Origin& origin, const Snapshot& level);
 
 }  // namespace defocus
