@@ -42,49 +42,57 @@ LocalTriangles localTriangles(const std::uint32_t* indices, std::size_t count, c
     return local;
 }
 
-// Of each cluster, its corners.
-std::vector<std::vector<std::uint32_t>> parted(const LocalTriangles& local) {
+struct Meshlets {
+    std::vector<meshopt_Meshlet> list;
+    std::vector<std::uint32_t> vertices;
+    std::vector<unsigned char> corners;
+};
+
+Meshlets meshlets(const LocalTriangles& local) {
     const std::size_t most =
         meshopt_buildMeshletsBound(local.indices.size(), mostClusterVertices, mostClusterTriangles);
-    std::vector<meshopt_Meshlet> meshlets(most);
-    std::vector<std::uint32_t> vertices(most * mostClusterVertices);
-    std::vector<unsigned char> corners(most * mostClusterTriangles * 3);
-    meshlets.resize(meshopt_buildMeshlets(meshlets.data(), vertices.data(), corners.data(), local.indices.data(),
-                                          local.indices.size(), &local.positions.front().x, local.positions.size(),
-                                          sizeof(glm::vec3), mostClusterVertices, mostClusterTriangles, coneWeight));
-    std::vector<std::vector<std::uint32_t>> clusters;
-    for (const meshopt_Meshlet& meshlet : meshlets) {
-        const std::size_t count = std::size_t{meshlet.triangle_count} * 3;
-        const unsigned char* const own = corners.data() + meshlet.triangle_offset;
-        std::vector<std::uint32_t> ordered(count);
-        meshopt_optimizeVertexCache(ordered.data(), std::vector<std::uint32_t>(own, own + count).data(), count,
-                                    meshlet.vertex_count);
-        for (std::uint32_t& corner : ordered) corner = vertices[meshlet.vertex_offset + corner];
-        clusters.push_back(std::move(ordered));
-    }
-    return clusters;
+    Meshlets result;
+    result.list.resize(most);
+    result.vertices.resize(most * mostClusterVertices);
+    result.corners.resize(most * mostClusterTriangles * 3);
+    result.list.resize(meshopt_buildMeshlets(result.list.data(), result.vertices.data(), result.corners.data(),
+                                             local.indices.data(), local.indices.size(), &local.positions.front().x,
+                                             local.positions.size(), sizeof(glm::vec3), mostClusterVertices,
+                                             mostClusterTriangles, coneWeight));
+    return result;
+}
+
+// The corners of one, in an order that suits the vertex cache.
+void orderCorners(const Meshlets& all, const meshopt_Meshlet& meshlet, std::vector<std::uint32_t>& corners) {
+    const std::size_t count = std::size_t{meshlet.triangle_count} * 3;
+    const unsigned char* const own = all.corners.data() + meshlet.triangle_offset;
+    corners.assign(own, own + count);
+    meshopt_optimizeVertexCache(corners.data(), corners.data(), count, meshlet.vertex_count);
+    for (std::uint32_t& corner : corners) corner = all.vertices[meshlet.vertex_offset + corner];
 }
 
 struct ClusterTriangle {
     glm::dvec3 p[3];
-    [[nodiscard]] glm::dvec3 cross() const { return glm::cross(p[1] - p[0], p[2] - p[0]); }
+    glm::dvec3 cross;
     [[nodiscard]] bool collapsed() const { return p[0] == p[1] || p[1] == p[2] || p[2] == p[0]; }
     [[nodiscard]] double longestEdge() const {
-        return std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+        const auto squared = [](const glm::dvec3& e) { return glm::dot(e, e); };
+        return std::sqrt(std::max({squared(p[1] - p[0]), squared(p[2] - p[1]), squared(p[0] - p[2])}));
     }
 };
 
 Cluster measured(const std::vector<std::uint32_t>& indices, const std::vector<glm::vec3>& positions) {
-    std::vector<ClusterTriangle> triangles;
+    std::vector<ClusterTriangle> triangles(indices.size() / 3);
     Bounds box;
     glm::dvec3 sum(0);
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        ClusterTriangle& triangle = triangles.emplace_back();
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        ClusterTriangle& triangle = triangles[t];
         for (std::size_t k = 0; k < 3; ++k) {
-            triangle.p[k] = glm::dvec3(positions[indices[i + k]]);
+            triangle.p[k] = glm::dvec3(positions[indices[3 * t + k]]);
             box.extend(triangle.p[k]);
         }
-        sum += triangle.cross();
+        triangle.cross = glm::cross(triangle.p[1] - triangle.p[0], triangle.p[2] - triangle.p[0]);
+        sum += triangle.cross;
     }
 
     // The ball, and the cone of normals about their mean by area.
@@ -94,20 +102,22 @@ Cluster measured(const std::vector<std::uint32_t>& indices, const std::vector<gl
     const glm::dvec3 centre(cluster.centre);
     if (glm::length(sum) > 0) cluster.axis = glm::vec3(glm::normalize(sum));
     const glm::dvec3 axis(cluster.axis);
-    double radius = 0;
+    double squaredRadius = 0;
     double leastCosine = 1;
     double planes = std::numeric_limits<double>::infinity();
     double altitude = std::numeric_limits<double>::infinity();
     for (const ClusterTriangle& triangle : triangles) {
-        for (const glm::dvec3& p : triangle.p) radius = std::max(radius, glm::distance(p, centre));
+        for (const glm::dvec3& p : triangle.p)
+            squaredRadius = std::max(squaredRadius, glm::dot(p - centre, p - centre));
         if (triangle.collapsed()) continue;
-        const double area2 = glm::length(triangle.cross());
+        const double area2 = glm::length(triangle.cross);
         altitude = std::min(altitude, area2 / triangle.longestEdge());
         if (!(area2 > 0)) continue;
-        const glm::dvec3 normal = triangle.cross() / area2;
+        const glm::dvec3 normal = triangle.cross / area2;
         leastCosine = std::min(leastCosine, glm::dot(normal, axis));
         planes = std::min(planes, glm::dot(normal, triangle.p[0] - centre));
     }
+    const double radius = std::sqrt(squaredRadius);
     cluster.radius = static_cast<float>(radius * (1 + valueRounding));
     cluster.leastCosine = static_cast<float>(leastCosine - valueRounding);
     cluster.planes = static_cast<float>(std::max(planes, -radius) - valueRounding * radius);
@@ -120,14 +130,17 @@ Cluster measured(const std::vector<std::uint32_t>& indices, const std::vector<gl
 std::vector<Cluster> clusterTriangles(LevelTriangles& level, const std::vector<glm::vec3>& positions) {
     std::vector<Cluster> result;
     std::vector<std::uint32_t> localOf(positions.size(), unnumbered);
+    std::vector<std::uint32_t> corners;
     std::uint32_t first = 0;
     for (const std::uint32_t count : level.primitiveIndexCounts) {
         if (count == 0) continue;
         const LocalTriangles local = localTriangles(level.indices.data() + first, count, positions, localOf);
-        for (const std::vector<std::uint32_t>& part : parted(local)) {
-            Cluster& cluster = result.emplace_back(measured(part, local.positions));
-            cluster.indices = {first, static_cast<std::uint32_t>(part.size())};
-            for (const std::uint32_t v : part) level.indices[first++] = local.vertices[v];
+        const Meshlets all = meshlets(local);
+        for (const meshopt_Meshlet& meshlet : all.list) {
+            orderCorners(all, meshlet, corners);
+            Cluster& cluster = result.emplace_back(measured(corners, local.positions));
+            cluster.indices = {first, static_cast<std::uint32_t>(corners.size())};
+            for (const std::uint32_t v : corners) level.indices[first++] = local.vertices[v];
         }
     }
     return result;

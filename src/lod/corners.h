@@ -37,8 +37,7 @@ constexpr float uvWeight = 0.05f;
 
 // What all corners that draw one mesh vertex share.
 struct Wedge {
-    AttributeRow row{};  // attributes by the weights above: normal, colour, uv
-    AttributeQuadric quadric;
+    AttributeRow row{};        // attributes by the weights above: normal, colour, uv
     std::uint32_t source = 0;  // the mesh vertex
 };
 

@@ -33,20 +33,21 @@ struct LeastSquares {
     // Pull towards the prior, as a share of an unknown's weight: keeps those with few points from overshooting.
     static constexpr float pull = 0.01f;
 
+    // `sums` is spent on it.
     void solve() {
-        diagonal_.resize(weights.size());
-        for (std::size_t g = 0; g < weights.size(); ++g) diagonal_[g] = pull * weights[g];
+        inverseDiagonal_.resize(weights.size());
+        for (std::size_t g = 0; g < weights.size(); ++g) inverseDiagonal_[g] = pull * weights[g];
         for (std::size_t t = 0; t < triangles.size(); ++t)
-            for (std::size_t k = 0; k < 3; ++k) diagonal_[corners[3 * t + k]] += triangles[t][k];
-        residual_.resize(weights.size());
-        apply(solution, residual_);
-        for (std::size_t g = 0; g < weights.size(); ++g)
-            residual_[g] = sums[g] + pull * weights[g] * solution[g] - residual_[g];
-
-        Rows next = preconditioned();
-        Rows direction = next;
+            for (std::size_t k = 0; k < 3; ++k) inverseDiagonal_[corners[3 * t + k]] += triangles[t][k];
+        for (float& d : inverseDiagonal_) d = d > 0 ? 1 / d : 0;
         Rows image(weights.size());
-        Row energy = dot(residual_, direction);
+        apply(solution, image);
+        Rows& residual = sums;
+        for (std::size_t g = 0; g < weights.size(); ++g) residual[g] += pull * weights[g] * solution[g] - image[g];
+
+        Rows direction(weights.size());
+        for (std::size_t g = 0; g < weights.size(); ++g) direction[g] = inverseDiagonal_[g] * residual[g];
+        Row energy = dot(residual, direction);
         for (int iteration = 0; iteration < iterations; ++iteration) {
             apply(direction, image);
             const Row curvature = dot(direction, image);
@@ -54,10 +55,11 @@ struct LeastSquares {
             for (std::size_t c = 0; c < channels; ++c) step[c] = curvature[c] > 0 ? energy[c] / curvature[c] : 0;
             for (std::size_t g = 0; g < weights.size(); ++g) {
                 solution[g] += step * direction[g];
-                residual_[g] -= step * image[g];
+                residual[g] -= step * image[g];
             }
-            next = preconditioned();
-            const Row nextEnergy = dot(residual_, next);
+            Rows& next = image;
+            for (std::size_t g = 0; g < weights.size(); ++g) next[g] = inverseDiagonal_[g] * residual[g];
+            const Row nextEnergy = dot(residual, next);
             Row turn{};
             for (std::size_t c = 0; c < channels; ++c) turn[c] = energy[c] > 0 ? nextEnergy[c] / energy[c] : 0;
             for (std::size_t g = 0; g < weights.size(); ++g) direction[g] = next[g] + turn * direction[g];
@@ -81,13 +83,6 @@ private:
         }
     }
 
-    Rows preconditioned() const {
-        Rows result(residual_.size());
-        for (std::size_t g = 0; g < result.size(); ++g)
-            result[g] = diagonal_[g] > 0 ? residual_[g] * (1 / diagonal_[g]) : Row{};
-        return result;
-    }
-
     static Row dot(const Rows& a, const Rows& b) {
         std::array<double, channels> sums{};
         for (std::size_t g = 0; g < a.size(); ++g)
@@ -97,8 +92,7 @@ private:
         return result;
     }
 
-    std::vector<float> diagonal_;
-    Rows residual_;
+    std::vector<float> inverseDiagonal_;  // 0 for 0
 };
 
 }  // namespace defocus

@@ -9,7 +9,6 @@
 #include <unordered_map>
 
 #include "lod/least_squares.h"
-#include "lod/smoothing_groups.h"
 
 namespace defocus {
 
@@ -25,11 +24,17 @@ constexpr double leastFittedTurnCosine = 0.5;
 constexpr std::uint32_t ungrouped = 0xffffffffu;
 
 // Within the smoothing groups, vertices of one colour.
-std::vector<std::uint32_t> colorGroups(const std::vector<std::uint32_t>& smoothing,
+std::vector<std::uint32_t> colorGroups(std::span<const std::uint32_t> smoothing,
                                        const std::vector<glm::u8vec4>& colors) {
+    if (colors.empty()) return {};
+    std::vector<std::uint8_t> shared(colors.size(), 0);  // 1: more than one vertex has it as its smoothing group
+    for (std::uint32_t v = 0; v < colors.size(); ++v)
+        if (smoothing[v] != v) shared[smoothing[v]] = 1;
     std::map<std::array<std::uint32_t, 5>, std::uint32_t> leaders;
     std::vector<std::uint32_t> groups(colors.size());
     for (std::uint32_t v = 0; v < groups.size(); ++v) {
+        groups[v] = v;
+        if (shared[smoothing[v]] == 0) continue;
         const glm::u8vec4& c = colors[v];
         groups[v] = leaders.try_emplace({smoothing[v], c.r, c.g, c.b, c.a}, v).first->second;
     }
@@ -131,13 +136,15 @@ struct Grouping {
     [[nodiscard]] std::size_t count() const { return sources.size(); }
 };
 
-// `leaders` are by the mesh's vertices. With `sidesApart`, vertices that stand apart have groups of their own.
-Grouping grouped(const LevelMesh& level, const std::vector<std::uint32_t>& leaders, bool sidesApart) {
-    std::vector<std::uint32_t> numbers(leaders.size(), ungrouped);
+// `leaderOf` says which of the `count` mesh vertices leads another's group. With `sidesApart`, vertices that stand
+// apart have groups of their own.
+template <typename LeaderOf>
+Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& leaderOf, bool sidesApart) {
+    std::vector<std::uint32_t> numbers(count, ungrouped);
     std::unordered_map<std::uint32_t, std::uint32_t> numbersApart;
     Grouping groups;
     for (std::size_t v = 0; v < level.sources.size(); ++v) {
-        const std::uint32_t leader = leaders[level.sources[v]];
+        const std::uint32_t leader = leaderOf(level.sources[v]);
         std::uint32_t& number = sidesApart && level.apart[v] != 0
                                     ? numbersApart.try_emplace(leader, ungrouped).first->second
                                     : numbers[leader];
@@ -203,7 +210,8 @@ void keepFacesUpright(std::vector<glm::vec3>& fitted, const std::vector<glm::vec
 }
 
 std::vector<glm::vec3> fitPositions(const FitSource& source, const LevelMesh& level, const AnchorSums& sums) {
-    const Grouping groups = grouped(level, source.places, false);
+    const auto leaderOf = [&](std::uint32_t v) { return source.positions.first[source.positions.id[v]]; };
+    const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
     auto fit = equations<3>(level, sums, groups, [](const VertexSums& v) { return v.gap; });
     fit.solve();
     std::vector<glm::vec3> original;
@@ -241,7 +249,8 @@ std::vector<glm::dvec3> faceNormals(const std::vector<glm::vec3>& positions, con
 std::vector<glm::vec3> fitNormals(const FitSource& source, const LevelMesh& level, const AnchorSums& sums,
                                   const std::vector<glm::vec3>& positions) {
     // Fitted as vectors: their means are shorter than 1 where they differ.
-    const Grouping groups = grouped(level, source.smoothing, true);
+    const Grouping groups = grouped(
+        level, source.vertices.count(), [&](std::uint32_t v) { return source.smoothing[v]; }, true);
     const std::vector<glm::vec3>& own = source.vertices.normals;
     auto fit = equations<3>(level, sums, groups, [](const VertexSums& v) { return v.normal; });
     startFromMeans<3>(fit, [&](std::size_t g, std::size_t c) { return own[groups.sources[g]][static_cast<int>(c)]; });
@@ -267,7 +276,8 @@ std::vector<glm::vec3> fitNormals(const FitSource& source, const LevelMesh& leve
 std::vector<glm::u8vec4> fitColors(const FitSource& source, const LevelMesh& level, const AnchorSums& sums) {
     const std::vector<glm::u8vec4>& own = source.vertices.colors;
     if (own.empty()) return {};
-    const Grouping groups = grouped(level, source.shades, true);
+    const Grouping groups = grouped(
+        level, source.vertices.count(), [&](std::uint32_t v) { return source.shades[v]; }, true);
     auto fit = equations<4>(level, sums, groups, [](const VertexSums& v) { return v.color; });
     startFromMeans<4>(fit, [&](std::size_t g, std::size_t c) { return own[groups.sources[g]][static_cast<int>(c)]; });
     fit.solve();
@@ -283,11 +293,9 @@ std::vector<glm::u8vec4> fitColors(const FitSource& source, const LevelMesh& lev
 
 }  // namespace
 
-FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> indices) {
-    FitSource source{vertices, {}, {}, {}, {}, {}};
-    source.places.reserve(positions.id.size());
-    for (const std::uint32_t id : positions.id) source.places.push_back(positions.first[id]);
-    source.smoothing = smoothingGroups(vertices.normals, positions.id);
+FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
+                     std::span<const std::uint32_t> indices) {
+    FitSource source{vertices, positions, smoothing, {}, {}, {}};
     source.shades = colorGroups(source.smoothing, vertices.colors);
     source.areas = vertexAreas(vertices.positions, indices);
     for (const std::uint32_t v : indices)
@@ -295,8 +303,9 @@ FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::spa
     return source;
 }
 
-LevelFit fitLevel(const FitSource& source, const LevelMesh& level, std::span<const Anchor> anchors) {
+LevelFit fitLevel(const FitSource& source, const LevelMesh& level, std::vector<Anchor> anchors) {
     const AnchorSums sums = sumAnchors(source, level, anchors);
+    anchors = {};  // before what takes the most memory
     LevelFit fit;
     fit.positions = fitPositions(source, level, sums);
     fit.normals = fitNormals(source, level, sums, fit.positions);

@@ -39,24 +39,25 @@ struct LevelFit {
     std::vector<glm::u8vec4> colors;  // empty without colours
 };
 
-// What all levels of a mesh are fitted to. Vertices with equal numbers in `places` share a position, in `smoothing` a
-// normal, in `shades` a colour; the number is that of one of them.
+// What all levels of a mesh are fitted to. Vertices with equal numbers in `smoothing` share a normal (smoothingGroups),
+// in `shades` a colour; the number is that of one of them.
 struct FitSource {
     const Vertices& vertices;
-    std::vector<std::uint32_t> places;
-    std::vector<std::uint32_t> smoothing;
+    const Welded& positions;
+    std::span<const std::uint32_t> smoothing;
     std::vector<std::uint32_t> shades;  // empty without colours
     std::vector<float> areas;           // the share of level 0's surface that each vertex stands for, mean 1
     Bounds bounds;                      // of level 0's triangles
 };
 
-// `indices` are level 0's triangles. Keeps a reference to `vertices`.
-FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> indices);
+// `indices` are level 0's triangles. Keeps references to the other three.
+FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
+                     std::span<const std::uint32_t> indices);
 
 // `anchors` holds one entry a vertex of the mesh, which counts by its area, foreshortened on its triangle; vertices
 // that no anchor names keep the values they have from the mesh. The fit turns no triangle by more than 60° and leaves
 // no part of them outside level 0's box. Vertices at one position stay at one; those whose normals agree within a
 // degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
-LevelFit fitLevel(const FitSource& source, const LevelMesh& level, std::span<const Anchor> anchors);
+LevelFit fitLevel(const FitSource& source, const LevelMesh& level, std::vector<Anchor> anchors);
 
 }  // namespace defocus

@@ -37,41 +37,57 @@ struct PairedSurface {
     }
 };
 
+// Keys 0 … keyCount − 1 as buckets: what has key k is at first[k] … first[k + 1] − 1, in the order it came.
+template <typename Key>
+std::vector<std::uint32_t> bucketed(std::uint32_t count, std::size_t keyCount, const Key& key,
+                                    std::vector<std::uint32_t>& first) {
+    constexpr auto skipped = Manifold::none;
+    first.assign(keyCount + 1, 0);
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (const std::uint32_t k = key(i); k != skipped) ++first[k + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> order(first.back());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (const std::uint32_t k = key(i); k != skipped) order[next[k]++] = i;
+    return order;
+}
+
 // The faces that are neither degenerate nor repetitions, in input order.
-std::vector<std::uint32_t> properFaces(const Triangles& triangles) {
+std::vector<std::uint32_t> properFaces(const Triangles& triangles, std::size_t positionCount) {
+    const auto corners = [&](std::uint32_t face) { return &triangles.positions[3 * std::size_t{face}]; };
+    const auto least = [&](std::uint32_t face) {
+        const std::uint32_t* p = corners(face);
+        if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return Manifold::none;
+        return std::min({p[0], p[1], p[2]});
+    };
+    const auto faceCount = static_cast<std::uint32_t>(triangles.primitives.size());
+    std::vector<std::uint32_t> first;
+    const std::vector<std::uint32_t> order = bucketed(faceCount, positionCount, least, first);
+
+    // Equal faces share their smallest position; few have any one.
     struct Key {
-        std::array<std::uint32_t, 4> value;  // smallest position first, then in winding order, then the primitive
+        std::array<std::uint32_t, 3> value;  // the other two positions in winding order, then the primitive
         std::uint32_t face;
     };
     std::vector<Key> keys;
-    keys.reserve(triangles.primitives.size());
-    for (std::uint32_t f = 0; f < triangles.primitives.size(); ++f) {
-        const std::uint32_t* p = &triangles.positions[3 * std::size_t{f}];
-        if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
-        const std::size_t least = static_cast<std::size_t>(std::min_element(p, p + 3) - p);
-        keys.push_back({{p[least], p[(least + 1) % 3], p[(least + 2) % 3], triangles.primitives[f]}, f});
-    }
-
-    // Bucket by the smallest position (stable, so the first of equal faces stays first); the buckets are short.
-    const std::uint32_t positionCount =
-        keys.empty() ? 0 : 1 + *std::max_element(triangles.positions.begin(), triangles.positions.end());
-    std::vector<std::uint32_t> first(positionCount + std::size_t{1}, 0);
-    for (const Key& key : keys) ++first[key.value[0] + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<Key> sorted(keys.size());
-    for (std::vector<std::uint32_t> next = first; const Key& key : keys) sorted[next[key.value[0]]++] = key;
-
-    std::vector<std::uint32_t> faces;
-    faces.reserve(keys.size());
-    for (std::uint32_t p = 0; p < positionCount; ++p) {
-        const auto begin = sorted.begin() + first[p];
-        const auto end = sorted.begin() + first[p + 1];
-        std::sort(begin, end,
+    std::vector<std::uint8_t> kept(faceCount, 0);
+    for (std::size_t position = 0; position < positionCount; ++position) {
+        keys.clear();
+        for (std::uint32_t i = first[position]; i < first[position + 1]; ++i) {
+            const std::uint32_t* p = corners(order[i]);
+            const auto at = static_cast<std::size_t>(std::find(p, p + 3, position) - p);
+            keys.push_back({{p[(at + 1) % 3], p[(at + 2) % 3], triangles.primitives[order[i]]}, order[i]});
+        }
+        std::sort(keys.begin(), keys.end(),
                   [](const Key& a, const Key& b) { return a.value != b.value ? a.value < b.value : a.face < b.face; });
-        for (auto key = begin; key != end; ++key)
-            if (key == begin || key->value != (key - 1)->value) faces.push_back(key->face);
+        for (std::size_t i = 0; i < keys.size(); ++i)
+            if (i == 0 || keys[i].value != keys[i - 1].value) kept[keys[i].face] = 1;
     }
-    std::sort(faces.begin(), faces.end());
+    std::vector<std::uint32_t> faces;
+    faces.reserve(order.size());
+    for (std::uint32_t face = 0; face < faceCount; ++face)
+        if (kept[face] != 0) faces.push_back(face);
     return faces;
 }
 
@@ -88,21 +104,21 @@ EdgeGroups groupEdges(const PairedSurface& surface) {
     const auto high = [&](std::uint32_t e) { return std::max(surface.start(e), surface.end(e)); };
 
     // Bucket by the lower position, then sort the few edges of each bucket by the higher one.
-    std::vector<std::uint32_t> first(surface.points.size() + 1, 0);
-    for (std::uint32_t e = 0; e < edgeCount; ++e) ++first[low(e) + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> first;
     EdgeGroups groups;
-    groups.order.resize(edgeCount);
-    std::vector<std::uint32_t> next = first;
-    for (std::uint32_t e = 0; e < edgeCount; ++e) groups.order[next[low(e)]++] = e;
-    for (std::size_t p = 0; p + 1 < first.size(); ++p)
-        std::sort(groups.order.begin() + first[p], groups.order.begin() + first[p + 1],
-                  [&](std::uint32_t a, std::uint32_t b) { return high(a) != high(b) ? high(a) < high(b) : a < b; });
-
-    for (std::uint32_t i = 0; i < edgeCount; ++i) {
-        const std::uint32_t e = groups.order[i];
-        if (i == 0 || low(groups.order[i - 1]) != low(e) || high(groups.order[i - 1]) != high(e))
-            groups.starts.push_back(i);
+    groups.order = bucketed(edgeCount, surface.points.size(), low, first);
+    groups.starts.reserve(edgeCount / 2 + edgeCount / 16);
+    std::vector<std::uint64_t> keys;  // higher positions above half-edges
+    for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+        keys.clear();
+        for (std::uint32_t i = first[p]; i < first[p + 1]; ++i)
+            keys.push_back(std::uint64_t{high(groups.order[i])} << 32 | groups.order[i]);
+        std::sort(keys.begin(), keys.end());
+        for (std::size_t k = 0; k < keys.size(); ++k) {
+            const auto i = static_cast<std::uint32_t>(first[p] + k);
+            groups.order[i] = static_cast<std::uint32_t>(keys[k]);
+            if (k == 0 || keys[k] >> 32 != keys[k - 1] >> 32) groups.starts.push_back(i);
+        }
     }
     groups.starts.push_back(edgeCount);
     return groups;
@@ -245,7 +261,7 @@ void numberVertices(PairedSurface& surface, Manifold& manifold) {
 Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>& points) {
     // Keep the faces that can be part of a surface.
     Manifold manifold;
-    manifold.faces = properFaces(triangles);
+    manifold.faces = properFaces(triangles, points.size());
     const std::size_t count = manifold.faces.size();
     PairedSurface surface{points, {}, {}, {}, {}, {}};
     surface.turned.assign(count, 0);

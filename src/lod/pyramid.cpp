@@ -10,14 +10,18 @@
 #include <iterator>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <thread>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/parallel.h"
 #include "lod/gathered.h"
 #include "lod/level_fit.h"
+#include "lod/level_growth.h"
 #include "lod/level_order.h"
 #include "lod/simplify.h"
+#include "lod/smoothing_groups.h"
 #include "lod/surface_distance.h"
 #include "lod/weld.h"
 
@@ -164,54 +168,10 @@ struct FittedLevel {
     double error = 0;
 };
 
-// A component of a level and how it is scaled.
-struct Grown {
-    double area = 0;
-    Bounds box;
-    double factor = 1;
-    glm::dvec3 shift{0};  // back into level 0's box
-
-    [[nodiscard]] glm::dvec3 place(const glm::dvec3& p, const glm::dvec3& centre) const {
-        return centre + factor * (p - centre) + shift;
-    }
-};
-
-void chooseGrowth(Grown& grown, const Growth& growth, const Bounds& limits) {
-    if (!(growth.area > grown.area) || !(grown.area > 0)) return;
-    grown.factor = std::min(std::sqrt(growth.area / grown.area), growth.mostFactor);
-    for (glm::length_t axis = 0; axis < 3; ++axis)
-        if (const double size = grown.box.size()[axis]; size > 0)
-            grown.factor = std::min(grown.factor, limits.size()[axis] / size);
-    grown.factor = std::max(grown.factor, 1.0);
-    grown.shift = glm::max(glm::dvec3(0), limits.minimum - grown.place(grown.box.minimum, growth.centre)) +
-                  glm::min(glm::dvec3(0), limits.maximum - grown.place(grown.box.maximum, growth.centre));
-}
-
-// Scales components that have less area than they are to stand for, within level 0's box.
-void grow(std::vector<glm::vec3>& positions, const SimplifiedLevel& level, const Bounds& limits) {
-    if (level.growthsOf.empty()) return;
-    std::vector<Grown> grown(level.growths.size());
-    const std::vector<std::uint32_t>& indices = level.mesh.indices;
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        const glm::dvec3 a = positions[indices[i]];
-        grown[level.growthsOf[indices[i]]].area +=
-            0.5 * glm::length(
-                      glm::cross(glm::dvec3(positions[indices[i + 1]]) - a, glm::dvec3(positions[indices[i + 2]]) - a));
-    }
-    for (std::size_t v = 0; v < positions.size(); ++v) grown[level.growthsOf[v]].box.extend(glm::dvec3(positions[v]));
-    for (std::size_t g = 0; g < grown.size(); ++g) chooseGrowth(grown[g], level.growths[g], limits);
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-        const std::uint32_t g = level.growthsOf[v];
-        if (grown[g].factor == 1) continue;
-        const glm::vec3 moved(grown[g].place(glm::dvec3(positions[v]), level.growths[g].centre));
-        positions[v] = glm::clamp(moved, glm::vec3(limits.minimum), glm::vec3(limits.maximum));
-    }
-}
-
 FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     FittedLevel result;
-    result.fit = fitLevel(source, level.mesh, level.anchors);
-    grow(result.fit.positions, level, source.bounds);
+    result.fit = fitLevel(source, level.mesh, std::move(level.anchors));
+    growComponents(result.fit.positions, level, source.bounds);
     result.removed = std::move(level.removed);
     result.triangles = {std::move(level.mesh.indices), std::move(level.primitiveIndexCounts)};
     result.numbers = std::move(level.numbers);
@@ -226,14 +186,17 @@ double removedError(const std::vector<Ball>& removed, const Surface& level) {
     return error;
 }
 
-// Measures how far the level is from the mesh, and orders its triangles by clusters.
+// How far the level is from the mesh.
 void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     const Surface surface = prepareSurface(level.fit.positions, level.triangles.indices);
     level.error =
         std::max(levelError(mesh, surface, diagonal), std::min(removedError(level.removed, surface), diagonal));
     level.removed = {};
-    level.clusters = clusterTriangles(level.triangles, level.fit.positions);
-    for (std::uint32_t& v : level.triangles.indices) v = level.numbers[v];
+}
+
+// Orders the level's triangles by clusters.
+void cluster(FittedLevel& level, const std::vector<glm::vec3>& positions) {
+    level.clusters = clusterTriangles(level.triangles, positions);
 }
 
 // Values of the first `count` vertices in the order of `sources`: the level's where it has any, else the mesh's.
@@ -259,6 +222,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
         levels[0].triangles = allTriangles(mesh, unique.id);
         sortSpatially(levels[0].triangles);
     }
+    unique.id = {};
     Vertices vertices = gathered(mesh.vertices, unique.first);
     Welded positions = weldPositions(vertices.positions);
     if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, levels[0].triangles.indices);
@@ -268,31 +232,47 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
     Simplification simplification;
     double diagonal = 0;
     if (options.mostLevels > 1) {
-        const FitSource source = prepareFit(vertices, positions, levels[0].triangles.indices);
-        diagonal = glm::length(source.bounds.size());
+        const std::vector<std::uint32_t> smoothing = smoothingGroups(vertices.normals, positions.id);
+        std::optional<FitSource> source;  // once the first level is there: collapsing the whole mesh takes most memory
+        std::once_flag prepared;
+        const auto prepare = [&] {
+            source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles.indices));
+        };
         std::vector<FittedLevel> coarser(
             std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
         Tasks tasks(workers);
-        simplification =
-            simplify(vertices, positions, source.smoothing, levels[0].triangles,
-                     {options.leastTriangles, options.mostLevels - 1}, tasks,
-                     [&](std::uint32_t l, SimplifiedLevel level) { coarser[l] = fitted(source, std::move(level)); });
+        simplification = simplify(vertices, positions, smoothing, levels[0].triangles,
+                                  {options.leastTriangles, options.mostLevels - 1}, tasks,
+                                  [&](std::uint32_t l, SimplifiedLevel level) {
+                                      std::call_once(prepared, prepare);
+                                      coarser[l] = fitted(*source, std::move(level));
+                                  });
         tasks.wait();
+        if (source) diagonal = glm::length(source->bounds.size());
         coarser.resize(simplification.levelCount);
         std::move(coarser.begin(), coarser.end(), std::back_inserter(levels));
     }
+    if (mesh.triangleCount() >= fewestToGiveBack) giveBackFreedMemory();
     pyramid.repairedFaces = simplification.repairedFaces;
 
-    // Measure and cluster them; all that simplifying took has been given back.
-    Surface surface;
-    if (levels.size() > 1) surface = prepareSurface(vertices.positions, levels[0].triangles.indices);
-    {
+    // Measure them, then cluster them; each gives back what it takes before the next begins.
+    if (levels.size() > 1) {
+        const Surface surface = prepareSurface(vertices.positions, levels[0].triangles.indices);
         Tasks tasks(workers);
-        tasks.add([&] { levels[0].clusters = clusterTriangles(levels[0].triangles, vertices.positions); });
         for (std::size_t l = 1; l < levels.size(); ++l) tasks.add([&, l] { measure(levels[l], surface, diagonal); });
         tasks.wait();
     }
-    surface = {};
+    if (mesh.triangleCount() >= fewestToGiveBack) giveBackFreedMemory();
+    {
+        Tasks tasks(workers);
+        tasks.add([&] { cluster(levels[0], vertices.positions); });
+        for (std::size_t l = 1; l < levels.size(); ++l)
+            tasks.add([&, l] {
+                cluster(levels[l], levels[l].fit.positions);
+                for (std::uint32_t& v : levels[l].triangles.indices) v = levels[l].numbers[v];
+            });
+        tasks.wait();
+    }
 
     // Order vertices by survival. Twins are vertices like others from here on; no corner of level 0 uses them.
     const std::size_t ownCount = vertices.count();

@@ -107,10 +107,10 @@ void collapse(Simplifier& s, std::uint32_t from, std::uint32_t to) {
         if (side != Corner::none) --s.liveFaces;
     for (const Retarget& retarget : s.retargets) {
         Corner& corner = s.faces.corners[retarget.corner];
-        Wedge& old = s.faces.wedges[corner.wedge];
-        if (corner.wedge != retarget.wedge && old.quadric.squares.weight > 0) {
+        AttributeQuadric& old = s.attributeQuadrics[corner.wedge];
+        if (corner.wedge != retarget.wedge && old.squares.weight > 0) {
             addAttributeQuadric(s, corner.wedge, retarget.wedge, step);
-            old.quadric = {};
+            old = {};
         }
         corner.vertex = to;
         corner.wedge = retarget.wedge;
@@ -313,9 +313,12 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, std::
         if (s.liveFaces > enough) removeComponents(s, target);
         if (s.liveFaces > enough) break;
         compact(s);
-        const auto picture = std::make_shared<const Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
-        tasks.add(
-            [origin = s.origin, picture, take, l = result.levelCount++] { take(l, described(*origin, *picture)); });
+        const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
+        tasks.add([origin = s.origin, picture, take, l = result.levelCount++] {
+            SimplifiedLevel level = described(*origin, *picture);
+            *picture = {};  // before what takes the most memory
+            take(l, std::move(level));
+        });
     }
     result.twins = s.twins;
     return result;

@@ -26,6 +26,8 @@
 
 namespace defocus {
 
+constexpr std::size_t fewestToGiveBack = 16'384;  // triangles of a mesh whose freed memory is worth giving back
+
 struct SimplifyOptions {
     std::uint32_t leastTriangles = 64;  // halving ends here
     int mostLevels = 23;                // level 0 not among them

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/memory.h"
 #include "lod/simplify_state.h"
 
 namespace defocus {
@@ -46,12 +47,6 @@ std::uint32_t survivorsCorner(const Simplifier& s, const Edge& edge, std::uint32
     return first;
 }
 
-template <typename T>
-void shrink(std::vector<T>& values, std::size_t count) {
-    values.resize(count);
-    values.shrink_to_fit();
-}
-
 // The new number of each vertex that lives; none for others.
 std::vector<std::uint32_t> compactVertices(Simplifier& s) {
     std::vector<std::uint32_t> numbers(s.vertexCount(), Corner::none);
@@ -72,10 +67,10 @@ std::vector<std::uint32_t> compactVertices(Simplifier& s) {
         if (!s.componentOf.empty()) s.componentOf[numbers[v]] = s.componentOf[v];
     }
     for (std::uint32_t v = 0; v < count; ++v) s.survivors[v] = v;
-    shrink(s.survivors, count);
-    shrink(s.candidates, count);
-    shrink(s.vertices, count);
-    if (!s.componentOf.empty()) shrink(s.componentOf, count);
+    s.survivors.resize(count);
+    s.candidates.resize(count);
+    s.vertices.resize(count);
+    if (!s.componentOf.empty()) s.componentOf.resize(count);
     return numbers;
 }
 
@@ -97,12 +92,13 @@ void compactFaces(Simplifier& s, const std::vector<std::uint32_t>& vertexNumbers
         faces.primitives[numbers[face]] = faces.primitives[face];
         faces.turned[numbers[face]] = faces.turned[face];
     }
-    shrink(faces.corners, 3 * std::size_t{count});
-    shrink(faces.primitives, count);
-    shrink(faces.turned, count);
+    faces.corners.resize(3 * std::size_t{count});
+    faces.primitives.resize(count);
+    faces.turned.resize(count);
 }
 
-void compactWedges(Faces& faces) {
+void compactWedges(Simplifier& s) {
+    Faces& faces = s.faces;
     std::vector<std::uint32_t> numbers(faces.wedges.size(), Corner::none);
     for (const Corner& corner : faces.corners) numbers[corner.wedge] = 0;
     std::uint32_t count = 0;
@@ -110,9 +106,11 @@ void compactWedges(Faces& faces) {
         if (numbers[w] == Corner::none) continue;
         numbers[w] = count++;
         faces.wedges[numbers[w]] = faces.wedges[w];
+        s.attributeQuadrics[numbers[w]] = s.attributeQuadrics[w];
     }
     for (Corner& corner : faces.corners) corner.wedge = numbers[corner.wedge];
-    shrink(faces.wedges, count);
+    faces.wedges.resize(count);
+    s.attributeQuadrics.resize(count);
 }
 
 }  // namespace
@@ -137,8 +135,24 @@ std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
 }
 
 void compact(Simplifier& s) {
+    const bool first = s.vertexCount() == s.current.size();
     compactFaces(s, compactVertices(s));
-    compactWedges(s.faces);
+    compactWedges(s);
+
+    // The large ones last: while one is copied, the others are small already. The first time much is given back.
+    const bool large = first && 2 * s.liveFaces >= fewestToGiveBack;
+    s.survivors.shrink_to_fit();
+    s.componentOf.shrink_to_fit();
+    s.faces.turned.shrink_to_fit();
+    s.faces.primitives.shrink_to_fit();
+    s.candidates.shrink_to_fit();
+    s.faces.wedges.shrink_to_fit();
+    s.vertices.shrink_to_fit();
+    if (large) giveBackFreedMemory();
+    s.faces.corners.shrink_to_fit();
+    if (large) giveBackFreedMemory();
+    s.attributeQuadrics.shrink_to_fit();
+    if (large) giveBackFreedMemory();
 }
 
 }  // namespace defocus

@@ -22,8 +22,9 @@ float placeCost(const SurfaceVertex& from, const SurfaceVertex& to, const glm::v
     return from.quadric.at(step) + to.quadric.c + from.quadric.weight * edgeWeight * glm::dot(step, step);
 }
 
-float wedgeCost(const Wedge& from, const Wedge& to, const glm::vec3& step) {
-    return from.quadric.at(step, change(from, to)) + to.quadric.squares.c;
+float wedgeCost(const Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step) {
+    return s.attributeQuadrics[from].at(step, change(s.faces.wedges[from], s.faces.wedges[to])) +
+           s.attributeQuadrics[to].squares.c;
 }
 
 }  // namespace
@@ -40,13 +41,13 @@ float collapseCost(const Simplifier& s, const Edge& edge, std::uint32_t from, st
     if (edge.along != Corner::none) {
         lastFrom = wedge(edge.along);
         lastTo = wedge(nextCorner(edge.along));
-        cost += wedgeCost(s.faces.wedges[lastFrom], s.faces.wedges[lastTo], step);
+        cost += wedgeCost(s, lastFrom, lastTo, step);
     }
     if (edge.back == Corner::none || !(cost < most)) return cost;
     const std::uint32_t wedgeFrom = wedge(nextCorner(edge.back));
     const std::uint32_t wedgeTo = wedge(edge.back);
     if (wedgeFrom == lastFrom && wedgeTo == lastTo) return cost;
-    return cost + wedgeCost(s.faces.wedges[wedgeFrom], s.faces.wedges[wedgeTo], step);
+    return cost + wedgeCost(s, wedgeFrom, wedgeTo, step);
 }
 
 Candidate cheapestCollapse(Simplifier& s, std::uint32_t v) {
@@ -66,9 +67,7 @@ Candidate cheapestCollapse(Simplifier& s, std::uint32_t v) {
 }
 
 void addAttributeQuadric(Simplifier& s, std::uint32_t from, std::uint32_t to, const glm::vec3& step) {
-    Wedge& survivor = s.faces.wedges[to];
-    const Wedge& gone = s.faces.wedges[from];
-    survivor.quadric.add(gone.quadric, step, change(gone, survivor));
+    s.attributeQuadrics[to].add(s.attributeQuadrics[from], step, change(s.faces.wedges[from], s.faces.wedges[to]));
 }
 
 }  // namespace defocus

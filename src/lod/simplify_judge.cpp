@@ -18,8 +18,10 @@ constexpr double sliverQuality = 0.02;      // twice the area / sum of squared e
 void prefetchWedges(const Simplifier& s, std::uint32_t halfEdge) {
     if (halfEdge == Corner::none) return;
     for (const std::uint32_t corner : {halfEdge, nextCorner(halfEdge)}) {
-        const auto* const bytes = reinterpret_cast<const std::byte*>(&s.faces.wedges[s.faces.corners[corner].wedge]);
-        for (std::size_t i = 0; i < sizeof(Wedge); i += 64) prefetch(bytes + i);
+        const std::uint32_t wedge = s.faces.corners[corner].wedge;
+        prefetch(&s.faces.wedges[wedge]);
+        const auto* const bytes = reinterpret_cast<const std::byte*>(&s.attributeQuadrics[wedge]);
+        for (std::size_t i = 0; i < sizeof(AttributeQuadric); i += 64) prefetch(bytes + i);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "core/memory.h"
 #include "lod/manifold.h"
 #include "lod/simplify_state.h"
 
@@ -80,17 +81,18 @@ double rimConstraint(const std::vector<glm::dvec3>& crosses, const Faces& faces,
 }
 
 void buildAttributeQuadrics(Simplifier& s) {
+    s.attributeQuadrics.resize(s.faces.wedges.size());
     for (std::uint32_t face = 0; face < s.faces.count(); ++face) {
         glm::dvec3 places[3];
         const glm::dvec3* points[3];
         const AttributeRow* rows[3];
-        Wedge* wedges[3];
+        std::uint32_t wedges[3];
         for (std::uint32_t i = 0; i < 3; ++i) {
             const Corner& corner = s.faces.corners[3 * face + i];
-            wedges[i] = &s.faces.wedges[corner.wedge];
+            wedges[i] = corner.wedge;
             places[i] = s.point(corner.vertex);
             points[i] = &places[i];
-            rows[i] = &wedges[i]->row;
+            rows[i] = &s.faces.wedges[corner.wedge].row;
         }
         double squaredEdges = 0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -101,7 +103,7 @@ void buildAttributeQuadrics(Simplifier& s) {
         if (!(doubleArea > leastQuality * squaredEdges)) continue;  // its gradients would be noise
         AttributeQuadric quadric;
         quadric.addFace(attributeGradients(points, rows), static_cast<float>(doubleArea / 6));
-        for (Wedge* wedge : wedges) wedge->quadric.addFaces(quadric);
+        for (const std::uint32_t wedge : wedges) s.attributeQuadrics[wedge].addFaces(quadric);
     }
 }
 
@@ -228,6 +230,7 @@ Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions,
         s.faces = connectedFaces(manifold, triangles, welded.primitives);
         origin->places = std::move(manifold.positions);
     }
+    if (s.liveFaces >= fewestToGiveBack) giveBackFreedMemory();  // before what takes the most
     s.vertices.resize(origin->places.size());
     for (std::size_t v = 0; v < s.vertices.size(); ++v)
         s.vertices[v].position = vertices.positions[positions.first[origin->places[v]]];
@@ -240,6 +243,7 @@ Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions,
     // Describe it: wedges and quadrics.
     s.faces.wedges = allWedges(vertices, uvScaleOf(vertices, triangles.indices, origin->frame));
     buildQuadrics(s);
+    if (s.liveFaces >= fewestToGiveBack) giveBackFreedMemory();
     buildAttributeQuadrics(s);
     s.survivors.resize(s.vertices.size());
     std::iota(s.survivors.begin(), s.survivors.end(), 0u);

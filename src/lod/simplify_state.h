@@ -75,6 +75,7 @@ struct Component {
 struct Simplifier {
     std::shared_ptr<const Origin> origin;
     Faces faces;
+    std::vector<AttributeQuadric> attributeQuadrics;  // one a wedge
     std::vector<SurfaceVertex> vertices;
     std::vector<Candidate> candidates;     // one a vertex
     std::vector<std::uint32_t> survivors;  // for each vertex the one it collapsed onto, itself while it lives, or

@@ -49,17 +49,6 @@ Box boxOf(const Triangle& t) {
     return {glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))};
 }
 
-// The triangles that have a place and an area.
-std::vector<Triangle> properTriangles(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
-    std::vector<Triangle> triangles;
-    triangles.reserve(indices.size() / 3);
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const Triangle t = {positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]};
-        if (isFinite(t[0]) && isFinite(t[1]) && isFinite(t[2]) && areaOf(t) > 0) triangles.push_back(t);
-    }
-    return triangles;
-}
-
 // The low 10 bits, two zeros between each and the next.
 std::uint32_t spread(std::uint32_t bits) {
     bits = (bits | bits << 16) & 0x030000ffu;
@@ -68,24 +57,34 @@ std::uint32_t spread(std::uint32_t bits) {
     return (bits | bits << 2) & 0x09249249u;
 }
 
-std::vector<Triangle> inMortonOrder(const std::vector<Triangle>& triangles) {
+// The triangles that have a place and an area.
+std::vector<Triangle> inMortonOrder(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
+    const auto triangle = [&](std::size_t t) {
+        return Triangle{positions[indices[3 * t]], positions[indices[3 * t + 1]], positions[indices[3 * t + 2]]};
+    };
+    std::vector<std::uint64_t> keys;  // Morton codes above numbers
+    keys.reserve(indices.size() / 3);
     Box whole;
-    for (const Triangle& t : triangles) whole = around(whole, boxOf(t));
+    for (std::size_t i = 0; i < indices.size() / 3; ++i) {
+        const Triangle t = triangle(i);
+        if (!isFinite(t[0]) || !isFinite(t[1]) || !isFinite(t[2]) || !(areaOf(t) > 0)) continue;
+        whole = around(whole, boxOf(t));
+        keys.push_back(i);
+    }
     const glm::dvec3 size = glm::dvec3(whole.maximum) - glm::dvec3(whole.minimum);
     const double longest = std::max({size.x, size.y, size.z});
-    std::vector<std::uint64_t> keys(triangles.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const glm::dvec3 centre =
-            (glm::dvec3(triangles[i][0]) + glm::dvec3(triangles[i][1]) + glm::dvec3(triangles[i][2])) / 3.0;
+    for (std::uint64_t& key : keys) {
+        const Triangle t = triangle(key);
+        const glm::dvec3 centre = (glm::dvec3(t[0]) + glm::dvec3(t[1]) + glm::dvec3(t[2])) / 3.0;
         const glm::uvec3 cell(glm::clamp((centre - glm::dvec3(whole.minimum)) * (mortonCells / longest), glm::dvec3(0),
                                          glm::dvec3(mortonCells)));
         const std::uint32_t code = spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
-        keys[i] = std::uint64_t{code} << 32 | i;
+        key |= std::uint64_t{code} << 32;
     }
     std::sort(keys.begin(), keys.end());
     std::vector<Triangle> sorted;
-    sorted.reserve(triangles.size());
-    for (const std::uint64_t key : keys) sorted.push_back(triangles[key & 0xffffffffu]);
+    sorted.reserve(keys.size());
+    for (const std::uint64_t key : keys) sorted.push_back(triangle(key & 0xffffffffu));
     return sorted;
 }
 
@@ -223,7 +222,7 @@ Distances summary(std::vector<double> distances) {
 
 Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
     Surface surface;
-    surface.triangles = inMortonOrder(properTriangles(positions, indices));
+    surface.triangles = inMortonOrder(positions, indices);
     if (surface.empty()) return surface;
     double area = 0;
     surface.areas.reserve(surface.triangles.size());

@@ -52,7 +52,8 @@ OneTriangle oneTriangle() {
 // The level is the triangle, and as many more of the vertices behind it as `indices` name.
 defocus::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& indices = {0, 1, 2}) {
     const Welded positions = weldPositions(t.vertices.positions);
-    FitSource source = prepareFit(t.vertices, positions, indices);
+    const auto smoothing = smoothingGroups(t.vertices.normals, positions.id);
+    FitSource source = prepareFit(t.vertices, positions, smoothing, indices);
     source.areas.assign(t.anchors.size(), 1);  // level 0's triangles are nowhere written down: all alike
     source.bounds.extend({0, 0, 1});
     LevelMesh level;
@@ -147,7 +148,8 @@ TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     for (std::size_t v = 0; v < 3; ++v) t.vertices.normals[v] = up;
     const Welded positions = weldPositions(t.vertices.positions);
     const std::vector<std::uint32_t> indices = {0, 1, 2};
-    FitSource source = prepareFit(t.vertices, positions, indices);
+    const auto smoothing = smoothingGroups(t.vertices.normals, positions.id);
+    FitSource source = prepareFit(t.vertices, positions, smoothing, indices);
     source.areas.assign(t.anchors.size(), 1);
     const LevelMesh level{{0, 1, 2, 3, 1, 2}, {0, 1, 2, 0}, {0, 0, 0, 1}};
     const defocus::LevelFit fitted = fitLevel(source, level, t.anchors);
