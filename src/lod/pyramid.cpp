@@ -58,6 +58,13 @@ LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& 
     return level;
 }
 
+bool isIdentity(const std::vector<std::uint32_t>& numbers, std::size_t count) {
+    if (numbers.size() != count) return false;
+    for (std::size_t v = 0; v < count; ++v)
+        if (numbers[v] != v) return false;
+    return true;
+}
+
 // Mean and greatest length of all faces' edges.
 void measureEdges(PyramidLevel& level, const std::vector<std::uint32_t>& indices) {
     double sum = 0;
@@ -223,9 +230,13 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
         sortSpatially(levels[0].triangles);
     }
     unique.id = {};
-    Vertices vertices = gathered(mesh.vertices, unique.first);
+    Vertices joined;  // unless the mesh has them as they are
+    const bool asTheyAre = !mesh.vertices.normals.empty() && isIdentity(unique.first, mesh.vertices.count());
+    if (!asTheyAre) joined = gathered(mesh.vertices, unique.first);
+    if (!asTheyAre && joined.normals.empty())
+        joined.normals = smoothNormals(joined.positions, levels[0].triangles.indices);
+    const Vertices& vertices = asTheyAre ? mesh.vertices : joined;
     Welded positions = weldPositions(vertices.positions);
-    if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, levels[0].triangles.indices);
 
     // Simplify, and fit every level while the next ones are made.
     Pyramid pyramid;
