@@ -1,10 +1,48 @@
 #pragma once
-// What the allocator keeps of freed memory for later.
+// Memory for large work that goes back to the system as soon as it is freed, so that the phases of a long piece of work
+// take it one after the other. What malloc frees it keeps, where the process has freed large blocks before.
+
+#include <cstddef>
+#include <new>
+#include <vector>
 
 namespace defocus {
 
-// Gives it back to the system, where the C library can (glibc; elsewhere nothing happens). Worth its time (a few
-// milliseconds) after freeing tens of megabytes that no one asks for again soon.
+// Gives back what malloc keeps, where the C library can (glibc; elsewhere nothing happens). Worth its time (a few
+// milliseconds) after freeing tens of megabytes.
 void giveBackFreedMemory();
+
+// Whole pages, zero. Throws std::bad_alloc.
+void* allocatePages(std::size_t bytes);
+void freePages(void* pages, std::size_t bytes) noexcept;
+
+// Pages for large blocks, operator new for others.
+template <typename T>
+struct PageAllocator {
+    using value_type = T;
+    static constexpr std::size_t fewestBytes = 256 * 1024;
+
+    PageAllocator() = default;
+    template <typename Other>
+    PageAllocator(const PageAllocator<Other>&) noexcept {}
+
+    T* allocate(std::size_t count) {
+        if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+        const std::size_t bytes = count * sizeof(T);
+        return static_cast<T*>(bytes >= fewestBytes ? allocatePages(bytes)
+                                                    : ::operator new (bytes, std::align_val_t{alignof(T)}));
+    }
+    void deallocate(T* values, std::size_t count) noexcept {
+        const std::size_t bytes = count * sizeof(T);
+        if (bytes >= fewestBytes)
+            freePages(values, bytes);
+        else
+            ::operator delete (values, std::align_val_t{alignof(T)});
+    }
+    bool operator==(const PageAllocator&) const = default;
+};
+
+template <typename T>
+using LargeVector = std::vector<T, PageAllocator<T>>;
 
 }  // namespace defocus

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/bounds.h"
+#include "core/memory.h"
 
 namespace defocus {
 
@@ -43,9 +44,9 @@ LocalTriangles localTriangles(const std::uint32_t* indices, std::size_t count, c
 }
 
 struct Meshlets {
-    std::vector<meshopt_Meshlet> list;
-    std::vector<std::uint32_t> vertices;
-    std::vector<unsigned char> corners;
+    LargeVector<meshopt_Meshlet> list;
+    LargeVector<std::uint32_t> vertices;
+    LargeVector<unsigned char> corners;
 };
 
 Meshlets meshlets(const LocalTriangles& local) {

@@ -144,8 +144,4 @@ Fit retargetWedges(const Faces& faces, const WedgeQuestion& question, std::vecto
     return worst;
 }
 
-bool sameChart(const AttributeRow& a, const AttributeRow& b) {
-    return std::equal(a.begin() + 3, a.end(), b.begin() + 3);
-}
-
 }  // namespace defocus

@@ -6,10 +6,12 @@
 // Corner 3·f + i of face f is also the half-edge that runs from there to the face's next corner (Rossignac, Safonova
 // and Szymczak 2001, 3D Compression Made Simple: Edgebreaker on a Corner Table).
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/memory.h"
 #include "lod/attribute_quadric.h"
 
 namespace defocus {
@@ -43,10 +45,10 @@ struct Wedge {
 
 // Faces run around their corners so that neighbours agree.
 struct Faces {
-    std::vector<Corner> corners;            // three a face
+    LargeVector<Corner> corners;            // three a face
     std::vector<std::uint32_t> primitives;  // one a face
     std::vector<std::uint8_t> turned;       // one a face; 1: the mesh has its last two corners the other way round
-    std::vector<Wedge> wedges;
+    LargeVector<Wedge> wedges;
 
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(primitives.size()); }
     [[nodiscard]] bool isAlive(std::uint32_t face) const {
@@ -104,6 +106,8 @@ struct WedgeQuestion {
 Fit retargetWedges(const Faces& faces, const WedgeQuestion& question, std::vector<Retarget>& result);
 
 // Whether no seam lies between wedges: they differ in nothing but their normals.
-bool sameChart(const AttributeRow& a, const AttributeRow& b);
+inline bool sameChart(const AttributeRow& a, const AttributeRow& b) {
+    return std::equal(a.begin() + 3, a.end(), b.begin() + 3);
+}
 
 }  // namespace defocus

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "core/memory.h"
 #include "lod/simplify_state.h"
 
 namespace defocus {
@@ -13,7 +12,7 @@ namespace {
 // The face along `halfEdge` goes: what lies beyond its other two edges is joined.
 void removeFace(Simplifier& s, std::uint32_t halfEdge) {
     if (halfEdge == Corner::none) return;
-    std::vector<Corner>& corners = s.faces.corners;
+    LargeVector<Corner>& corners = s.faces.corners;
     const std::uint32_t a = corners[nextCorner(halfEdge)].twin;
     const std::uint32_t b = corners[previousCorner(halfEdge)].twin;
     if (a != Corner::none) corners[a].twin = b;
@@ -32,7 +31,7 @@ void moveThird(Simplifier& s, std::uint32_t halfEdge) {
 // The first corner of the survivor, read before the faces go. Where either vertex is on a border, so is the survivor,
 // and it begins where that border does.
 std::uint32_t survivorsCorner(const Simplifier& s, const Edge& edge, std::uint32_t from, std::uint32_t to) {
-    const std::vector<Corner>& corners = s.faces.corners;
+    const LargeVector<Corner>& corners = s.faces.corners;
     const std::uint32_t firstFrom = s.vertices[from].corner;
     const std::uint32_t firstTo = s.vertices[to].corner;
     const bool fromBorder = corners[firstFrom].twin == Corner::none;
@@ -135,12 +134,10 @@ std::uint32_t survivorOf(Simplifier& s, std::uint32_t v) {
 }
 
 void compact(Simplifier& s) {
-    const bool first = s.vertexCount() == s.current.size();
     compactFaces(s, compactVertices(s));
     compactWedges(s);
 
-    // The large ones last: while one is copied, the others are small already. The first time much is given back.
-    const bool large = first && 2 * s.liveFaces >= fewestToGiveBack;
+    // The large ones last: while one is copied, the others are small already.
     s.survivors.shrink_to_fit();
     s.componentOf.shrink_to_fit();
     s.faces.turned.shrink_to_fit();
@@ -148,11 +145,8 @@ void compact(Simplifier& s) {
     s.candidates.shrink_to_fit();
     s.faces.wedges.shrink_to_fit();
     s.vertices.shrink_to_fit();
-    if (large) giveBackFreedMemory();
     s.faces.corners.shrink_to_fit();
-    if (large) giveBackFreedMemory();
     s.attributeQuadrics.shrink_to_fit();
-    if (large) giveBackFreedMemory();
 }
 
 }  // namespace defocus

@@ -52,7 +52,7 @@ glm::dvec3 faceCross(const Simplifier& s, std::uint32_t face) {
 }
 
 // Whether the surface ends at half-edge `e`; a face without area beyond it is no surface.
-bool isBorder(const std::vector<glm::dvec3>& crosses, const Faces& faces, std::uint32_t e) {
+bool isBorder(const LargeVector<glm::dvec3>& crosses, const Faces& faces, std::uint32_t e) {
     const std::uint32_t twin = faces.corners[e].twin;
     return twin == Corner::none || !(glm::dot(crosses[twin / 3], crosses[twin / 3]) > 0);
 }
@@ -71,7 +71,7 @@ double seamConstraint(const Faces& faces, std::uint32_t e) {
 
 // The same for an edge where the surface turns by more than 60°: without it the rim of a thin sheet, whose own area is
 // next to nothing, would cost nothing to cut back.
-double rimConstraint(const std::vector<glm::dvec3>& crosses, const Faces& faces, std::uint32_t e) {
+double rimConstraint(const LargeVector<glm::dvec3>& crosses, const Faces& faces, std::uint32_t e) {
     const std::uint32_t twin = faces.corners[e].twin;
     if (twin == Corner::none) return 0;
     const glm::dvec3& mine = crosses[e / 3];
@@ -109,7 +109,7 @@ void buildAttributeQuadrics(Simplifier& s) {
 
 void buildQuadrics(Simplifier& s) {
     const Faces& faces = s.faces;
-    std::vector<glm::dvec3> crosses;
+    LargeVector<glm::dvec3> crosses;
     crosses.reserve(faces.count());
     for (std::uint32_t face = 0; face < faces.count(); ++face) crosses.push_back(faceCross(s, face));
     for (std::uint32_t face = 0; face < faces.count(); ++face) {
@@ -184,8 +184,8 @@ float uvScaleOf(const Vertices& vertices, const std::vector<std::uint32_t>& indi
     return std::isfinite(ratio) ? static_cast<float>(ratio) : 0.0f;
 }
 
-std::vector<Wedge> allWedges(const Vertices& vertices, float uvScale) {
-    std::vector<Wedge> wedges(vertices.count());
+LargeVector<Wedge> allWedges(const Vertices& vertices, float uvScale) {
+    LargeVector<Wedge> wedges(vertices.count());
     for (std::size_t v = 0; v < wedges.size(); ++v) {
         wedges[v].source = static_cast<std::uint32_t>(v);
         const glm::vec3 normal = vertices.normals.empty() ? glm::vec3(0) : normalWeight * vertices.normals[v];
@@ -243,7 +243,6 @@ Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions,
     // Describe it: wedges and quadrics.
     s.faces.wedges = allWedges(vertices, uvScaleOf(vertices, triangles.indices, origin->frame));
     buildQuadrics(s);
-    if (s.liveFaces >= fewestToGiveBack) giveBackFreedMemory();
     buildAttributeQuadrics(s);
     s.survivors.resize(s.vertices.size());
     std::iota(s.survivors.begin(), s.survivors.end(), 0u);

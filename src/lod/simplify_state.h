@@ -75,9 +75,9 @@ struct Component {
 struct Simplifier {
     std::shared_ptr<const Origin> origin;
     Faces faces;
-    std::vector<AttributeQuadric> attributeQuadrics;  // one a wedge
-    std::vector<SurfaceVertex> vertices;
-    std::vector<Candidate> candidates;     // one a vertex
+    LargeVector<AttributeQuadric> attributeQuadrics;  // one a wedge
+    LargeVector<SurfaceVertex> vertices;
+    LargeVector<Candidate> candidates;     // one a vertex
     std::vector<std::uint32_t> survivors;  // for each vertex the one it collapsed onto, itself while it lives, or
                                            // Corner::none if it was taken out with its component
     std::vector<std::uint32_t> current;    // for each vertex of Origin, the one that it is now or has collapsed onto

@@ -58,11 +58,11 @@ std::uint32_t spread(std::uint32_t bits) {
 }
 
 // The triangles that have a place and an area.
-std::vector<Triangle> inMortonOrder(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
+LargeVector<Triangle> inMortonOrder(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
     const auto triangle = [&](std::size_t t) {
         return Triangle{positions[indices[3 * t]], positions[indices[3 * t + 1]], positions[indices[3 * t + 2]]};
     };
-    std::vector<std::uint64_t> keys;  // Morton codes above numbers
+    LargeVector<std::uint64_t> keys;  // Morton codes above numbers
     keys.reserve(indices.size() / 3);
     Box whole;
     for (std::size_t i = 0; i < indices.size() / 3; ++i) {
@@ -82,7 +82,7 @@ std::vector<Triangle> inMortonOrder(std::span<const glm::vec3> positions, std::s
         key |= std::uint64_t{code} << 32;
     }
     std::sort(keys.begin(), keys.end());
-    std::vector<Triangle> sorted;
+    LargeVector<Triangle> sorted;
     sorted.reserve(keys.size());
     for (const std::uint64_t key : keys) sorted.push_back(triangle(key & 0xffffffffu));
     return sorted;
@@ -105,7 +105,7 @@ void buildNodes(Surface& surface) {
         leaves *= arity;
     }
     surface.nodes.resize(inner);
-    std::vector<Box> boxes(inner + leaves);  // of the nodes, then of the leaves
+    LargeVector<Box> boxes(inner + leaves);  // of the nodes, then of the leaves
     for (std::size_t leaf = 0; leaf < leaves; ++leaf)
         for (std::size_t t = leafStart(surface, leaf); t < leafStart(surface, leaf + 1); ++t)
             boxes[inner + leaf] = around(boxes[inner + leaf], boxOf(surface.triangles[t]));

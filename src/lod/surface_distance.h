@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "core/memory.h"
+
 namespace defocus {
 
 // Four numbers that GCC and Clang compute with at once.
@@ -27,11 +29,11 @@ struct BoxNode {
 
 // Made by prepareSurface, then only read (from any number of threads).
 struct Surface {
-    std::vector<std::array<glm::vec3, 3>> triangles;  // sorted along a Morton curve: neighbours are near in space
-    std::vector<double> areas;                        // of the triangles up to and with each one
+    LargeVector<std::array<glm::vec3, 3>> triangles;  // sorted along a Morton curve: neighbours are near in space
+    LargeVector<double> areas;                        // of the triangles up to and with each one
     // A complete tree, root at 0, children of i at 4i + 1 … 4i + 4; those beyond the last node are leaves, of up to 2
     // triangles, which share the triangles evenly in their order.
-    std::vector<BoxNode> nodes;
+    LargeVector<BoxNode> nodes;
     float extent = 0;  // the largest absolute coordinate
 
     [[nodiscard]] bool empty() const { return triangles.empty(); }
