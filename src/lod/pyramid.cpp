@@ -273,7 +273,6 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
         for (std::size_t l = 1; l < levels.size(); ++l) tasks.add([&, l] { measure(levels[l], surface, diagonal); });
         tasks.wait();
     }
-    if (mesh.triangleCount() >= fewestToGiveBack) giveBackFreedMemory();
     {
         Tasks tasks(workers);
         tasks.add([&] { cluster(levels[0], vertices.positions); });
