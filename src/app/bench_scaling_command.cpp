@@ -61,8 +61,7 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
                                     },
                                     [&](const ScalingPoint& point, const std::string& reason) {
                                         leftOut.push_back({point, reason});
-                                        fmt::print("{} {:g} is left out: {}\n", scalingAxisName(point.axis),
-                                                   point.value, reason);
+                                        fmt::print("{}", scalingLine(leftOut.back()));
                                         write();
                                     }};
     measureScaling(options, visitor, progress);

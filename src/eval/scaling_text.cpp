@@ -93,6 +93,11 @@ std::string scalingHeader() {
         "levels", "ms", "ms", "ms", "ms", "ms", "millions", "MB", "MB");
 }
 
+std::string scalingLine(const ScalingLeftOut& leftOut) {
+    return fmt::format("{} {} is left out: {}\n", scalingAxisName(leftOut.point.axis), shortNumber(leftOut.point.value),
+                       leftOut.reason);
+}
+
 std::string scalingLine(const ScalingRow& row) {
     return fmt::format(
         "{:<10} {:>10} {:<10} {:>9.1f} {:>15}  {:>9.1f} {:>9.1f} {:>9.1f}  {:>10.3f} {:>8.1f} {:>8.1f}\n",

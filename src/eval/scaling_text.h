@@ -24,6 +24,8 @@ struct ScalingLeftOut {
     std::string reason;
 };
 
+std::string scalingLine(const ScalingLeftOut& leftOut);  // one line
+
 std::string scalingCsv(std::span<const ScalingRow> rows);
 std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,
                         const BenchSubject& subject);

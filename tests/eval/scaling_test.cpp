@@ -73,6 +73,12 @@ TEST(ScalingParts, theRestIsFill) {
     EXPECT_EQ(rowOf(1, 10, 4, 8).fill(), 0) << "parts that overlap leave nothing";
 }
 
+TEST(ScalingText, whatIsLeftOutIsNamedAsInTheTable) {
+    ScalingPoint point;
+    point.value = 5e7;
+    EXPECT_EQ(scalingLine(ScalingLeftOut{point, "too large"}), "triangles 50 M is left out: too large\n");
+}
+
 TEST(ScalingParts, areNamedWhereTheyChange) {
     const ScalingRow fill = rowOf(100'000, 10, 1, 1);
     const ScalingRow vertices = rowOf(1'000'000, 10, 1, 8);
