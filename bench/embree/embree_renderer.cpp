@@ -246,8 +246,9 @@ void EmbreeRenderer::traceLimited(const Tile& tile, int place, const PacketPoint
     const int top = tile.top + place / packetsPerTileRow * packetSide;
     std::array<LensRay, packetSize> behind;
     for (int i = 0; i < packetSize; ++i) {
-        const glm::dvec2 at(left + i % packetSide + static_cast<double>(points.pixelX[i]),
-                            top + i / packetSide + static_cast<double>(points.pixelY[i]));
+        const glm::ivec2 pixel(left + i % packetSide, top + i / packetSide);
+        const glm::dvec2 at(pixel.x + static_cast<double>(points.pixelX[i]),
+                            pixel.y + static_cast<double>(points.pixelY[i]));
         const glm::dvec2 image(2 * at.x / view_.width - 1, 1 - 2 * at.y / view_.height);
         const LensRay eye = eyeRay(camera_, image, {points.lensX[i], points.lensY[i]});
         behind[static_cast<std::size_t>(i)] = refractedRay(camera_, image, eye);

@@ -83,6 +83,7 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
                       const std::size_t end = std::min(text.find(',', begin), text.size());
                       const std::vector<ScalingAxis> all = ScalingOptions().axes;
                       std::vector<std::string> names;
+                      names.reserve(all.size());
                       for (const ScalingAxis axis : all) names.emplace_back(scalingAxisName(axis));
                       options.axes.push_back(all[parseChoice(text.substr(begin, end - begin), names)]);
                       begin = end + 1;

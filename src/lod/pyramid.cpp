@@ -288,6 +288,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
     const std::size_t ownCount = vertices.count();
     for (const std::uint32_t v : simplification.twins) positions.id.push_back(positions.id[v]);
     std::vector<LevelTriangles> triangles;
+    triangles.reserve(levels.size());
     for (FittedLevel& level : levels) triangles.push_back(std::move(level.triangles));
     const SurvivalOrder order = sortBySurvival(triangles, positions);
     std::vector<std::uint32_t> sources;
