@@ -10,6 +10,7 @@
 #include "app/bench_commands.h"
 #include "app/command.h"
 #include "app/prepared_frame.h"
+#include "app/program_facts.h"
 #include "app/scene_options.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -41,9 +42,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     options.renderer.layerFormat = arguments.scene.layerFormat;
     options.renderer.wave = arguments.scene.wave;
     options.renderer.shaderFolder = global.shaderDir;
-    const BenchSubject subject{"defocus " + programVersion(), frame.sceneName,  context->device(), context->driver(),
-                               context->software(),           frame.view.width, frame.view.height, options.runs,
-                               frame.pyramidMilliseconds};
+    const BenchSubject subject = benchSubject(*context, frame, options.runs);
     fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
                subject.runs, subject.device, speedupHeader());
 
@@ -115,6 +114,28 @@ void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list
     std::filesystem::create_directories(folder, fault);
     if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
     for (const char* name : files) checkWritable(folder / name);
+}
+
+BenchSubject benchSubject(const GlContext& context) {
+    BenchSubject subject;
+    subject.program = "defocus " + programVersion();
+    subject.commit = programCommit();
+    subject.commands = {commandLine()};
+    subject.machine = thisMachine();
+    subject.device = context.device();
+    subject.driver = context.driver();
+    subject.software = context.software();
+    return subject;
+}
+
+BenchSubject benchSubject(const GlContext& context, const PreparedFrame& frame, int runs) {
+    BenchSubject subject = benchSubject(context);
+    subject.scene = frame.sceneName;
+    subject.width = frame.view.width;
+    subject.height = frame.view.height;
+    subject.runs = runs;
+    subject.pyramidMilliseconds = frame.pyramidMilliseconds;
+    return subject;
 }
 
 void addBenchCommand(CLI::App& program, const GlobalOptions& global) {

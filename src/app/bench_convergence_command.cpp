@@ -16,7 +16,6 @@
 #include "app/bench_report.h"
 #include "app/option_text.h"
 #include "app/prepared_frame.h"
-#include "app/program_facts.h"
 #include "app/scene_options.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -70,7 +69,7 @@ std::uint64_t subjectHash(const ReferenceImage& reference, const ConvergenceSubj
                           const ConvergenceOptions& options) {
     const RenderSettings& plan = options.plan;
     const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {}", subject.bench.program, subject.commit, subject.bench.device,
+        fmt::format("{} {} {} {} {} {} {} {} {} {}", subject.bench.program, subject.bench.commit, subject.bench.device,
                     subject.bench.driver, sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, plan.keepAll,
                     static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
     return hashBytes(std::as_bytes(std::span(text)), reference.hash);
@@ -94,8 +93,8 @@ public:
         std::vector<std::string> commands;
         for (const nlohmann::json& command : document["commands"])
             if (command.is_string()) commands.push_back(command.get<std::string>());
-        commands.insert(commands.end(), subject_.commands.begin(), subject_.commands.end());
-        subject_.commands = commands;
+        commands.insert(commands.end(), subject_.bench.commands.begin(), subject_.bench.commands.end());
+        subject_.bench.commands = commands;
     }
 
     void add(const ConvergenceRun& run, const Image* image, const Image* flipMap) {
@@ -130,25 +129,6 @@ private:
     std::uint64_t hash_;
     std::vector<ConvergenceRun> runs_;
 };
-
-ConvergenceSubject subjectOf(const PreparedFrame& frame, const GlContext& context, const ConvergenceOptions& options) {
-    ConvergenceSubject subject;
-    subject.bench = {"defocus " + programVersion(),
-                     frame.sceneName,
-                     context.device(),
-                     context.driver(),
-                     context.software(),
-                     frame.view.width,
-                     frame.view.height,
-                     options.runs,
-                     frame.pyramidMilliseconds};
-    subject.commit = programCommit();
-    subject.commands = {commandLine()};
-    subject.camera = frame.cameraName;
-    subject.lens = frame.view.lens;
-    subject.machine = thisMachine();
-    return subject;
-}
 
 void drawReport(const ConvergenceArguments& arguments, const ResultsFolder& results) {
     if (arguments.report.empty()) return;
@@ -188,7 +168,10 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     const ReferenceImage reference =
         referenceImage(frame.world, frame.view, {arguments.referenceSamples, options.renderer}, folder, progress);
     writeImage(folder / "images" / "reference.png", reference.image);
-    ConvergenceSubject subject = subjectOf(frame, *context, options);
+    ConvergenceSubject subject;
+    subject.bench = benchSubject(*context, frame, options.runs);
+    subject.camera = frame.cameraName;
+    subject.lens = frame.view.lens;
     const std::uint32_t fewest = *std::ranges::min_element(options.sampleCounts);
     subject.crops = tellingCrops(frame.world, frame.view, reference, fewest, options.renderer);
 

@@ -50,9 +50,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     options.renderer.layerFormat = arguments.scene.layerFormat;
     options.renderer.wave = arguments.scene.wave;
     options.renderer.shaderFolder = global.shaderDir;
-    const BenchSubject subject{"defocus " + programVersion(), frame.sceneName,  context->device(), context->driver(),
-                               context->software(),           frame.view.width, frame.view.height, 1,
-                               frame.pyramidMilliseconds};
+    const BenchSubject subject = benchSubject(*context, frame, 0);
     fmt::print("{}, {} x {} px, {} of {} frames of each movement, on {}\n\n", subject.scene, subject.width,
                subject.height, options.frames, options.pathFrames, subject.device);
 

@@ -36,11 +36,7 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
     ScalingOptions options = arguments.options;
     options.cacheFolder = arguments.cacheFolder.empty() ? defaultCacheFolder() : arguments.cacheFolder;
     options.renderer.shaderFolder = global.shaderDir;
-    BenchSubject subject;
-    subject.program = "defocus " + programVersion();
-    subject.device = context->device();
-    subject.driver = context->driver();
-    subject.software = context->software();
+    BenchSubject subject = benchSubject(*context);
     subject.runs = options.runs;
     fmt::print("{} runs of each, on {}\n\n{}", subject.runs, subject.device, scalingHeader());
     std::fflush(stdout);

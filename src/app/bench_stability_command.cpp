@@ -47,11 +47,7 @@ void runStability(const StabilityArguments& arguments, const GlobalOptions& glob
             honesty.push_back(row);
         },
         progress);
-    BenchSubject subject;
-    subject.program = "defocus " + programVersion();
-    subject.device = context->device();
-    subject.driver = context->driver();
-    if (!arguments.output.empty()) writeFile(arguments.output, stabilityJson(rows, honesty, subject));
+    if (!arguments.output.empty()) writeFile(arguments.output, stabilityJson(rows, honesty, benchSubject(*context)));
     const auto failed = std::count_if(rows.begin(), rows.end(), [](const StabilityRow& row) { return !row.passed(); });
     if (failed > 0) fail("{} of {} cases are beyond their limits", failed, rows.size());
 }

@@ -80,33 +80,6 @@ ordered_json lensJson(const Lens& lens) {
             {"dofEnabled", lens.dofEnabled}};
 }
 
-ordered_json subjectJson(const ConvergenceSubject& subject) {
-    const BenchSubject& bench = subject.bench;
-    return {{"bench", "convergence"},
-            {"program", bench.program},
-            {"commit", subject.commit},
-            {"commands", subject.commands},
-            {"scene", bench.scene},
-            {"camera", subject.camera},
-            {"lens", lensJson(subject.lens)},
-            {"width", bench.width},
-            {"height", bench.height},
-            {"machine",
-             {{"processor", subject.machine.processor},
-              {"threads", subject.machine.threads},
-              {"memoryBytes", subject.machine.memoryBytes},
-              {"system", subject.machine.system}}},
-            {"device", bench.device},
-            {"driver", bench.driver},
-            {"gpuTimesCoverVertexWork", !bench.software},
-            {"runs", bench.runs},
-            {"heldEqual",
-             "scene, camera, lens, image size, reference, process; the methods take turns frame by frame, the first "
-             "wave of a frame is drawn once before it counts, nothing is pinned"},
-            {"errorsMeasuredOn", "sRGB-encoded values in [0, 1] at EV 0, whole image; FLIP at 67 pixels per degree"},
-            {"errorMapFullScale", errorMapFullScale}};
-}
-
 ordered_json competitorJson(const Competitor& competitor) {
     ordered_json times = ordered_json::array();
     for (const Competitor::Time& time : competitor.times)
@@ -189,7 +162,14 @@ std::string convergenceCsv(std::span<const ConvergenceRow> rows) {
 
 std::string convergenceJson(std::span<const ConvergenceRow> rows, const ReferenceImage& reference,
                             const ConvergenceSubject& subject) {
-    ordered_json document = subjectJson(subject);
+    ordered_json document = subjectJson("convergence", subject.bench);
+    document["camera"] = subject.camera;
+    document["lens"] = lensJson(subject.lens);
+    document["heldEqual"] =
+        "scene, camera, lens, image size, reference, process; the methods take turns frame by frame, the first wave of "
+        "a frame is drawn once before it counts, nothing is pinned";
+    document["errorsMeasuredOn"] = "sRGB-encoded values in [0, 1] at EV 0, whole image; FLIP at 67 pixels per degree";
+    document["errorMapFullScale"] = errorMapFullScale;
     document["reference"] = referenceJson(reference);
     document["rows"] = ordered_json::array();
     for (const ConvergenceRow& row : rows) document["rows"].push_back(rowJson(row));

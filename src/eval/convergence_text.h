@@ -11,7 +11,6 @@
 #include "eval/bench_subject.h"
 #include "eval/convergence_rows.h"
 #include "eval/crops.h"
-#include "eval/machine.h"
 #include "eval/reference_image.h"
 
 namespace defocus {
@@ -28,11 +27,8 @@ std::string convergenceSummary(std::span<const ConvergenceRow> rows, const Refer
 // What the rows were measured on and with.
 struct ConvergenceSubject {
     BenchSubject bench;
-    std::string commit;                 // of the program; empty: not known
-    std::vector<std::string> commands;  // each one that added to these results
     std::string camera;
     Lens lens;
-    Machine machine;
     std::vector<Crop> crops;
     struct LeftOut {
         std::string method;

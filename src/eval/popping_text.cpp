@@ -181,28 +181,19 @@ std::string poppingCsv(std::span<const PoppingFrame> frames) {
 
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
                         const BenchSubject& subject, const PoppingOptions& options) {
-    ordered_json document = {
-        {"bench", "popping"},
-        {"program", subject.program},
-        {"scene", subject.scene},
-        {"device", subject.device},
-        {"driver", subject.driver},
-        {"width", subject.width},
-        {"height", subject.height},
-        {"frames", options.frames},
-        {"pathFrames", options.pathFrames},
-        {"definitions",
-         {{"change",
-           "(I_t - I_t-1) - (R_t - R_t-1) of display values, R at full detail and the same lens samples; FLIP between "
-           "I_t and I_t-1 + (R_t - R_t-1), clipped"},
-          {"step", "I_t against the same view at the levels and splits of frame t-1"},
-          {"objects", "unless a name ends in Image: over the pixels that objects and their blur touch in either frame"},
-          {"speed", "the largest change of an object's fractional level from frame to frame"},
-          {"fullDetail", "differs from the reference by nothing: it is the reference"}}},
-        {"heldEqual", "scene, views, lens samples, thresholds, image size, layer format, renderer"},
-        {"rows", ordered_json::array()},
-        {"sampleSteps", ordered_json::array()},
-        {"changes", ordered_json::array()}};
+    ordered_json document = subjectJson("popping", subject);
+    document["frames"] = options.frames;
+    document["pathFrames"] = options.pathFrames;
+    document["definitions"] = {
+        {"change",
+         "(I_t - I_t-1) - (R_t - R_t-1) of display values, R at full detail and the same lens samples; FLIP between "
+         "I_t and I_t-1 + (R_t - R_t-1), clipped"},
+        {"step", "I_t against the same view at the levels and splits of frame t-1"},
+        {"objects", "unless a name ends in Image: over the pixels that objects and their blur touch in either frame"},
+        {"speed", "the largest change of an object's fractional level from frame to frame"},
+        {"fullDetail", "differs from the reference by nothing: it is the reference"}};
+    document["heldEqual"] = "scene, views, lens samples, thresholds, image size, layer format, renderer";
+    for (const char* list : {"rows", "sampleSteps", "changes"}) document[list] = ordered_json::array();
     for (const PoppingRow& row : poppingRows(frames)) document["rows"].push_back(rowJson(row));
     for (const SampleStep& step : steps) document["sampleSteps"].push_back(stepJson(step));
     for (const PoppingFrame& frame : frames) document["changes"].push_back(frameJson(frame));

@@ -162,22 +162,13 @@ std::string scalingCsv(std::span<const ScalingRow> rows) {
 
 std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,
                         const BenchSubject& subject) {
-    ordered_json document = {
-        {"bench", "scaling"},
-        {"program", subject.program},
-        {"device", subject.device},
-        {"driver", subject.driver},
-        {"softwareDriver", subject.software},
-        {"runs", subject.runs},
-        {"heldEqual",
-         "along an axis: scene, camera, lens, lens samples, image size but for what the axis names, and the process; "
-         "runs alternate between the modes"},
-        {"parts",
-         "layers: the frame with nothing drawn; vertices: the same draws into 1/40 the width and height; fill: the "
-         "rest"},
-        {"curves", ordered_json::array()},
-        {"rows", ordered_json::array()},
-        {"leftOut", ordered_json::array()}};
+    ordered_json document = subjectJson("scaling", subject);
+    document["heldEqual"] =
+        "along an axis: scene, camera, lens, lens samples, image size but for what the axis names, and the process; "
+        "runs alternate between the modes";
+    document["parts"] =
+        "layers: the frame with nothing drawn; vertices: the same draws into 1/40 the width and height; fill: the rest";
+    for (const char* list : {"curves", "rows", "leftOut"}) document[list] = ordered_json::array();
     for (const std::vector<ScalingRow>& curve : curvesOf(rows)) document["curves"].push_back(curveJson(curve));
     for (const ScalingRow& row : rows) document["rows"].push_back(rowJson(row));
     for (const ScalingLeftOut& entry : leftOut)

@@ -12,16 +12,16 @@ namespace defocus {
 
 namespace {
 
-using nlohmann::json;
+using nlohmann::ordered_json;
 
-json differenceJson(const Difference& difference) {
+ordered_json differenceJson(const Difference& difference) {
     return {{"rmse", difference.rmse},
             {"psnr", jsonNumber(difference.psnr)},
             {"ssim", difference.ssim},
             {"flip", difference.flip}};
 }
 
-json rowJson(const SpeedupRow& row) {
+ordered_json rowJson(const SpeedupRow& row) {
     return {{"sweep", row.sweep},
             {"samples", row.samples},
             {"fStop", row.fStop},
@@ -33,7 +33,7 @@ json rowJson(const SpeedupRow& row) {
             {"triangles", row.triangles},
             {"gpuBytes", row.gpuBytes},
             {"fromFullDetail", differenceJson(row.fromFullDetail)},
-            {"fromReference", row.fromReference ? differenceJson(*row.fromReference) : json(nullptr)}};
+            {"fromReference", row.fromReference ? differenceJson(*row.fromReference) : ordered_json(nullptr)}};
 }
 
 std::string csvDifference(const Difference& d) {
@@ -79,23 +79,13 @@ std::string speedupCsv(std::span<const SpeedupRow> rows) {
 }
 
 std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject) {
-    json list = json::array();
-    for (const SpeedupRow& row : rows) list.push_back(rowJson(row));
-    const json document = {{"bench", "speedup"},
-                           {"program", subject.program},
-                           {"scene", subject.scene},
-                           {"device", subject.device},
-                           {"driver", subject.driver},
-                           {"gpuTimesCoverVertexWork", !subject.software},
-                           {"width", subject.width},
-                           {"height", subject.height},
-                           {"runs", subject.runs},
-                           {"pyramidMilliseconds", subject.pyramidMilliseconds},
-                           {"heldEqual",
-                            "scene, camera, lens, lens samples, image size, layers drawn at once, renderer, "
-                            "process; runs alternate between the modes"},
-                           {"rows", std::move(list)}};
-    return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+    ordered_json document = subjectJson("speedup", subject);
+    document["heldEqual"] =
+        "scene, camera, lens, lens samples, image size, layers drawn at once, renderer, process; runs alternate "
+        "between the modes";
+    document["rows"] = ordered_json::array();
+    for (const SpeedupRow& row : rows) document["rows"].push_back(rowJson(row));
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace defocus

@@ -11,7 +11,7 @@ namespace defocus {
 
 namespace {
 
-using nlohmann::json;
+using nlohmann::ordered_json;
 
 std::string verdict(const StabilityRow& row) {
     if (std::isinf(row.subject.limit)) return "for comparison";
@@ -44,26 +44,24 @@ std::string honestyLine(const HonestyRow& row) {
 
 std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const HonestyRow> honesty,
                           const BenchSubject& subject) {
-    json cases = json::array();
+    ordered_json document = subjectJson("stability", subject);
+    document["cases"] = ordered_json::array();
     for (const StabilityRow& row : rows)
-        cases.push_back({{"area", row.subject.area},
-                         {"case", row.subject.name},
-                         {"errorOf", row.subject.measured},
-                         {"against", row.subject.truth},
-                         {"limit", jsonNumber(row.subject.limit)},
-                         {"error", jsonNumber(row.error)},
-                         {"passed", row.passed()}});
-    json lenses = json::array();
+        document["cases"].push_back({{"area", row.subject.area},
+                                     {"case", row.subject.name},
+                                     {"errorOf", row.subject.measured},
+                                     {"against", row.subject.truth},
+                                     {"limit", jsonNumber(row.subject.limit)},
+                                     {"error", jsonNumber(row.error)},
+                                     {"passed", row.passed()}});
+    document["lensHonesty"] = ordered_json::array();
     for (const HonestyRow& row : honesty)
-        lenses.push_back({{"method", row.method},
-                          {"varied", row.varied},
-                          {"expectedDiameter", jsonNumber(row.expected)},
-                          {"measuredDiameter", jsonNumber(row.measured)},
-                          {"energy", jsonNumber(row.energy)}});
-    const json document = {{"bench", "stability"},      {"program", subject.program},
-                           {"device", subject.device},  {"driver", subject.driver},
-                           {"cases", std::move(cases)}, {"lensHonesty", std::move(lenses)}};
-    return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+        document["lensHonesty"].push_back({{"method", row.method},
+                                           {"varied", row.varied},
+                                           {"expectedDiameter", jsonNumber(row.expected)},
+                                           {"measuredDiameter", jsonNumber(row.measured)},
+                                           {"energy", jsonNumber(row.energy)}});
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace defocus

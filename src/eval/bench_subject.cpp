@@ -1,0 +1,31 @@
+#include "eval/bench_subject.h"
+
+#include <nlohmann/json.hpp>
+
+namespace defocus {
+
+nlohmann::ordered_json subjectJson(const std::string& bench, const BenchSubject& subject) {
+    const Machine& machine = subject.machine;
+    nlohmann::ordered_json json = {{"bench", bench},
+                                   {"program", subject.program},
+                                   {"commit", subject.commit},
+                                   {"commands", subject.commands},
+                                   {"machine",
+                                    {{"processor", machine.processor},
+                                     {"threads", machine.threads},
+                                     {"memoryBytes", machine.memoryBytes},
+                                     {"system", machine.system}}},
+                                   {"device", subject.device},
+                                   {"driver", subject.driver},
+                                   {"gpuTimesCoverVertexWork", !subject.software}};
+    if (!subject.scene.empty()) json["scene"] = subject.scene;
+    if (subject.width > 0) {
+        json["width"] = subject.width;
+        json["height"] = subject.height;
+    }
+    if (subject.runs > 0) json["runs"] = subject.runs;
+    if (subject.pyramidMilliseconds > 0) json["pyramidMilliseconds"] = subject.pyramidMilliseconds;
+    return json;
+}
+
+}  // namespace defocus
