@@ -44,7 +44,7 @@ vec3 behind(vec2 imagePlane, int layer) {
     return gradientRadiance((dot(up.xy, p) - up.z) * inversesqrt(dot(p, p) + 1.0));
 }
 #elif BACKGROUND == 1
-vec3 behind(vec2 imagePlane, int layer) { return frame.environment[0].rgb; }
+vec3 behind(vec2 imagePlane, int layer) { return lighting.environment[0].rgb; }
 #endif
 
 void main() {

@@ -38,10 +38,14 @@ layout(location = 1) out vec4 cocScaleOut;
 
 #ifdef TEXTURED
 vec2 uvOf(int slot) {
+#ifndef UV_TRANSFORMS
+    return surface.uv.xy;
+#else
     vec4 rowU = material.uvRows[2 * slot];
     vec4 rowV = material.uvRows[2 * slot + 1];
     vec2 uv = rowU.w == 0.0 ? surface.uv.xy : surface.uv.zw;
     return vec2(dot(rowU.xyz, vec3(uv, 1.0)), dot(rowV.xyz, vec3(uv, 1.0)));
+#endif
 }
 #endif
 
@@ -119,11 +123,14 @@ void main() {
 #ifdef UNLIT
     vec3 radiance = baseColor.rgb;
 #else
+    vec3 radiance = shaded(baseColor.rgb);
+#ifdef EMISSIVE
     vec3 emissive = material.emissiveCutoff.rgb;
 #ifdef EMISSIVE_TEXTURE
     emissive *= texture(emissiveTexture, uvOf(4)).rgb;
 #endif
-    vec3 radiance = shaded(baseColor.rgb) + emissive;
+    radiance += emissive;
+#endif
 #endif
 
 #if defined(COC_SCALES) && defined(READS_COC_SCALE)

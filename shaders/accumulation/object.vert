@@ -92,17 +92,18 @@ void main() {
 #ifdef COARSE_LEVEL
     STAGE_OUT.agreement = length(normalIn);
 #endif
-    STAGE_OUT.normal = viewNormal;
-    STAGE_OUT.toEye = eye - viewPosition;
+    mat3 worldFromView = mat3(frame.worldFromView);
+    STAGE_OUT.normal = worldFromView * viewNormal;
+    STAGE_OUT.toEye = worldFromView * (eye - viewPosition);
 #endif
 #if defined(LOCAL_LIGHTS)
-    STAGE_OUT.position = viewPosition;
+    STAGE_OUT.position = worldFromView * viewPosition;
 #endif
 #ifdef TEXTURED
     STAGE_OUT.uv = vec4(uv0In, uv1In);
 #endif
 #ifdef NORMAL_TEXTURE
-    STAGE_OUT.tangent = vec4(viewTangent, tangentIn.w);
+    STAGE_OUT.tangent = vec4(mat3(frame.worldFromView) * viewTangent, tangentIn.w);
 #endif
 #if defined(COC_SCALES) && defined(READS_COC_SCALE)
     STAGE_OUT.cocScale = cocScale;

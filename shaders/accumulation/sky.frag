@@ -34,7 +34,7 @@ void main() {
 #elif ENVIRONMENT == 2
     vec4 radiance = vec4(gradientRadiance(normalize(mat3(frame.worldFromView) * viewDirection).y), 1.0);
 #else
-    vec4 radiance = vec4(frame.environment[0].rgb, 1.0);
+    vec4 radiance = vec4(lighting.environment[0].rgb, 1.0);
 #endif
 #ifdef LAYER_LARGEST
     radiance.rgb = roundedToHalf(radiance.rgb);

@@ -1,6 +1,8 @@
 // What surrounds the scene: its radiance along a direction, and the light it throws on a surface.
 // ENVIRONMENT: 0 none, 1 uniform, 2 gradient, 3 map. BACKGROUND: what of it shows behind the surfaces, 0 or the same.
 
+#include "include/lighting.glsl"
+
 #if ENVIRONMENT == 3
 layout(binding = 5) uniform sampler2D environmentMap;   // equirectangular; mipmaps serve as rough reflections
 
@@ -12,13 +14,13 @@ vec2 equirectangular(vec3 d) {
 #if ENVIRONMENT == 2
 // By the height (y) of a unit direction.
 vec3 gradientRadiance(float height) {
-    vec3 pole = height > 0.0 ? frame.environment[0].rgb : frame.environment[2].rgb;
-    return mix(frame.environment[1].rgb, pole, abs(height));
+    vec3 pole = height > 0.0 ? lighting.environment[0].rgb : lighting.environment[2].rgb;
+    return mix(lighting.environment[1].rgb, pole, abs(height));
 }
 
 // Irradiance over π: a zonal polynomial.
 vec3 gradientDiffuse(float height) {
-    return frame.irradiance[0].rgb + height * (frame.irradiance[1].rgb + height * frame.irradiance[2].rgb);
+    return lighting.irradiance[0].rgb + height * (lighting.irradiance[1].rgb + height * lighting.irradiance[2].rgb);
 }
 #endif
 
@@ -30,9 +32,9 @@ vec3 environmentRadiance(vec3 worldDirection, float level) {
 
 // Irradiance over π for a normal, from second-order spherical harmonics (Ramamoorthi and Hanrahan 2001).
 vec3 environmentDiffuse(vec3 n) {
-    return max(frame.irradiance[0].rgb + frame.irradiance[1].rgb * n.y + frame.irradiance[2].rgb * n.z +
-               frame.irradiance[3].rgb * n.x + frame.irradiance[4].rgb * (n.x * n.y) + frame.irradiance[5].rgb * (n.y * n.z) +
-               frame.irradiance[6].rgb * (3.0 * n.z * n.z - 1.0) + frame.irradiance[7].rgb * (n.x * n.z) +
-               frame.irradiance[8].rgb * (n.x * n.x - n.y * n.y), vec3(0.0));
+    return max(lighting.irradiance[0].rgb + lighting.irradiance[1].rgb * n.y + lighting.irradiance[2].rgb * n.z +
+               lighting.irradiance[3].rgb * n.x + lighting.irradiance[4].rgb * (n.x * n.y) + lighting.irradiance[5].rgb * (n.y * n.z) +
+               lighting.irradiance[6].rgb * (3.0 * n.z * n.z - 1.0) + lighting.irradiance[7].rgb * (n.x * n.z) +
+               lighting.irradiance[8].rgb * (n.x * n.x - n.y * n.y), vec3(0.0));
 }
 #endif

@@ -1,21 +1,12 @@
 // The frame, the object and the material as uniform blocks; src/render/gpu_blocks.h holds the same structures for C++.
 
-struct LightData {
-    vec4 positionRange;   // view space, m; w: range, 0 is unlimited
-    vec4 directionType;   // view space, the way the light shines; w: 0 directional, 1 point, 2 spot
-    vec4 colorScale;      // colour · intensity / π; w: spot cone scale
-    vec4 cone;            // x: spot cone offset
-};
-
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
     vec4 coc;             // a, b₁ of C; image width (px); b₂        (src/lens/circle_of_confusion.h)
     vec4 cocField;        // tilt t (2), κ, g
     vec4 cocLimits;       // R₁, R₂; 1/k²; px by which C may differ from its interpolation in a triangle
     mat4 worldFromView;   // rotation
-    vec4 environment[3];  // zenith, horizon, nadir radiance
-    vec4 irradiance[9];   // E(n)/π in the real spherical harmonics of Ramamoorthi and Hanrahan 2001, world space
-    LightData lights[MAX_LIGHTS];
+    vec4 lightPositions[MAX_LIGHTS];  // from the camera along the world's axes, m; w: range, 0 is unlimited
 } frame;
 
 layout(std140, binding = 1) uniform ObjectBlock {

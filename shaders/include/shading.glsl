@@ -9,8 +9,8 @@ struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
     vec3 specular;        // reflectance at normal incidence, F0
     float roughness;      // perceptual
-    vec3 normal;          // unit, view space
-    vec3 toEye;           // unit, view space
+    vec3 normal;          // unit, along the world's axes as all directions here
+    vec3 toEye;           // unit
 #ifdef COARSE_LEVEL
     float agreement;      // length |n| of the mean of the normals that `normal` stands for, in (0, 1]
 #endif
@@ -65,13 +65,13 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, float alpha, v
 }
 
 // Falloff and direction of a point or spot light (KHR_lights_punctual).
-vec3 localLight(LightData light, vec3 viewPosition, out vec3 toLight) {
-    vec3 offset = light.positionRange.xyz - viewPosition;
+vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toLight) {
+    vec3 offset = positionRange.xyz - position;
     float distance2 = max(dot(offset, offset), 1e-8);
     toLight = offset * inversesqrt(distance2);
     float falloff = 1.0 / distance2;
-    if (light.positionRange.w > 0.0) {                                 // the extension's recommended window
-        float ratio2 = distance2 / (light.positionRange.w * light.positionRange.w);
+    if (positionRange.w > 0.0) {                                       // the extension's recommended window
+        float ratio2 = distance2 / (positionRange.w * positionRange.w);
         falloff *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
     }
     if (light.directionType.w == 2.0) {
@@ -96,18 +96,15 @@ vec3 environmentLight(SurfacePoint point, float nv, float occlusion) {
     return vec3(0.0);
 #else
 #if ENVIRONMENT == 3
-    mat3 worldFromView = mat3(frame.worldFromView);
-    vec3 diffuse = environmentDiffuse(worldFromView * mattNormal(point));
-    vec3 reflection = environmentRadiance(worldFromView * reflect(-point.toEye, point.normal), point.roughness * ENVIRONMENT_LEVELS);
+    vec3 diffuse = environmentDiffuse(mattNormal(point));
+    vec3 reflection = environmentRadiance(reflect(-point.toEye, point.normal), point.roughness * ENVIRONMENT_LEVELS);
 #elif ENVIRONMENT == 2
     // Only heights count: that of the mirrored direction 2 (n·v) n − v too.
-    vec3 up = vec3(frame.worldFromView[0].y, frame.worldFromView[1].y, frame.worldFromView[2].y);
-    float normalHeight = dot(up, point.normal);
-    float mirroredHeight = 2.0 * nv * normalHeight - dot(up, point.toEye);
-    vec3 diffuse = gradientDiffuse(dot(up, mattNormal(point)));
+    float mirroredHeight = 2.0 * nv * point.normal.y - point.toEye.y;
+    vec3 diffuse = gradientDiffuse(mattNormal(point).y);
     vec3 reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), point.roughness);
 #else
-    vec3 diffuse = frame.environment[0].rgb;
+    vec3 diffuse = lighting.environment[0].rgb;
     vec3 reflection = diffuse;
 #endif
     vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
@@ -117,8 +114,8 @@ vec3 environmentLight(SurfacePoint point, float nv, float occlusion) {
 #endif
 }
 
-// Radiance towards the eye, without emission. `viewPosition` matters to point and spot lights only.
-vec3 reflectedRadiance(SurfacePoint point, vec3 viewPosition, float occlusion) {
+// Radiance towards the eye, without emission. `position`, from the camera, matters to point and spot lights only.
+vec3 reflectedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be below 0: an interpolated normal can look away
     float alpha = max(point.roughness * point.roughness, 1e-3);
 #ifdef COARSE_LEVEL
@@ -127,10 +124,11 @@ vec3 reflectedRadiance(SurfacePoint point, vec3 viewPosition, float occlusion) {
 #endif
     LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
     for (int i = 0; i < LIGHT_COUNT; ++i) {
-        vec3 toLight = -frame.lights[i].directionType.xyz;
-        vec3 illuminance = frame.lights[i].colorScale.rgb;
+        vec3 toLight = -lighting.lights[i].directionType.xyz;
+        vec3 illuminance = lighting.lights[i].colorScale.rgb;
 #ifdef LOCAL_LIGHTS
-        if (frame.lights[i].directionType.w != 0.0) illuminance = localLight(frame.lights[i], viewPosition, toLight);
+        if (lighting.lights[i].directionType.w != 0.0)
+            illuminance = localLight(lighting.lights[i], frame.lightPositions[i], position, toLight);
 #endif
         addLight(sums, point, nv, alpha, toLight, illuminance);
     }

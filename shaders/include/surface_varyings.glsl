@@ -2,14 +2,14 @@
 
     vec4 color;
 #ifndef UNLIT
-    vec3 normal;          // view space
+    vec3 normal;          // along the world's axes, as all directions here
 #ifdef COARSE_LEVEL
     float agreement;      // of the normals that a coarse level's normal stands for: the length of their mean, ≤ 1
 #endif
-    vec3 toEye;           // view space, to this sample's point on the lens
+    vec3 toEye;           // to this sample's point on the lens
 #endif
 #if defined(LOCAL_LIGHTS)
-    vec3 position;        // view space
+    vec3 position;        // from the camera
 #endif
 #ifdef TEXTURED
     vec4 uv;              // both UV sets

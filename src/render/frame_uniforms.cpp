@@ -1,6 +1,7 @@
 #include "render/frame_uniforms.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,20 +14,19 @@ namespace defocus {
 namespace {
 
 constexpr double unlimitedBlur = 1e9;  // widths of the image: finite, so that 0 times it is 0
+constexpr std::size_t mostConstantLights = 4;
 constexpr double goldenRatio = 0.618033988749894848;
 
-GpuLight gpuLight(const PlacedLight& placed, const glm::dmat4& viewFromWorld) {
+GpuLight gpuLight(const PlacedLight& placed) {
     const Light& light = placed.light;
-    const glm::vec3 direction(glm::normalize(glm::dmat3(viewFromWorld) * placed.direction));
-    const glm::vec3 position(viewFromWorld * glm::dvec4(placed.position, 1.0));
+    const glm::vec3 direction(glm::normalize(placed.direction));
     // KHR_lights_punctual: the cone's falloff is a linear ramp between the cosines of its angles, squared in the
     // shader.
     const float inner = std::cos(light.innerConeAngle);
     const float outer = std::cos(light.outerConeAngle);
     const float scale = 1.0f / std::max(inner - outer, 1e-4f);
     const float type = light.type == LightType::directional ? 0.0f : light.type == LightType::point ? 1.0f : 2.0f;
-    return {glm::vec4(position, light.range), glm::vec4(direction, type),
-            glm::vec4(light.color * (light.intensity / std::numbers::pi_v<float>), scale),
+    return {glm::vec4(direction, type), glm::vec4(light.color * (light.intensity / std::numbers::pi_v<float>), scale),
             glm::vec4(-outer * scale, 0, 0, 0)};
 }
 
@@ -60,6 +60,29 @@ GlTexture environmentTexture(const Image& map) {
     return texture;
 }
 
+// Whether the same lights shine on each frame of the world. Many would make long programs.
+bool staysLitAlike(const World& world) {
+    return world.lights.size() <= mostConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
+}
+
+// As lighting.glsl's constant is made of them.
+std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
+    const auto vectors = [](std::span<const glm::vec4> list) {
+        std::string text;
+        for (const glm::vec4& v : list)
+            text += fmt::format("{}vec4({:.8e},{:.8e},{:.8e},{:.8e})", text.empty() ? "" : ",", v.x, v.y, v.z, v.w);
+        return text;
+    };
+    std::string lights;
+    for (std::size_t i = 0; i < std::max<std::size_t>(lightCount, 1); ++i) {
+        const GpuLight& light = block.lights[i];
+        const std::array members = {light.directionType, light.colorScale, light.cone};
+        lights += fmt::format("{}LightData({})", i > 0 ? "," : "", vectors(members));
+    }
+    return fmt::format("vec4[]({}),vec4[]({}),LightData[]({})", vectors(block.environment), vectors(block.irradiance),
+                       lights);
+}
+
 bool barrelCuts(const FramePlan& plan) {
     return plan.usesLens && plan.view.lens.catEye > 0;
 }
@@ -73,8 +96,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     const int levels = type == EnvironmentType::map
                            ? mipmapLevels(world.environment.map->width, world.environment.map->height) - 1
                            : 0;
-    defines_ = {{"MAX_LIGHTS", std::to_string(mostLights)},
-                {"BLOCK_SAMPLES", std::to_string(blockSamples)},
+    defines_ = {{"BLOCK_SAMPLES", std::to_string(blockSamples)},
                 {"ENVIRONMENT", std::to_string(environmentNumber(type))},
                 {"BACKGROUND", std::to_string(plan.needsAlpha ? 0 : environmentNumber(type))},
                 {"ENVIRONMENT_LEVELS", fmt::format("{:.1f}", static_cast<double>(levels))},
@@ -88,6 +110,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     countsInAlpha_ = barrelCuts(plan);
     if (countsInAlpha_) defines_.emplace_back("CAT_EYE", fmt::format("{:.6f}", plan.view.lens.catEye));
     if (plan.usesCocControls) defines_.emplace_back("COC_CONTROLS", "1");
+    uploadLighting(world);
     uploadSamples(plan, layerCount);
 
     const View& view = plan.view;
@@ -101,12 +124,23 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     block.cocLimits = {std::min(coc.foregroundLimit, unlimitedBlur), std::min(coc.backgroundLimit, unlimitedBlur),
                        1 / (coc.aspect * coc.aspect), plan.settings.cocTolerance};
     block.worldFromView = glm::mat4(glm::mat3(view.worldFromCamera));
+    const glm::dvec3 camera(view.worldFromCamera[3]);
+    for (std::size_t i = 0; i < world.lights.size(); ++i)
+        block.lightPositions[i] = glm::vec4(glm::vec3(world.lights[i].position - camera), world.lights[i].light.range);
+    frameBlock_ = Buffer(sizeof block, &block);
+}
+
+void FrameUniforms::uploadLighting(const World& world) {
+    GpuLighting block{};
     block.environment = {glm::vec4(world.environment.zenith, 1), glm::vec4(world.environment.horizon, 1),
                          glm::vec4(world.environment.nadir, 1)};
     block.irradiance = irradiance_;
-    const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
-    for (std::size_t i = 0; i < world.lights.size(); ++i) block.lights[i] = gpuLight(world.lights[i], viewFromWorld);
-    frameBlock_ = Buffer(sizeof block, &block);
+    for (std::size_t i = 0; i < world.lights.size(); ++i) block.lights[i] = gpuLight(world.lights[i]);
+    const bool constant = staysLitAlike(world);
+    defines_.emplace_back("MAX_LIGHTS",
+                          std::to_string(constant ? std::max<std::size_t>(world.lights.size(), 1) : mostLights));
+    if (constant) defines_.emplace_back("LIGHTING_VALUES", lightingText(block, world.lights.size()));
+    lightingBlock_ = constant ? Buffer() : Buffer(sizeof block, &block);
 }
 
 void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCount) {
@@ -168,6 +202,7 @@ void FrameUniforms::uploadBands(const FramePlan& plan, const std::vector<float>&
 void FrameUniforms::bind(std::uint32_t firstSample) const {
     constexpr std::size_t blockBytes = blockSamples * sizeof(glm::vec4);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, frameBlock_.name());
+    if (lightingBlock_) glBindBufferBase(GL_UNIFORM_BUFFER, 5, lightingBlock_.name());
     glBindBufferRange(GL_UNIFORM_BUFFER, 3, sampleShifts_.name(),
                       static_cast<GLintptr>(firstSample / blockSamples * blockBytes), blockBytes);
     if (sampleBands_)
@@ -177,8 +212,8 @@ void FrameUniforms::bind(std::uint32_t firstSample) const {
 }
 
 std::size_t FrameUniforms::bytes() const {
-    return frameBlock_.bytes() + samples_.bytes() + moments_.bytes() + sampleShifts_.bytes() + bandShifts_.bytes() +
-           sampleBands_.bytes() + environmentMap_.bytes();
+    return frameBlock_.bytes() + lightingBlock_.bytes() + samples_.bytes() + moments_.bytes() + sampleShifts_.bytes() +
+           bandShifts_.bytes() + sampleBands_.bytes() + environmentMap_.bytes();
 }
 
 }  // namespace defocus

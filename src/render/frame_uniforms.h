@@ -30,13 +30,15 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    void uploadLighting(const World& world);
     void uploadSamples(const FramePlan& plan, std::uint32_t layerCount);
     void uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts);
 
     ShaderDefines defines_;
     std::array<glm::vec4, 9> irradiance_{};  // of the environment
     Buffer frameBlock_;
-    Buffer samples_;  // GpuSample, one a lens sample
+    Buffer lightingBlock_;  // empty where the shaders hold it as constants
+    Buffer samples_;        // GpuSample, one a lens sample
     Buffer moments_;
     Buffer sampleShifts_;  // vec4, one a lens sample: where the sky lies for it
     Buffer bandShifts_;

@@ -1,5 +1,5 @@
 #pragma once
-// The uniform blocks of shaders/include/frame.glsl, std140, for C++.
+// The uniform blocks of shaders/include/frame.glsl and lighting.glsl, std140, for C++.
 
 #include <array>
 #include <glm/mat4x4.hpp>
@@ -7,10 +7,9 @@
 
 namespace defocus {
 
-inline constexpr int mostLights = 64;  // 64 lights of 64 bytes: a quarter of the 16 KiB every driver gives a block
+inline constexpr int mostLights = 64;  // 64 lights of 48 bytes: a fifth of the 16 KiB every driver gives a block
 
 struct GpuLight {
-    glm::vec4 positionRange;
     glm::vec4 directionType;
     glm::vec4 colorScale;
     glm::vec4 cone;
@@ -22,6 +21,10 @@ struct GpuFrame {
     glm::vec4 cocField;
     glm::vec4 cocLimits;
     glm::mat4 worldFromView;
+    std::array<glm::vec4, mostLights> lightPositions;
+};
+
+struct GpuLighting {
     std::array<glm::vec4, 3> environment;
     std::array<glm::vec4, 9> irradiance;
     std::array<GpuLight, mostLights> lights;

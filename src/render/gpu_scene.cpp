@@ -187,15 +187,19 @@ void GpuScene::prepareMaterial(int index) {
     slots.slots[4] = texture(m.emissive, true);
 }
 
+std::array<const TextureUse*, 5> textureUses(const Material& material) {
+    return {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
+            &material.emissive};
+}
+
 GpuMaterial GpuScene::materialBlock(const Material& material) {
     GpuMaterial block{};
     block.baseColor = material.baseColorFactor;
     block.emissiveCutoff = glm::vec4(material.emissiveFactor, material.alphaCutoff);
     block.surface = {material.metallicFactor, material.roughnessFactor, material.normalScale,
                      material.occlusionStrength};
-    const TextureUse* uses[5] = {&material.baseColor, &material.metallicRoughness, &material.normal,
-                                 &material.occlusion, &material.emissive};
-    for (std::size_t i = 0; i < 5; ++i) {
+    const auto uses = textureUses(material);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
         const glm::mat3& m = uses[i]->uvTransform;
         block.uvRows[2 * i] = {m[0][0], m[1][0], m[2][0], static_cast<float>(uses[i]->uvSet)};
         block.uvRows[2 * i + 1] = {m[0][1], m[1][1], m[2][1], 0};

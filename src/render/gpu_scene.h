@@ -2,6 +2,7 @@
 // A World on the GPU: vertex and index buffers of the pyramid levels that frames use, textures and materials of the
 // meshes that are drawn. What no plan has asked for is never uploaded.
 
+#include <array>
 #include <map>
 #include <optional>
 #include <vector>
@@ -39,7 +40,10 @@ struct GpuMesh {
     std::vector<GpuLevel> levels;
 };
 
-// The five textures of a material in the order of the shader's bindings; null where there is none.
+// A material's textures in the order of the shader's bindings.
+std::array<const TextureUse*, 5> textureUses(const Material& material);
+
+// The same on the GPU; null where there is none.
 struct GpuMaterialTextures {
     const GlTexture* slots[5] = {};
 };

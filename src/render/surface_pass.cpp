@@ -172,17 +172,22 @@ const Program& SurfacePass::program(const Draw& draw) {
     const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
     const GpuMaterialTextures& textures = scene_->textures(draw.material);
     const bool masked = material.alphaMode == AlphaMode::mask;
+    const auto uses = textureUses(material);
     bool textured = false;
-    for (std::size_t i = 0; i < 5; ++i) {
+    bool transformed = false;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
         const bool wanted = info_.shaded || (i == 0 && masked);
         const bool used = textures.slots[i] != nullptr && hasUv && wanted && (i != 2 || mesh.tangents);
         textured |= used;
+        transformed |= used && (uses[i]->uvSet != 0 || uses[i]->uvTransform != glm::mat3(1.0f));
         set(used, textureDefines[i]);
     }
     const bool lit = info_.shaded && !material.unlit;
     const std::vector<PlacedLight>& lights = scene_->world().lights;
     set(textured, "TEXTURED");
+    set(transformed, "UV_TRANSFORMS");
     set(!lit, "UNLIT");
+    set(lit && material.emissiveFactor != glm::vec3(0), "EMISSIVE");
     set(lit && draw.level > 0, "COARSE_LEVEL");
     set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
     set(static_cast<bool>(mesh.colors), "VERTEX_COLORS");

@@ -316,6 +316,54 @@ TEST_F(Accumulation, lambertUnderADirectionalLight) {
     }
 }
 
+// A lamp and a spotlight beside the sun.
+void addLocalLights(SmallWorld& small) {
+    PlacedLight lamp;
+    lamp.light.type = LightType::point;
+    lamp.light.color = {1, 0.6f, 0.3f};
+    lamp.light.intensity = 6;
+    lamp.light.range = 8;
+    lamp.position = {-1, 1.5, -2};
+    PlacedLight spot = lamp;
+    spot.light.type = LightType::spot;
+    spot.light.color = {0.3f, 0.6f, 1};
+    spot.position = {2, 2, -1};
+    spot.direction = glm::normalize(glm::dvec3(-1, -1, -1));
+    small.world.lights.insert(small.world.lights.end(), {lamp, spot});
+}
+
+// A few lights are constants of the shaders, many are uniforms: dark ones make many of a few.
+TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
+    const auto small = fiveSpheres();
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const Image sunOnly = rendered(*small, settingsFor(4), options);
+    addLocalLights(*small);
+    const Image constant = rendered(*small, settingsFor(4), options);
+    EXPECT_GT(largestDifference(sunOnly, constant), 0.1);
+    PlacedLight dark;
+    dark.light.intensity = 0;
+    small->world.lights.resize(small->world.lights.size() + 3, dark);
+    EXPECT_LT(largestDifference(constant, rendered(*small, settingsFor(4), options)), 1e-4);
+}
+
+// Surfaces are shaded along the world's axes: where camera, objects and lights turn about the vertical and move
+// together, nothing changes.
+TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
+    const auto small = fiveSpheres();
+    addLocalLights(*small);
+    const Image before = rendered(*small, settingsFor(4));
+    const glm::dmat4 turn = glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(5, -2, 7)), 1.1, glm::dvec3(0, 1, 0));
+    for (Object& object : small->world.pose.objects) object.worldFromObject = turn * object.worldFromObject;
+    for (PlacedLight& light : small->world.lights) {
+        light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
+        light.direction = glm::dmat3(turn) * light.direction;
+    }
+    EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);  // the camera has stayed behind
+    small->view.worldFromCamera = turn * small->view.worldFromCamera;
+    EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
+}
+
 // Interpolated normals can look away from the eye: the half vector's cosine must not leave [0, 1], whatever the light.
 TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
     const auto small = wall(1, 4);
