@@ -12,15 +12,19 @@ namespace defocus {
 // milliseconds) after freeing tens of megabytes.
 void giveBackFreedMemory();
 
+inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // of most processors; nothing hangs on it elsewhere
+
 // Whole pages, zero. Throws std::bad_alloc.
 void* allocatePages(std::size_t bytes);
 void freePages(void* pages, std::size_t bytes) noexcept;
+// Gives back those pages that lie wholly within the bytes, which are zero from then on.
+void giveBackPages(void* first, std::size_t bytes) noexcept;
 
 // Pages for large blocks, operator new for others.
 template <typename T>
 struct PageAllocator {
     using value_type = T;
-    static constexpr std::size_t fewestBytes = 256 * 1024;
+    static constexpr std::size_t fewestBytes = hugePage / 2;
 
     PageAllocator() = default;
     template <typename Other>
@@ -44,5 +48,15 @@ struct PageAllocator {
 
 template <typename T>
 using LargeVector = std::vector<T, PageAllocator<T>>;
+
+// Gives back the room that the vector has beyond its values, which stay where they are if the vector is large.
+template <typename T>
+void giveBackRoom(LargeVector<T>& values) {
+    const std::size_t room = values.capacity() - values.size();
+    if (values.capacity() * sizeof(T) < PageAllocator<T>::fewestBytes)
+        values.shrink_to_fit();
+    else
+        giveBackPages(values.data() + values.size(), room * sizeof(T));
+}
 
 }  // namespace defocus

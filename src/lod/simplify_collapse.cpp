@@ -137,16 +137,15 @@ void compact(Simplifier& s) {
     compactFaces(s, compactVertices(s));
     compactWedges(s);
 
-    // The large ones last: while one is copied, the others are small already.
     s.survivors.shrink_to_fit();
     s.componentOf.shrink_to_fit();
     s.faces.turned.shrink_to_fit();
     s.faces.primitives.shrink_to_fit();
-    s.candidates.shrink_to_fit();
-    s.faces.wedges.shrink_to_fit();
-    s.vertices.shrink_to_fit();
-    s.faces.corners.shrink_to_fit();
-    s.attributeQuadrics.shrink_to_fit();
+    giveBackRoom(s.candidates);
+    giveBackRoom(s.faces.wedges);
+    giveBackRoom(s.vertices);
+    giveBackRoom(s.faces.corners);
+    giveBackRoom(s.attributeQuadrics);
 }
 
 }  // namespace defocus

@@ -1,9 +1,12 @@
 #include "core/memory.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 namespace defocus {
 namespace {
@@ -29,6 +32,25 @@ TEST(Memory, aLargeVectorKeepsItsValuesWhateverItsSize) {
         EXPECT_EQ(lines.size(), count);
         expectNumbers();
     }
+}
+
+// Told by the system's own count of the pages that are there.
+TEST(Memory, roomIsGivenBackAndValuesStay) {
+    constexpr std::size_t page = 4096;
+    constexpr std::size_t most = 4 * PageAllocator<std::uint32_t>::fewestBytes / sizeof(std::uint32_t);
+    LargeVector<std::uint32_t> numbers(most);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    const std::uint32_t* const place = numbers.data();
+    numbers.resize(most / 4);
+    giveBackRoom(numbers);
+    EXPECT_EQ(numbers.data(), place);
+    for (std::uint32_t i = 0; i < most / 4; ++i) ASSERT_EQ(numbers[i], i);
+    std::vector<unsigned char> present(most * sizeof(std::uint32_t) / page);
+    ASSERT_EQ(mincore(numbers.data(), present.size() * page, present.data()), 0);
+    const auto count = std::count_if(present.begin(), present.end(), [](unsigned char p) { return (p & 1) != 0; });
+    EXPECT_LE(static_cast<std::size_t>(count), present.size() / 4 + 1);
+    numbers.resize(most, 7);
+    EXPECT_EQ(numbers.back(), 7u);
 }
 
 TEST(Memory, whatNoMachineHasIsRefused) {
