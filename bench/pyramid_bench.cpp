@@ -1,7 +1,7 @@
 // Pyramids against their peers: how long they take, and how well their levels stand for the mesh.
 //
 // Time, of the processor. Held equal: the mesh, one thread, levels of half the triangles each down to 64. "pyramid" is
-// all that buildPyramid does (repair, collapses, errors, order for the cache, fitted positions, normals and colours);
+// all that buildPyramid does (repair, collapses, errors, clusters, fitted positions, normals and colours);
 // "meshoptimizer" is meshopt_simplify from level to level, "DecimaterT" OpenMesh's decimater with its quadric module on
 // a mesh of welded positions; neither of these two makes attributes.
 // "bytes each" is the memory that buildPyramid takes at its peak, for each of the mesh's triangles, its result

@@ -1,75 +1,48 @@
 #include "lod/clusters.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 
 #include "core/bounds.h"
-#include "core/memory.h"
+#include "lod/cluster_growth.h"
 
 namespace defocus {
 
 namespace {
 
 constexpr std::uint32_t unnumbered = 0xffffffffu;
-constexpr std::size_t mostClusterVertices = 128;
-constexpr float coneWeight = 0.75f;  // of likeness of normals against compactness
 // What single precision may lose of a stored value, relative to the size of what it was computed from.
 constexpr double valueRounding = 1e-6;
 
-// A primitive's triangles with vertices numbered from 0: its cost shall not depend on the whole mesh.
+// 0 for what is no place at all.
+glm::vec3 finitePosition(const glm::vec3& position) {
+    return isFinite(position) ? position : glm::vec3(0);
+}
+
+// A primitive's triangles with places numbered from 0: its cost shall not depend on the whole mesh.
 struct LocalTriangles {
-    std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> vertices;  // the level's number of each
-    std::vector<glm::vec3> positions;     // of them; 0 for what is no number
+    std::vector<std::uint32_t> corners;  // their places
+    std::vector<glm::vec3> positions;    // of places
 };
 
-LocalTriangles localTriangles(const std::uint32_t* indices, std::size_t count, const std::vector<glm::vec3>& positions,
-                              std::vector<std::uint32_t>& localOf) {
+LocalTriangles localTriangles(std::span<const std::uint32_t> indices, const std::vector<glm::vec3>& positions,
+                              std::span<const std::uint32_t> places, std::vector<std::uint32_t>& localOf) {
     LocalTriangles local;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t v = indices[i];
-        if (localOf[v] == unnumbered) {
-            localOf[v] = static_cast<std::uint32_t>(local.vertices.size());
-            local.vertices.push_back(v);
-            local.positions.push_back(isFinite(positions[v]) ? positions[v] : glm::vec3(0));
+    local.corners.reserve(indices.size());
+    for (const std::uint32_t v : indices) {
+        std::uint32_t& number = localOf[places[v]];
+        if (number == unnumbered) {
+            number = static_cast<std::uint32_t>(local.positions.size());
+            local.positions.push_back(finitePosition(positions[v]));
         }
-        local.indices.push_back(localOf[v]);
+        local.corners.push_back(number);
     }
-    for (const std::uint32_t v : local.vertices) localOf[v] = unnumbered;
+    for (const std::uint32_t v : indices) localOf[places[v]] = unnumbered;
     return local;
-}
-
-struct Meshlets {
-    LargeVector<meshopt_Meshlet> list;
-    LargeVector<std::uint32_t> vertices;
-    LargeVector<unsigned char> corners;
-};
-
-Meshlets meshlets(const LocalTriangles& local) {
-    const std::size_t most =
-        meshopt_buildMeshletsBound(local.indices.size(), mostClusterVertices, mostClusterTriangles);
-    Meshlets result;
-    result.list.resize(most);
-    result.vertices.resize(most * mostClusterVertices);
-    result.corners.resize(most * mostClusterTriangles * 3);
-    result.list.resize(meshopt_buildMeshlets(result.list.data(), result.vertices.data(), result.corners.data(),
-                                             local.indices.data(), local.indices.size(), &local.positions.front().x,
-                                             local.positions.size(), sizeof(glm::vec3), mostClusterVertices,
-                                             mostClusterTriangles, coneWeight));
-    return result;
-}
-
-// The corners of one, in an order that suits the vertex cache.
-void orderCorners(const Meshlets& all, const meshopt_Meshlet& meshlet, std::vector<std::uint32_t>& corners) {
-    const std::size_t count = std::size_t{meshlet.triangle_count} * 3;
-    const unsigned char* const own = all.corners.data() + meshlet.triangle_offset;
-    corners.assign(own, own + count);
-    meshopt_optimizeVertexCache(corners.data(), corners.data(), count, meshlet.vertex_count);
-    for (std::uint32_t& corner : corners) corner = all.vertices[meshlet.vertex_offset + corner];
 }
 
 struct ClusterTriangle {
@@ -82,15 +55,18 @@ struct ClusterTriangle {
     }
 };
 
-Cluster measured(const std::vector<std::uint32_t>& indices, const std::vector<glm::vec3>& positions) {
+Cluster measured(std::span<const std::uint32_t> indices, const std::vector<glm::vec3>& positions) {
     std::vector<ClusterTriangle> triangles(indices.size() / 3);
-    Bounds box;
+    glm::vec3 least = finitePosition(positions[indices.front()]);
+    glm::vec3 most = least;
     glm::dvec3 sum(0);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         ClusterTriangle& triangle = triangles[t];
         for (std::size_t k = 0; k < 3; ++k) {
-            triangle.p[k] = glm::dvec3(positions[indices[3 * t + k]]);
-            box.extend(triangle.p[k]);
+            const glm::vec3 p = finitePosition(positions[indices[3 * t + k]]);
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+            triangle.p[k] = glm::dvec3(p);
         }
         triangle.cross = glm::cross(triangle.p[1] - triangle.p[0], triangle.p[2] - triangle.p[0]);
         sum += triangle.cross;
@@ -98,8 +74,7 @@ Cluster measured(const std::vector<std::uint32_t>& indices, const std::vector<gl
 
     // The ball, and the cone of normals about their mean by area.
     Cluster cluster;
-    if (box.empty()) return cluster;
-    cluster.centre = glm::vec3(box.centre());
+    cluster.centre = glm::vec3(0.5 * (glm::dvec3(least) + glm::dvec3(most)));
     const glm::dvec3 centre(cluster.centre);
     if (glm::length(sum) > 0) cluster.axis = glm::vec3(glm::normalize(sum));
     const glm::dvec3 axis(cluster.axis);
@@ -126,23 +101,34 @@ Cluster measured(const std::vector<std::uint32_t>& indices, const std::vector<gl
     return cluster;
 }
 
+// Orders the triangles of a primitive, the first of whose indices is the level's `first`.
+void clusterPrimitive(std::span<std::uint32_t> indices, const std::vector<glm::vec3>& positions,
+                      const LocalTriangles& local, std::uint32_t first, std::vector<Cluster>& result) {
+    const GrownClusters grown = growClusters(local.corners, local.positions, mostClusterTriangles);
+    const std::vector<std::uint32_t> unordered(indices.begin(), indices.end());
+    for (std::size_t t = 0; t < grown.triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3; ++k) indices[3 * t + k] = unordered[3 * std::size_t{grown.triangles[t]} + k];
+    for (const std::uint32_t size : grown.sizes) {
+        result.push_back(measured(indices.first(3 * std::size_t{size}), positions));
+        result.back().indices = {first, 3 * size};
+        indices = indices.subspan(3 * std::size_t{size});
+        first += 3 * size;
+    }
+}
+
 }  // namespace
 
-std::vector<Cluster> clusterTriangles(LevelTriangles& level, const std::vector<glm::vec3>& positions) {
+std::vector<Cluster> clusterTriangles(LevelTriangles& level, const std::vector<glm::vec3>& positions,
+                                      std::span<const std::uint32_t> places, std::size_t placeCount) {
     std::vector<Cluster> result;
-    std::vector<std::uint32_t> localOf(positions.size(), unnumbered);
-    std::vector<std::uint32_t> corners;
+    result.reserve(level.indices.size() / (3 * mostClusterTriangles) + level.primitiveIndexCounts.size());
+    std::vector<std::uint32_t> localOf(placeCount, unnumbered);
     std::uint32_t first = 0;
     for (const std::uint32_t count : level.primitiveIndexCounts) {
         if (count == 0) continue;
-        const LocalTriangles local = localTriangles(level.indices.data() + first, count, positions, localOf);
-        const Meshlets all = meshlets(local);
-        for (const meshopt_Meshlet& meshlet : all.list) {
-            orderCorners(all, meshlet, corners);
-            Cluster& cluster = result.emplace_back(measured(corners, local.positions));
-            cluster.indices = {first, static_cast<std::uint32_t>(corners.size())};
-            for (const std::uint32_t v : corners) level.indices[first++] = local.vertices[v];
-        }
+        const std::span<std::uint32_t> indices = std::span(level.indices).subspan(first, count);
+        clusterPrimitive(indices, positions, localTriangles(indices, positions, places, localOf), first, result);
+        first += count;
     }
     return result;
 }

@@ -3,6 +3,7 @@
 // out a whole run at once when no lens sample shows any of it (plan/visibility.h).
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "lod/level_order.h"
@@ -28,8 +29,10 @@ struct Cluster {
 inline constexpr std::uint32_t mostClusterTriangles = 64;
 
 // Reorders the triangles within each primitive into clusters, mostly neighbours one after the other, and within each
-// for a GPU's cache of shaded vertices. `positions` are by the level's vertex numbers. The clusters' ranges count from
-// the level's first index and follow each other over all of it. Deterministic.
-std::vector<Cluster> clusterTriangles(LevelTriangles& level, const std::vector<glm::vec3>& positions);
+// from neighbour to neighbour. `positions` are by the level's vertex numbers, and so are `places`, below `placeCount`:
+// vertices at one place have one position. The clusters' ranges count from the level's first index and follow each
+// other over all of it. Deterministic.
+std::vector<Cluster> clusterTriangles(LevelTriangles& level, const std::vector<glm::vec3>& positions,
+                                      std::span<const std::uint32_t> places, std::size_t placeCount);
 
 }  // namespace defocus

@@ -201,9 +201,11 @@ void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
     level.removed = {};
 }
 
-// Orders the level's triangles by clusters.
-void cluster(FittedLevel& level, const std::vector<glm::vec3>& positions) {
-    level.clusters = clusterTriangles(level.triangles, positions);
+// Orders the level's triangles by clusters; `positions` are the mesh's, twins included.
+void cluster(FittedLevel& level, const Welded& positions) {
+    const std::vector<std::uint32_t> places = gathered(positions.id, level.numbers);
+    level.clusters = clusterTriangles(level.triangles, level.fit.positions, places, positions.first.size());
+    for (std::uint32_t& v : level.triangles.indices) v = level.numbers[v];
 }
 
 // Values of the first `count` vertices in the order of `sources`: the level's where it has any, else the mesh's.
@@ -266,6 +268,10 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
     if (mesh.triangleCount() >= fewestToGiveBack) giveBackFreedMemory();
     pyramid.repairedFaces = simplification.repairedFaces;
 
+    // Twins are vertices like others from here on; no corner of level 0 uses them.
+    const std::size_t ownCount = vertices.count();
+    for (const std::uint32_t v : simplification.twins) positions.id.push_back(positions.id[v]);
+
     // Measure them, then cluster them; each gives back what it takes before the next begins.
     if (levels.size() > 1) {
         const Surface surface = prepareSurface(vertices.positions, levels[0].triangles.indices);
@@ -275,18 +281,15 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
     }
     {
         Tasks tasks(workers);
-        tasks.add([&] { cluster(levels[0], vertices.positions); });
-        for (std::size_t l = 1; l < levels.size(); ++l)
-            tasks.add([&, l] {
-                cluster(levels[l], levels[l].fit.positions);
-                for (std::uint32_t& v : levels[l].triangles.indices) v = levels[l].numbers[v];
-            });
+        tasks.add([&] {
+            levels[0].clusters =
+                clusterTriangles(levels[0].triangles, vertices.positions, positions.id, positions.first.size());
+        });
+        for (std::size_t l = 1; l < levels.size(); ++l) tasks.add([&, l] { cluster(levels[l], positions); });
         tasks.wait();
     }
 
-    // Order vertices by survival. Twins are vertices like others from here on; no corner of level 0 uses them.
-    const std::size_t ownCount = vertices.count();
-    for (const std::uint32_t v : simplification.twins) positions.id.push_back(positions.id[v]);
+    // Order vertices by survival.
     std::vector<LevelTriangles> triangles;
     triangles.reserve(levels.size());
     for (FittedLevel& level : levels) triangles.push_back(std::move(level.triangles));
