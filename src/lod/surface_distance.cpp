@@ -5,6 +5,7 @@
 #include "lod/surface_distance.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
@@ -19,7 +20,7 @@ namespace defocus {
 
 namespace {
 
-constexpr std::size_t mostTrianglesPerLeaf = 2;
+constexpr std::size_t mostTrianglesPerLeaf = 4;
 constexpr std::size_t arity = 4;  // of the tree
 // What single precision may be off by at a coordinate, as a share of the largest of both sides.
 constexpr float rounding = 2.5e-7f;
@@ -57,6 +58,20 @@ std::uint32_t spread(std::uint32_t bits) {
     return (bits | bits << 2) & 0x09249249u;
 }
 
+// By what stands above the numbers, which are in order: digit after digit, the lowest first.
+void sortByCode(LargeVector<std::uint64_t>& keys) {
+    constexpr std::uint64_t digits = 1024;
+    LargeVector<std::uint64_t> sorted(keys.size());
+    for (int shift = 32; shift < 62; shift += 10) {
+        const auto digit = [&](std::uint64_t key) { return (key >> shift) % digits; };
+        std::array<std::size_t, digits + 1> starts{};
+        for (const std::uint64_t key : keys) ++starts[digit(key) + 1];
+        std::partial_sum(starts.begin(), starts.end(), starts.begin());
+        for (const std::uint64_t key : keys) sorted[starts[digit(key)]++] = key;
+        keys.swap(sorted);
+    }
+}
+
 // The triangles that have a place and an area.
 LargeVector<Triangle> inMortonOrder(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
     const auto triangle = [&](std::size_t t) {
@@ -81,20 +96,16 @@ LargeVector<Triangle> inMortonOrder(std::span<const glm::vec3> positions, std::s
         const std::uint32_t code = spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
         key |= std::uint64_t{code} << 32;
     }
-    std::sort(keys.begin(), keys.end());
+    sortByCode(keys);
     LargeVector<Triangle> sorted;
     sorted.reserve(keys.size());
     for (const std::uint64_t key : keys) sorted.push_back(triangle(key & 0xffffffffu));
     return sorted;
 }
 
-std::size_t leafCount(const Surface& surface) {
-    return (arity - 1) * surface.nodes.size() + 1;
-}
-
 // The first triangle of a leaf; the leaf after the last gives the end.
 std::size_t leafStart(const Surface& surface, std::size_t leaf) {
-    return leaf * surface.triangles.size() / leafCount(surface);
+    return leaf * surface.triangles.size() >> surface.leafBits;
 }
 
 void buildNodes(Surface& surface) {
@@ -104,6 +115,7 @@ void buildNodes(Surface& surface) {
         inner += leaves;
         leaves *= arity;
     }
+    surface.leafBits = std::countr_zero(leaves);
     surface.nodes.resize(inner);
     LargeVector<Box> boxes(inner + leaves);  // of the nodes, then of the leaves
     for (std::size_t leaf = 0; leaf < leaves; ++leaf)
@@ -168,7 +180,8 @@ Nearest nearestTriangle(const Surface& surface, const glm::dvec3& p, std::size_t
         if (!(entry.squaredDistance < most)) continue;
         if (entry.node >= surface.nodes.size()) {
             const std::size_t leaf = entry.node - surface.nodes.size();
-            for (std::size_t t = leafStart(surface, leaf); t < leafStart(surface, leaf + 1); ++t)
+            const std::size_t end = leafStart(surface, leaf + 1);
+            for (std::size_t t = leafStart(surface, leaf); t < end; ++t)
                 if (const double squared = squaredDistance(surface.triangles[t], p); squared < nearest.squaredDistance)
                     nearest = {squared, t};
             most = bound();

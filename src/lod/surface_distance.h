@@ -31,9 +31,10 @@ struct BoxNode {
 struct Surface {
     LargeVector<std::array<glm::vec3, 3>> triangles;  // sorted along a Morton curve: neighbours are near in space
     LargeVector<double> areas;                        // of the triangles up to and with each one
-    // A complete tree, root at 0, children of i at 4i + 1 … 4i + 4; those beyond the last node are leaves, of up to 2
+    // A complete tree, root at 0, children of i at 4i + 1 … 4i + 4; those beyond the last node are leaves, of up to 4
     // triangles, which share the triangles evenly in their order.
     LargeVector<BoxNode> nodes;
+    int leafBits = 0;  // of the number of leaves, a power of two
     float extent = 0;  // the largest absolute coordinate
 
     [[nodiscard]] bool empty() const { return triangles.empty(); }
