@@ -170,9 +170,13 @@ float costAtRank(const Simplifier& s, std::size_t rank) {
 // Says whether there were any.
 bool sweep(Simplifier& s, std::size_t target, float most) {
     bool collapsed = false;
-    for (std::uint32_t v = 0; v < s.vertexCount() && s.liveFaces > target; ++v) {
+    const Candidate* const candidates = s.candidates.data();
+    const auto count = static_cast<std::uint32_t>(s.vertexCount());
+    for (std::uint32_t v = 0; v < count && s.liveFaces > target; ++v) {
+        while (v < count && !(candidates[v].cost <= most)) ++v;  // most are too dear
+        if (v == count) break;
         const auto ready = [&] {
-            const Candidate& c = s.candidates[v];
+            const Candidate& c = candidates[v];
             return c.cost <= most && c.fit < Fit::bad && c.possible();
         };
         if (!ready()) continue;

@@ -54,6 +54,10 @@ Candidate cheapestCollapse(Simplifier& s, std::uint32_t v) {
     s.spokes.clear();
     forEachEdgeAround(s, v, [&](const Edge& edge, std::uint32_t to) {
         prefetch(&s.vertices[to]);
+        const std::uint32_t wedge =
+            s.faces.corners[edge.along != Corner::none ? nextCorner(edge.along) : edge.back].wedge;
+        prefetch(&s.faces.wedges[wedge]);
+        prefetch(&s.attributeQuadrics[wedge]);
         s.spokes.push_back({edge, to});
     });
     Candidate best;
