@@ -22,16 +22,16 @@ constexpr std::uint32_t noFace = 0xffffffffu;
 // Of the vertices that have collapsed onto one, at least so many are looked for: each second, fourth … of more.
 constexpr std::uint32_t enoughAnchors = 32;
 
-// The level's faces, and which lie around each vertex.
+// The level's faces, and whose corners lie at each vertex.
 struct FaceRings {
     const Snapshot& level;
     std::vector<glm::dvec3> points;    // of the vertices, in the frame
     std::vector<glm::dvec3> normals;   // of the faces, as long as twice the area
-    std::vector<std::uint32_t> first;  // of each vertex, into `faces`
-    std::vector<std::uint32_t> faces;
+    std::vector<std::uint32_t> first;  // of each vertex, into `corners`
+    std::vector<std::uint32_t> corners;
 
     [[nodiscard]] std::span<const std::uint32_t> around(std::uint32_t v) const {
-        return std::span(faces).subspan(first[v], first[v + 1] - first[v]);
+        return std::span(corners).subspan(first[v], first[v + 1] - first[v]);
     }
     [[nodiscard]] const glm::dvec3& point(std::size_t corner) const { return points[level.corners[corner]]; }
 };
@@ -44,11 +44,11 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
     rings.first.assign(level.positions.size() + 1, 0);
     for (const std::uint32_t v : corners) ++rings.first[v + 1];
     std::partial_sum(rings.first.begin(), rings.first.end(), rings.first.begin());
-    rings.faces.resize(corners.size());
+    rings.corners.resize(corners.size());
     std::vector<std::uint32_t> next(rings.first.begin(), rings.first.end() - 1);
     rings.normals.reserve(corners.size() / 3);
     for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-        rings.faces[next[corners[corner]]++] = static_cast<std::uint32_t>(corner / 3);
+        rings.corners[next[corners[corner]]++] = static_cast<std::uint32_t>(corner);
         if (corner % 3 != 0) continue;
         const glm::dvec3& a = rings.point(corner);
         rings.normals.push_back(glm::cross(rings.point(corner + 1) - a, rings.point(corner + 2) - a));
@@ -58,8 +58,8 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
 
 struct Closest {
     double squaredDistance = 0;
-    glm::dvec2 along{0};          // see closestCoordinates
-    std::uint32_t face = noFace;  // none: the vertex itself is the closest point
+    std::uint32_t corner = Corner::none;  // of the face; none: the vertex itself is the closest point
+    glm::dvec2 along{0};                  // see closestCoordinates; from the corner to the next and the previous one
 };
 
 // The corner of `face` nearest to `p` that isn't among `seen`; noFace if all are.
@@ -99,26 +99,28 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t sta
     double least = glm::dot(away, away);
     std::array<std::uint32_t, mostSteps> seen;
     for (std::size_t step = 0; step < mostSteps && nearest != noFace; ++step) {
-        if (least <= (result.face == noFace ? 0 : noDistance)) break;
+        if (least <= (result.corner == Corner::none ? 0 : noDistance)) break;
         seen[step] = nearest;
-        for (const std::uint32_t face : rings.around(nearest)) {
+        const glm::dvec3& a = rings.points[nearest];
+        const glm::dvec3 fromA = p - a;
+        for (const std::uint32_t corner : rings.around(nearest)) {
+            const glm::dvec3& b = rings.point(nextCorner(corner));
+            const glm::dvec3& c = rings.point(previousCorner(corner));
+            if (glm::dot(b - a, fromA) <= 0 && glm::dot(c - a, fromA) <= 0) continue;  // closest at the vertex itself
+            const std::uint32_t face = corner / 3;
             if (!(glm::dot(rings.normals[face], side) > 0)) continue;
-            const std::size_t corner = 3 * std::size_t{face};
-            const glm::dvec3& a = rings.point(corner);
-            const glm::dvec3& b = rings.point(corner + 1);
-            const glm::dvec3& c = rings.point(corner + 2);
             const glm::dvec2 along = closestCoordinates(p, a, b, c);
-            const glm::dvec3 offset = p - a - along.x * (b - a) - along.y * (c - a);
+            const glm::dvec3 offset = fromA - along.x * (b - a) - along.y * (c - a);
             const double distance = glm::dot(offset, offset);
             if (!(distance < least)) continue;  // NaN of a degenerate face is passed over
             least = distance;
             result.along = along;
-            result.face = face;
+            result.corner = corner;
             below = liesBelow(rings, face, along, offset);
             if (below) break;
         }
-        if (result.face == noFace || below) break;
-        nearest = nearestUnseen(rings, result.face, p, std::span(seen.data(), step + 1));
+        if (result.corner == Corner::none || below) break;
+        nearest = nearestUnseen(rings, result.corner / 3, p, std::span(seen.data(), step + 1));
     }
     result.squaredDistance = least;
     return result;
@@ -155,7 +157,7 @@ std::vector<Anchor> anchors(const Origin& origin, const Snapshot& level) {
         anchor.count = static_cast<float>(strides[survivor]);
         const glm::dvec3 side = origin.vertices.normals[wedge];
         const Closest closest = closestTo(rings, origin.frame.point(origin.vertices.positions[wedge]), survivor, side);
-        if (closest.face == noFace) {
+        if (closest.corner == Corner::none) {
             const std::uint32_t corner = cornerOf[wedge];
             if (closest.squaredDistance != 0 || corner == noFace) continue;
             anchor.triangle = corner / 3;
@@ -163,11 +165,12 @@ std::vector<Anchor> anchors(const Origin& origin, const Snapshot& level) {
             continue;
         }
         const std::uint32_t primitive = origin.firstPrimitive[wedge];
-        if (closest.face < firstFaces[primitive] || closest.face >= firstFaces[primitive + 1]) continue;
-        anchor.triangle = closest.face;
-        anchor.weight[0] = static_cast<float>(1 - closest.along.x - closest.along.y);
-        anchor.weight[1] = static_cast<float>(closest.along.x);
-        anchor.weight[2] = static_cast<float>(closest.along.y);
+        const std::uint32_t face = closest.corner / 3;
+        if (face < firstFaces[primitive] || face >= firstFaces[primitive + 1]) continue;
+        anchor.triangle = face;
+        anchor.weight[closest.corner % 3] = static_cast<float>(1 - closest.along.x - closest.along.y);
+        anchor.weight[nextCorner(closest.corner) % 3] = static_cast<float>(closest.along.x);
+        anchor.weight[previousCorner(closest.corner) % 3] = static_cast<float>(closest.along.y);
     }
     return result;
 }
