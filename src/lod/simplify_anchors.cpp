@@ -20,7 +20,7 @@ constexpr double noDistance = 1e-24;   // squared, where the mesh is about 1 wid
 constexpr double leastUpright = 0.99;  // squared cosine of the angle between a face's normal and the way straight up
 constexpr std::uint32_t noFace = 0xffffffffu;
 // Of the vertices that have collapsed onto one, at least so many are looked for: each second, fourth … of more.
-constexpr std::uint32_t enoughAnchors = 32;
+constexpr std::uint32_t enoughAnchors = 16;
 
 // The level's faces, and whose corners lie at each vertex.
 struct FaceRings {
