@@ -3,11 +3,42 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/vector_relational.hpp>
 
 #include "shapes.h"
 
 namespace defocus {
+
+// All that a cluster says holds for its triangles, and clusters tile the ranges of the primitives.
+inline void expectClustersHold(const Pyramid& pyramid) {
+    for (const PyramidLevel& level : pyramid.levels) {
+        auto cluster = level.clusters.begin();
+        for (const IndexRange& primitive : level.primitives)
+            for (std::uint32_t next = primitive.first; next < primitive.first + primitive.count; ++cluster) {
+                ASSERT_NE(cluster, level.clusters.end());
+                ASSERT_EQ(cluster->indices.first, next);
+                ASSERT_LE(cluster->indices.count, 3 * mostClusterTriangles);
+                next += cluster->indices.count;
+            }
+        EXPECT_EQ(cluster, level.clusters.end());
+        for (const Cluster& c : level.clusters)
+            for (std::uint32_t i = c.indices.first; i < c.indices.first + c.indices.count; i += 3) {
+                glm::dvec3 p[3];
+                for (std::uint32_t k = 0; k < 3; ++k) p[k] = glm::dvec3(level.positions[pyramid.indices[i + k]]);
+                for (const glm::dvec3& corner : p) ASSERT_LE(glm::distance(corner, glm::dvec3(c.centre)), c.radius);
+                if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;  // draws nothing
+                const glm::dvec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]);
+                const double longest =
+                    std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+                ASSERT_GE(glm::length(cross) / longest, c.leastAltitude);
+                if (!(glm::length(cross) > 0)) continue;
+                const glm::dvec3 normal = glm::normalize(cross);
+                ASSERT_GE(glm::dot(normal, glm::dvec3(c.axis)), c.leastCosine);
+                ASSERT_GE(glm::dot(normal, p[0] - glm::dvec3(c.centre)), c.planes);
+            }
+    }
+}
 
 inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
     ASSERT_FALSE(pyramid.levels.empty());
@@ -50,6 +81,7 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
         EXPECT_GT(level.error, 0);
         EXPECT_GE(level.error, 1.25 * finer.error);
     }
+    expectClustersHold(pyramid);
 }
 
 }  // namespace defocus
