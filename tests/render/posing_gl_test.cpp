@@ -30,7 +30,7 @@ Image renderedInHalf(const SmallWorld& small, const RenderSettings& settings, co
     return renderer->image();
 }
 
-RenderSettings fullDetailSettings() {
+RenderSettings levelZeroSettings() {
     RenderSettings settings;
     settings.sampleCount = 4;
     settings.lod = LodMode::off;
@@ -49,8 +49,8 @@ TEST_F(Posing, modelsEqualTheirBakedMeshes) {
         DEFOCUS_MODEL_OR_SKIP(path, file);
         for (const double time : {0.0, 0.4, 1.1}) {
             const auto posed = posedWorld(path, time, clip);
-            expectSamePicture(renderedInHalf(*posed, fullDetailSettings()),
-                              renderedInHalf(*bakedWorld(*posed, 0), fullDetailSettings()),
+            expectSamePicture(renderedInHalf(*posed, levelZeroSettings()),
+                              renderedInHalf(*bakedWorld(*posed, 0), levelZeroSettings()),
                               std::string(file) + " at " + std::to_string(time));
         }
     }
@@ -63,14 +63,14 @@ TEST_F(Posing, coarseLevelsArePosedToo) {
         const auto posed = posedWorld(path, 0.4, 0);
         for (Material& material : posed->scene.materials) material.unlit = true;
         ASSERT_GT(posed->world.pyramids[0].levels.size(), 2u);
-        RenderSettings coarse = fullDetailSettings();
+        RenderSettings coarse = levelZeroSettings();
         coarse.lod = LodMode::nearest;
         coarse.thresholds = {0, 1e6};
         const FramePlan plan = planFrame(posed->world, posed->view, coarse);
         ASSERT_EQ(plan.objects.at(0).fine.level, posed->world.pyramids[0].levels.size() - 1);
         const Image image = renderedInHalf(*posed, coarse);
-        expectSamePicture(image, renderedInHalf(*bakedWorld(*posed, 99), fullDetailSettings()), file);
-        EXPECT_LT(compareImages(renderedInHalf(*posed, fullDetailSettings()), image).psnr, 50) << file;
+        expectSamePicture(image, renderedInHalf(*bakedWorld(*posed, 99), levelZeroSettings()), file);
+        EXPECT_LT(compareImages(renderedInHalf(*posed, levelZeroSettings()), image).psnr, 50) << file;
     }
 }
 
@@ -112,20 +112,20 @@ TEST_F(Posing, eightInfluencesAndMorphsTogether) {
     small.view.lens.focusDistance = 4;
     finish(small);
     const auto baked = bakedWorld(small, 0);
-    const Image image = renderedInHalf(small, fullDetailSettings());
-    expectSamePicture(image, renderedInHalf(*baked, fullDetailSettings()), "accumulation");
-    expectSamePicture(renderedInHalf(small, fullDetailSettings(), "circular"),
-                      renderedInHalf(*baked, fullDetailSettings(), "circular"), "circular");
+    const Image image = renderedInHalf(small, levelZeroSettings());
+    expectSamePicture(image, renderedInHalf(*baked, levelZeroSettings()), "accumulation");
+    expectSamePicture(renderedInHalf(small, levelZeroSettings(), "circular"),
+                      renderedInHalf(*baked, levelZeroSettings(), "circular"), "circular");
     object.morphWeights = {0, 0, 0};
-    EXPECT_LT(compareImages(renderedInHalf(small, fullDetailSettings()), image).psnr, 40);
+    EXPECT_LT(compareImages(renderedInHalf(small, levelZeroSettings()), image).psnr, 40);
 }
 
 TEST_F(Posing, depthsAreThoseOfThePosedSurface) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
     const auto posed = posedWorld(path, 0.4, 1);
     const auto baked = bakedWorld(*posed, 0);
-    const AovImages a = renderAovs(posed->world, planFrame(posed->world, posed->view, fullDetailSettings()), {});
-    const AovImages b = renderAovs(baked->world, planFrame(baked->world, baked->view, fullDetailSettings()), {});
+    const AovImages a = renderAovs(posed->world, planFrame(posed->world, posed->view, levelZeroSettings()), {});
+    const AovImages b = renderAovs(baked->world, planFrame(baked->world, baked->view, levelZeroSettings()), {});
     int differing = 0;
     int covered = 0;
     for (std::size_t i = 0; i < a.depth.pixels.size(); ++i) {
@@ -168,7 +168,7 @@ TEST_F(Posing, tangentsTurnToo) {
     auto placed = wall();
     place(*placed, 0, inFront * turn);
     finish(*placed);
-    const Image expected = renderedInHalf(*placed, fullDetailSettings());
+    const Image expected = renderedInHalf(*placed, levelZeroSettings());
 
     auto skinned = wall();
     skinned->scene.meshes[0].vertices.joints.assign(4, {1, 0, 0, 0});
@@ -176,7 +176,7 @@ TEST_F(Posing, tangentsTurnToo) {
     place(*skinned, 0, glm::dmat4(1));
     skinned->world.pose.objects[0].worldFromJoint = {glm::dmat4(1), inFront * turn};
     finish(*skinned);
-    expectSamePicture(renderedInHalf(*skinned, fullDetailSettings()), expected, "skin");
+    expectSamePicture(renderedInHalf(*skinned, levelZeroSettings()), expected, "skin");
 
     auto morphed = wall();
     Mesh& mesh = morphed->scene.meshes[0];
@@ -192,9 +192,9 @@ TEST_F(Posing, tangentsTurnToo) {
     place(*morphed, 0, inFront);
     morphed->world.pose.objects[0].morphWeights = {1};
     finish(*morphed);
-    expectSamePicture(renderedInHalf(*morphed, fullDetailSettings()), expected, "morph");
+    expectSamePicture(renderedInHalf(*morphed, levelZeroSettings()), expected, "morph");
     morphed->scene.meshes[0].morphTargets[0].tangents.clear();
-    EXPECT_LT(compareImages(expected, renderedInHalf(*morphed, fullDetailSettings())).psnr, 45);
+    EXPECT_LT(compareImages(expected, renderedInHalf(*morphed, levelZeroSettings())).psnr, 45);
 }
 
 }  // namespace
