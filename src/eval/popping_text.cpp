@@ -74,16 +74,6 @@ ordered_json rowJson(const PoppingRow& row) {
     return json;
 }
 
-ordered_json frameJson(const PoppingFrame& frame) {
-    ordered_json json = {{"movement", movementName(frame.movement)},
-                         {"samples", frame.samples},
-                         {"lod", lodModeName(frame.mode)},
-                         {"frame", frame.frame},
-                         {"speed", frame.speed}};
-    for (const NamedMeasure& measure : measures) json[measure.name] = measure.of(frame);
-    return json;
-}
-
 ordered_json stepJson(const SampleStep& step) {
     return {{"samples", step.samples},     {"object", step.object},     {"level", step.level},      {"coc", step.coc},
             {"edgeError", step.edgeError}, {"expected", step.expected}, {"measured", step.measured}};
@@ -193,10 +183,9 @@ std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const Sa
         {"speed", "the largest change of an object's fractional level from frame to frame"},
         {"fullDetail", "differs from the reference by nothing: it is the reference"}};
     document["heldEqual"] = "scene, views, lens samples, thresholds, image size, layer format, renderer";
-    for (const char* list : {"rows", "sampleSteps", "changes"}) document[list] = ordered_json::array();
+    for (const char* list : {"rows", "sampleSteps"}) document[list] = ordered_json::array();
     for (const PoppingRow& row : poppingRows(frames)) document["rows"].push_back(rowJson(row));
     for (const SampleStep& step : steps) document["sampleSteps"].push_back(stepJson(step));
-    for (const PoppingFrame& frame : frames) document["changes"].push_back(frameJson(frame));
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

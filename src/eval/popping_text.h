@@ -37,7 +37,8 @@ std::string sampleStepLine(const SampleStep& step);  // one line, complete by it
 // The largest pop of each mode as a fraction of the nearest level's, at the most samples.
 std::string poppingSummary(std::span<const PoppingRow> rows);
 
-std::string poppingCsv(std::span<const PoppingFrame> frames);
+std::string poppingCsv(std::span<const PoppingFrame> frames);  // a line a frame
+// Of each movement, number of samples and mode the worst and the 99th percentile.
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
                         const BenchSubject& subject, const PoppingOptions& options);
 
