@@ -125,7 +125,7 @@ def popping():
                     if (row["movement"], row["samples"], row["lod"]) == (movement, 32, mode)]
              for mode in ("fractional", "continuous")}
     speed = 32 * max(row["largestSpeed"] for row in results["rows"] if (row["movement"], row["samples"]) == ("focus-pull", 32))
-    shares = {mode: ", ".join(f"{share:.2f}" for share in list) for mode, list in worst.items()}
+    shares = {mode: ", ".join(f"{share:.2f}" for share in largest) for mode, largest in worst.items()}
     return [("one sample's step from level to level at N = 32, as a share of the whole level's pop",
              f"{max(steps):.2f} (aim: 0.25)", command_of(results)),
             ("largest pop in a frame of a focus pull, dolly, turntable at N = 32 (several fish may step in one), as a share of "

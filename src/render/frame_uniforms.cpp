@@ -65,6 +65,16 @@ bool staysLitAlike(const World& world) {
     return world.lights.size() <= mostConstantLights && (world.scene->clips.empty() || world.pose.lights.empty());
 }
 
+// A file may hold any number; only those have a text that shaders understand.
+bool isFinite(const GpuLighting& block) {
+    const auto finite = [](const glm::vec4& v) { return std::isfinite(v.x + v.y + v.z + v.w); };
+    const auto finiteLight = [&](const GpuLight& light) {
+        return finite(light.directionType) && finite(light.colorScale) && finite(light.cone);
+    };
+    return std::ranges::all_of(block.environment, finite) && std::ranges::all_of(block.irradiance, finite) &&
+           std::ranges::all_of(block.lights, finiteLight);
+}
+
 // As lighting.glsl's constant is made of them.
 std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
     const auto vectors = [](std::span<const glm::vec4> list) {
@@ -136,7 +146,7 @@ void FrameUniforms::uploadLighting(const World& world) {
                          glm::vec4(world.environment.nadir, 1)};
     block.irradiance = irradiance_;
     for (std::size_t i = 0; i < world.lights.size(); ++i) block.lights[i] = gpuLight(world.lights[i]);
-    const bool constant = staysLitAlike(world);
+    const bool constant = staysLitAlike(world) && isFinite(block);
     defines_.emplace_back("MAX_LIGHTS",
                           std::to_string(constant ? std::max<std::size_t>(world.lights.size(), 1) : mostLights));
     if (constant) defines_.emplace_back("LIGHTING_VALUES", lightingText(block, world.lights.size()));

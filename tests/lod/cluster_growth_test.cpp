@@ -58,7 +58,7 @@ std::vector<glm::vec3> clusterPoints(const Soup& soup, const GrownClusters& grow
     return points;
 }
 
-TEST(ClusterGrowth, TakesEveryTriangleOnceWhateverTheSoup) {
+TEST(ClusterGrowth, takesEveryTriangleOnceWhateverTheSoup) {
     // Edges of any number of faces, corners that coincide, a vertex of very many triangles, places that are none.
     std::mt19937 random(1);
     Soup soup;
@@ -75,7 +75,7 @@ TEST(ClusterGrowth, TakesEveryTriangleOnceWhateverTheSoup) {
     expectPartition(nowhere, growClusters(nowhere.corners, nowhere.positions, most));
 }
 
-TEST(ClusterGrowth, ClustersAreCompactAndDontGoRoundACrease) {
+TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
     const Soup sheet = foldedSheet(80);
     const GrownClusters grown = growClusters(sheet.corners, sheet.positions, most);
     expectPartition(sheet, grown);
@@ -101,7 +101,7 @@ TEST(ClusterGrowth, ClustersAreCompactAndDontGoRoundACrease) {
     EXPECT_LT(creased, 0.1 * fewest);
 }
 
-TEST(ClusterGrowth, TheBackOfASheetIsAnotherCluster) {
+TEST(ClusterGrowth, theBackOfASheetIsAnotherCluster) {
     Soup sheet = foldedSheet(40);
     const std::size_t front = sheet.corners.size();
     for (std::size_t i = 0; i < front; i += 3)
@@ -120,7 +120,7 @@ TEST(ClusterGrowth, TheBackOfASheetIsAnotherCluster) {
     EXPECT_LT(static_cast<double>(mixed), 0.1 * static_cast<double>(grown.sizes.size()));
 }
 
-TEST(ClusterGrowth, LooseTrianglesShareClustersWithThoseNearBy) {
+TEST(ClusterGrowth, looseTrianglesShareClustersWithThoseNearBy) {
     Soup row;
     for (std::uint32_t t = 0; t < 640; ++t) {
         const auto x = static_cast<float>(3 * t);

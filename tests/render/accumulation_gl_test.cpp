@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 
 #include "core/error.h"
 #include "gl/context.h"
@@ -345,6 +346,17 @@ TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
     dark.light.intensity = 0;
     small->world.lights.resize(small->world.lights.size() + 3, dark);
     EXPECT_LT(largestDifference(constant, rendered(*small, settingsFor(4), options)), 1e-4);
+}
+
+// Numbers that no shader could hold as constants: a light beyond all bounds leaves the image its largest values.
+TEST_F(Accumulation, infiniteLightIsDrawn) {
+    const auto small = wall(1, 4);
+    small->scene.materials[0] = Material{};
+    PlacedLight sun;
+    sun.light.intensity = std::numeric_limits<float>::infinity();
+    small->world.lights = {sun};
+    const Image image = rendered(*small, settingsFor(1));
+    for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
 }
 
 // Surfaces are shaded along the world's axes: where camera, objects and lights turn about the vertical and move
