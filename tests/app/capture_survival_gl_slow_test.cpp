@@ -44,29 +44,42 @@ protected:
     static fs::path frame(const std::string& where, int number) {
         return fs::path(where) / ((number < 10 ? "000" : "00") + std::to_string(number) + ".exr");
     }
+
+    [[nodiscard]] int framesThere() const {
+        int there = 0;
+        for (int number = 0; number < frames; ++number) there += fs::exists(folder() / frame("frames", number)) ? 1 : 0;
+        return there;
+    }
+
+    // Returns when at least `count` frames are finished, at the latest after 30 s.
+    void waitForFrames(int count) const {
+        for (int i = 0; i < 15'000 && framesThere() < count; ++i) std::this_thread::sleep_for(2ms);
+    }
 };
 
+// Killed after some frames more than there were and a part of the next one, so that no machine is too fast or too slow
+// for it.
 TEST_F(Survival, killedTwentyTimesAndResumed) {
     const Outcome whole = capture({"--range", "0:23", "-o", "whole/####.exr"});
     ASSERT_EQ(whole.exitCode, 0) << whole.err;
     std::mt19937 random(7);
     int killed = 0;
-    std::size_t before = 0;
+    int before = 0;
     for (int i = 0; i < 20; ++i) {
         const pid_t child = start();
-        std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution(50, 900)(random)));
+        waitForFrames(before + std::uniform_int_distribution(0, 4)(random));
+        std::this_thread::sleep_for(std::chrono::microseconds(std::uniform_int_distribution(0, 20'000)(random)));
         ::kill(child, SIGKILL);
         killed += waitFor(child) == 128 + SIGKILL ? 1 : 0;
-        std::size_t there = 0;
         for (int number = 0; number < frames; ++number) {
             if (!fs::exists(folder() / frame("frames", number))) continue;
-            ++there;
             EXPECT_TRUE(bytesOf(frame("frames", number)) == bytesOf(frame("whole", number))) << number;
         }
+        const int there = framesThere();
         EXPECT_GE(there, before) << "a finished frame was lost";
         before = there;
-        // Enough to be killed in: begin again when all is there.
-        if (there < frames) continue;
+        // Enough to be killed in: begin again when most is there.
+        if (there <= frames / 2) continue;
         fs::remove_all(folder() / "frames");
         before = 0;
     }
@@ -98,7 +111,7 @@ TEST_F(Survival, severalAtOnceOnTheSameFrames) {
 
 TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
     const pid_t child = start();
-    for (int i = 0; i < 500 && !fs::exists(folder() / frame("frames", 0)); ++i) std::this_thread::sleep_for(20ms);
+    waitForFrames(1);
     ::kill(child, SIGINT);
     ASSERT_EQ(waitFor(child), 1) << bytesOf("said");
     const std::string said = bytesOf("said");
