@@ -4,14 +4,24 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 
 namespace defocus {
 
 inline std::filesystem::path modelsDirectory() {
     const char* given = std::getenv("DEFOCUS_MODELS_DIR");
     return given != nullptr ? given : DEFOCUS_DEFAULT_MODELS_DIR;
+}
+
+// A test's name may have letters, digits and _ of ASCII only.
+inline std::string testNameOf(std::string text) {
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c > 127 || std::isalnum(c) == 0; }, '_');
+    return text;
 }
 
 }  // namespace defocus

@@ -66,11 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                     KnownValue{"black.png", "white.png", false, 0.967365, 0.967388},
                     KnownValue{"fish_reference.exr", "fish_8samples.exr", true, 0.067508, 0.444818},
                     KnownValue{"fish_reference_hdr.exr", "fish_8samples_hdr.exr", true, 0.064231, 0.409475}),
-    [](const auto& known) {
-        std::string name = known.param.reference;
-        std::ranges::replace(name, '.', '_');
-        return name;
-    });
+    [](const auto& known) { return testNameOf(known.param.reference); });
 
 TEST(Flip, ofEqualImagesIsZeroEverywhere) {
     const Image image = noise(40, 30, 1, 2.0f);

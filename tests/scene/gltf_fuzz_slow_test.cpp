@@ -99,9 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Gltf, DamagedModel,
                                          "InterpolationTest.glb", "MultiUVTest.glb", "MeshPrimitiveModes.gltf",
                                          "SimpleSparseAccessor.gltf", "suzanne-high-poly-Draco.gltf",
                                          "japanese-bridge-garden-meshopt.glb"),
-                         [](const testing::TestParamInfo<const char*>& tested) {
-                             return std::to_string(tested.index);
-                         });
+                         [](const auto& tested) { return testNameOf(tested.param); });
 
 }  // namespace
 }  // namespace defocus

@@ -60,9 +60,7 @@ constexpr InvalidFile invalidFiles[] = {
     {"assimp_BoxWithInfinites-glTF-Binary_BoxWithInfinites.glb", "infinite"},
 };
 INSTANTIATE_TEST_SUITE_P(Corpus, Invalid, testing::ValuesIn(invalidFiles),
-                         [](const testing::TestParamInfo<InvalidFile>& tested) {
-                             return std::to_string(tested.index);
-                         });
+                         [](const auto& tested) { return testNameOf(tested.param.file); });
 
 TEST(InvalidGltf, missingFileAndDirectory) {
     const ScratchFolder folder;

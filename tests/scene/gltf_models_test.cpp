@@ -90,7 +90,7 @@ constexpr ModelFacts models[] = {
     {"Unicode❤♻Test.glb", 2, 2},
 };
 INSTANTIATE_TEST_SUITE_P(Readme, Model, testing::ValuesIn(models),
-                         [](const testing::TestParamInfo<ModelFacts>& tested) { return std::to_string(tested.index); });
+                         [](const auto& tested) { return testNameOf(tested.param.file); });
 
 std::uint64_t ignoredCount(const Scene& scene, const std::string& what) {
     for (const Ignored& ignored : scene.ignored)
