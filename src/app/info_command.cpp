@@ -13,7 +13,9 @@
 #include "app/command.h"
 #include "app/number_text.h"
 #include "app/option_text.h"
+#include "core/parallel.h"
 #include "lens/lens_fields.h"
+#include "lod/repairs.h"
 #include "scene/fish_school.h"
 #include "scene/gltf.h"
 #include "scene/pose.h"
@@ -85,15 +87,28 @@ Totals totalsOf(const Scene& scene, const std::vector<std::size_t>& objects) {
     return totals;
 }
 
+// Of each mesh.
+std::vector<Repairs> allRepairs(const Scene& scene) {
+    std::vector<Repairs> repairs(scene.meshes.size());
+    parallelFor(repairs.size(), [&](std::size_t m) { repairs[m] = repairsOf(scene.meshes[m]); });
+    return repairs;
+}
+
 // ---- for programs -------------------------------------------------------------------------------
 
-Json meshJson(const Mesh& mesh, std::size_t objects) {
+Json meshJson(const Mesh& mesh, const Repairs& repairs, std::size_t objects) {
     return {{"name", mesh.name},
             {"triangles", mesh.triangleCount()},
             {"vertices", mesh.vertices.count()},
             {"primitives", mesh.primitives.size()},
             {"objects", objects},
             {"attributes", attributesOf(mesh.vertices)},
+            {"repairedFaces",
+             {{"all", repairs.faces},
+              {"dropped", repairs.dropped},
+              {"turned", repairs.turned},
+              {"cut", repairs.cut},
+              {"split", repairs.split}}},
             {"morphTargets", mesh.morphTargets.size()}};
 }
 
@@ -113,6 +128,7 @@ Json cameraJson(const Camera& camera) {
 Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose) {
     const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
     const Totals totals = totalsOf(scene, objects);
+    const std::vector<Repairs> repairs = allRepairs(scene);
     Json json = {{"file", options.scene},         {"name", scene.name},
                  {"triangles", totals.triangles}, {"trianglesInScene", totals.trianglesInScene},
                  {"vertices", totals.vertices},   {"objects", pose.objects.size()},
@@ -125,7 +141,7 @@ Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose)
          {"meshes", "materials", "textures", "cameras", "lights", "clips", "skins", "extensions", "ignored"})
         json[list] = Json::array();
     for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-        json["meshes"].push_back(meshJson(scene.meshes[i], objects[i]));
+        json["meshes"].push_back(meshJson(scene.meshes[i], repairs[i], objects[i]));
     for (const Material& material : scene.materials)
         json["materials"].push_back({{"name", material.name},
                                      {"alphaMode", alphaName(material.alphaMode)},
@@ -227,6 +243,28 @@ std::vector<std::string> cameraLines(const Scene& scene) {
     return result;
 }
 
+std::string repairSummary(const Scene& scene) {
+    Repairs sum;
+    for (const Repairs& repairs : allRepairs(scene)) {
+        sum.faces += repairs.faces;
+        sum.dropped += repairs.dropped;
+        sum.turned += repairs.turned;
+        sum.cut += repairs.cut;
+        sum.split += repairs.split;
+    }
+    if (sum.faces == 0) return "none needed";
+    std::vector<std::string> kinds;
+    const auto mention = [&](std::uint32_t count, const char* what) {
+        if (count > 0) kinds.push_back(fmt::format("{} {}", grouped(count), what));
+    };
+    mention(sum.dropped, "without area or repeated");
+    mention(sum.turned, "wound against their neighbours");
+    mention(sum.cut, "at edges of more than two faces");
+    mention(sum.split, "at corners where surfaces only touch");
+    return fmt::format("{} face{} before simplification: {}", grouped(sum.faces), sum.faces == 1 ? "" : "s",
+                       fmt::join(kinds, ", "));
+}
+
 void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose) {
     const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
     const Totals totals = totalsOf(scene, objects);
@@ -260,6 +298,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     lines("skins", skins, "none");
     line("extensions", scene.extensions.empty() ? "none" : fmt::format("{}", fmt::join(scene.extensions, ", ")));
     lines("ignored", ignored, "nothing");
+    line("repairs", repairSummary(scene));
     printMeshes(scene, objects);
 }
 

@@ -11,6 +11,7 @@
 
 #include "app/exposure.h"
 #include "app/focus.h"
+#include "app/number_text.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
@@ -220,7 +221,14 @@ PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress
     return frame;
 }
 
+void printDamage(const Scene& scene, const GlobalOptions& global) {
+    for (const Ignored& ignored : scene.ignored)
+        if (ignored.damage && !global.quiet)
+            fmt::print(stderr, "warning: {} {} left out: {}\n", grouped(ignored.count), ignored.what, ignored.reason);
+}
+
 void printWarnings(const PreparedFrame& frame, const GlobalOptions& global) {
+    printDamage(*frame.scene, global);
     if (global.verbose && !frame.cacheFolder.empty())
         fmt::print(stderr, "{} of {} pyramids from the cache in {}\n", frame.pyramidsLoaded,
                    frame.world.pyramids.size(), frame.cacheFolder.string());

@@ -18,6 +18,7 @@
 #include "app/level_export.h"
 #include "app/number_text.h"
 #include "app/option_text.h"
+#include "app/prepared_frame.h"
 #include "app/turntable.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -58,7 +59,7 @@ struct LevelReport {
 struct MeshReport {
     std::size_t mesh = 0;  // into Scene::meshes
     Pyramid pyramid;
-    double seconds = 0;  // of the build, on one core
+    double seconds = 0;  // of the build
     std::vector<LevelReport> levels;
     fs::path turntable;  // empty: none was drawn
 };
@@ -90,7 +91,10 @@ void buildAll(const Scene& scene, std::vector<MeshReport>& reports, const Progre
     parallelFor(reports.size(), [&](std::size_t i) {
         using Clock = std::chrono::steady_clock;
         const Clock::time_point start = Clock::now();
-        reports[i].pyramid = buildPyramid(scene.meshes[reports[i].mesh]);
+        const Mesh& mesh = scene.meshes[reports[i].mesh];
+        const std::size_t helpers =
+            reports.size() > 1 ? pyramidHelpers(mesh, scene.meshes) : pyramidHelpers(mesh, {&mesh, 1});
+        reports[i].pyramid = buildPyramid(mesh, {}, helpers);
         reports[i].seconds = std::chrono::duration<double>(Clock::now() - start).count();
         reports[i].levels.resize(reports[i].pyramid.levels.size());
         const std::scoped_lock lock(mutex);
@@ -279,6 +283,7 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
         context = createHeadlessContext();
     }
 
+    printDamage(scene, global);
     buildAll(scene, reports, progress);
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;

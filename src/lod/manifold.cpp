@@ -18,6 +18,11 @@ namespace {
 // Beyond this many faces at one edge nothing continues anything: all are cut apart, in time linear in their number.
 constexpr std::size_t mostFacesToPair = 32;
 
+// What a face was repaired by.
+constexpr std::uint8_t turnedRepair = 1;
+constexpr std::uint8_t cutRepair = 2;
+constexpr std::uint8_t splitRepair = 4;
+
 // What is known while the surface is put together; faces are those that were kept, corners and half-edges are 3·face +
 // i.
 struct PairedSurface {
@@ -25,7 +30,7 @@ struct PairedSurface {
     std::vector<std::uint32_t> at;          // welded position of each corner
     std::vector<std::uint32_t> primitives;  // of each face
     std::vector<std::uint8_t> turned;
-    std::vector<std::uint8_t> repaired;  // for each face
+    std::vector<std::uint8_t> repaired;  // of each face: turnedRepair, cutRepair, splitRepair
     std::vector<std::uint32_t> twins;
 
     [[nodiscard]] std::size_t faceCount() const { return primitives.size(); }
@@ -160,7 +165,7 @@ void orient(PairedSurface& surface, const EdgeGroups& groups) {
         const bool turnOthers = 2 * turnedCount > component.size();
         for (const std::uint32_t face : component) {
             if (turnOthers) surface.turned[face] ^= 1;
-            surface.repaired[face] |= surface.turned[face];
+            if (surface.turned[face] != 0) surface.repaired[face] |= turnedRepair;
         }
     }
 }
@@ -204,7 +209,7 @@ void pairEdges(PairedSurface& surface, const std::uint32_t* edges, std::size_t c
         surface.twins[candidate.backward] = candidate.forward;
     }
     for (std::size_t i = 0; i < count; ++i)
-        if (surface.twins[edges[i]] == Manifold::none) surface.repaired[edges[i] / 3] = 1;
+        if (surface.twins[edges[i]] == Manifold::none) surface.repaired[edges[i] / 3] |= cutRepair;
 }
 
 void pairAllEdges(PairedSurface& surface, const EdgeGroups& groups) {
@@ -252,11 +257,41 @@ void numberVertices(PairedSurface& surface, Manifold& manifold) {
             taken[surface.at[corner]] = 1;
         }
         manifold.corners[corner] = manifold.corners[fan];
-        surface.repaired[corner / 3] |= further[manifold.corners[corner]];
+        if (further[manifold.corners[corner]] != 0) surface.repaired[corner / 3] |= splitRepair;
     }
 }
 
+Repairs repairsOf(const PairedSurface& surface, std::size_t inputFaces) {
+    Repairs repairs;
+    repairs.dropped = static_cast<std::uint32_t>(inputFaces - surface.faceCount());
+    repairs.faces = repairs.dropped;
+    for (const std::uint8_t repair : surface.repaired) {
+        repairs.faces += repair != 0 ? 1 : 0;
+        repairs.turned += (repair & turnedRepair) != 0 ? 1 : 0;
+        repairs.cut += (repair & cutRepair) != 0 ? 1 : 0;
+        repairs.split += (repair & splitRepair) != 0 ? 1 : 0;
+    }
+    return repairs;
+}
+
 }  // namespace
+
+Triangles weldedTriangles(std::span<const std::uint32_t> indices, std::span<const std::uint32_t> primitiveIndexCounts,
+                          const Welded& positions, const std::vector<glm::dvec3>& points) {
+    Triangles triangles;
+    triangles.positions.reserve(indices.size());
+    for (std::size_t f = 0; f < indices.size() / 3; ++f) {
+        const std::uint32_t p[3] = {positions.id[indices[3 * f]], positions.id[indices[3 * f + 1]],
+                                    positions.id[indices[3 * f + 2]]};
+        const glm::dvec3 sum = points[p[0]] + points[p[1]] + points[p[2]];
+        const bool proper = std::isfinite(sum.x + sum.y + sum.z);
+        for (const std::uint32_t corner : p) triangles.positions.push_back(proper ? corner : p[0]);
+    }
+    triangles.primitives.reserve(indices.size() / 3);
+    for (std::uint32_t p = 0; p < primitiveIndexCounts.size(); ++p)
+        triangles.primitives.insert(triangles.primitives.end(), primitiveIndexCounts[p] / 3, p);
+    return triangles;
+}
 
 Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>& points) {
     // Keep the faces that can be part of a surface.
@@ -282,9 +317,7 @@ Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>
 
     manifold.turned = std::move(surface.turned);
     manifold.twins = std::move(surface.twins);
-    manifold.repairedFaces = static_cast<std::uint32_t>(
-        triangles.primitives.size() - count +
-        static_cast<std::size_t>(std::count(surface.repaired.begin(), surface.repaired.end(), 1)));
+    manifold.repairs = repairsOf(surface, triangles.primitives.size());
     return manifold;
 }
 

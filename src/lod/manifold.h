@@ -9,7 +9,11 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
+
+#include "lod/repairs.h"
+#include "lod/weld.h"
 
 namespace defocus {
 
@@ -27,8 +31,13 @@ struct Manifold {
     std::vector<std::uint32_t>
         twins;  // half-edge 3·f + i runs from corner i to i + 1: the one on its other side, or none
     std::vector<std::uint32_t> positions;  // the welded position of each vertex
-    std::uint32_t repairedFaces = 0;  // input faces dropped, turned, cut off at an edge or in a further fan of a vertex
+    Repairs repairs;
 };
+
+// Faces by the welded positions of their corners, those of primitive after primitive; `points` are those positions.
+// Faces with a corner that is no place at all become degenerate.
+Triangles weldedTriangles(std::span<const std::uint32_t> indices, std::span<const std::uint32_t> primitiveIndexCounts,
+                          const Welded& positions, const std::vector<glm::dvec3>& points);
 
 // `points` are the welded positions; their count bounds Triangles::positions.
 Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>& points);

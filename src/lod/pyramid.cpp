@@ -221,7 +221,7 @@ std::vector<T> inOrder(const std::vector<T>& own, const std::vector<T>& fitted,
     return result;
 }
 
-Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t workers) {
+Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {
     // Join equal vertices; weld the positions of the rest.
     Welded unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
@@ -253,7 +253,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
         };
         std::vector<FittedLevel> coarser(
             std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
-        Tasks tasks(workers);
+        Tasks tasks(helpers);
         simplification = simplify(vertices, positions, smoothing, levels[0].triangles,
                                   {options.leastTriangles, options.mostLevels - 1}, tasks,
                                   [&](std::uint32_t l, SimplifiedLevel level) {
@@ -275,12 +275,12 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t worke
     // Measure them, then cluster them; each gives back what it takes before the next begins.
     if (levels.size() > 1) {
         const Surface surface = prepareSurface(vertices.positions, levels[0].triangles.indices);
-        Tasks tasks(workers);
+        Tasks tasks(helpers);
         for (std::size_t l = 1; l < levels.size(); ++l) tasks.add([&, l] { measure(levels[l], surface, diagonal); });
         tasks.wait();
     }
     {
-        Tasks tasks(workers);
+        Tasks tasks(helpers);
         tasks.add([&] {
             levels[0].clusters =
                 clusterTriangles(levels[0].triangles, vertices.positions, positions.id, positions.first.size());
@@ -354,8 +354,17 @@ void measureDeformations(Pyramid& pyramid, const Mesh& mesh) {
     }
 }
 
-Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options) {
-    return build(mesh, options, 0);
+Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {
+    return build(mesh, options, helpers);
+}
+
+std::size_t pyramidHelpers(const Mesh& mesh, std::span<const Mesh> meshes) {
+    std::uint64_t all = 0;
+    for (const Mesh& each : meshes) all += each.triangleCount();
+    const double share =
+        static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
+    const auto cores = std::llround(share * std::max(1u, std::thread::hardware_concurrency()));
+    return static_cast<std::size_t>(std::max(1ll, cores) - 1);
 }
 
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options,
@@ -367,15 +376,11 @@ std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const Pyrami
         return meshes[a].triangleCount() > meshes[b].triangleCount();
     });
 
-    // Cores that have no mesh of their own fit levels of others'.
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t workers = std::max<std::size_t>(1, cores / std::max<std::size_t>(1, meshes.size())) - 1;
-
     std::vector<Pyramid> pyramids(meshes.size());
     std::mutex mutex;
     std::uint64_t done = 0;
     parallelFor(meshes.size(), [&](std::size_t i) {
-        pyramids[order[i]] = build(meshes[order[i]], options, workers);
+        pyramids[order[i]] = build(meshes[order[i]], options, pyramidHelpers(meshes[order[i]], meshes));
         const std::scoped_lock lock(mutex);
         report(progress, "pyramids", ++done, meshes.size());
     });

@@ -7,6 +7,7 @@
 // (level_fit.h).
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,11 @@ struct PyramidOptions {
 
 // Deterministic: same mesh, same pyramid, bit for bit. Level 0 keeps every triangle of the mesh. Levels end where a
 // further one would save less than a quarter of the triangles. Throws Error for an index beyond the vertices.
-Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {});
+// `helpers`: threads that fit and measure levels while the caller's goes on collapsing.
+Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0);
+
+// Helpers for one of `meshes` that are built at once: its share of the cores, by triangles.
+std::size_t pyramidHelpers(const Mesh& mesh, std::span<const Mesh> meshes);
 
 // One pyramid a mesh, built on all cores.
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},

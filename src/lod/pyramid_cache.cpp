@@ -141,7 +141,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
         const PyramidKey key = worthIt ? pyramidKey(mesh, options) : PyramidKey{};
         std::optional<Pyramid> loaded = worthIt ? load(mesh, folder, key) : std::nullopt;
         const bool found = loaded.has_value();
-        pyramid = found ? std::move(*loaded) : buildPyramid(mesh, options);
+        pyramid = found ? std::move(*loaded) : buildPyramid(mesh, options, pyramidHelpers(mesh, meshes));
         const std::string failure =
             worthIt && !found && stillStoring() ? tryToStore(pyramid, mesh, folder, key) : std::string();
 

@@ -149,24 +149,6 @@ Frame frameOf(const Vertices& vertices, const std::vector<std::uint32_t>& indice
     return longest > 0 ? Frame{bounds.centre(), 1 / longest} : Frame{};
 }
 
-// Faces with a corner that is no place at all become degenerate.
-Triangles weldedTriangles(const std::vector<glm::dvec3>& points, const Welded& positions, const LevelTriangles& input) {
-    const std::vector<std::uint32_t>& indices = input.indices;
-    Triangles triangles;
-    triangles.positions.reserve(indices.size());
-    for (std::size_t f = 0; f < indices.size() / 3; ++f) {
-        const std::uint32_t p[3] = {positions.id[indices[3 * f]], positions.id[indices[3 * f + 1]],
-                                    positions.id[indices[3 * f + 2]]};
-        const glm::dvec3 sum = points[p[0]] + points[p[1]] + points[p[2]];
-        const bool proper = std::isfinite(sum.x + sum.y + sum.z);
-        for (const std::uint32_t corner : p) triangles.positions.push_back(proper ? corner : p[0]);
-    }
-    triangles.primitives.reserve(indices.size() / 3);
-    for (std::uint32_t p = 0; p < input.primitiveIndexCounts.size(); ++p)
-        triangles.primitives.insert(triangles.primitives.end(), input.primitiveIndexCounts[p] / 3, p);
-    return triangles;
-}
-
 // uv in lengths of the unit frame: the ratio that keeps the mesh's whole area.
 float uvScaleOf(const Vertices& vertices, const std::vector<std::uint32_t>& indices, const Frame& frame) {
     double area = 0;
@@ -223,9 +205,9 @@ Simplifier prepareSimplifier(const Vertices& vertices, const Welded& positions,
         std::vector<glm::dvec3> points(positions.first.size());
         for (std::size_t p = 0; p < points.size(); ++p)
             points[p] = origin->frame.point(vertices.positions[positions.first[p]]);
-        Triangles welded = weldedTriangles(points, positions, triangles);
+        const Triangles welded = weldedTriangles(triangles.indices, triangles.primitiveIndexCounts, positions, points);
         Manifold manifold = buildManifold(welded, points);
-        s.repairedFaces = manifold.repairedFaces;
+        s.repairedFaces = manifold.repairs.faces;
         s.liveFaces = manifold.faces.size();
         s.faces = connectedFaces(manifold, triangles, welded.primitives);
         origin->places = std::move(manifold.positions);

@@ -238,7 +238,7 @@ std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positio
         dropped += (list->size() - kept) / 3;
         list->resize(kept);
     }
-    if (dropped > 0) ignore(source, "triangles", "a corner's position is not finite (NaN or infinite)", dropped);
+    if (dropped > 0) ignoreDamaged(source, "triangles", "a corner's position is not finite (NaN or infinite)", dropped);
     return dropped;
 }
 

@@ -164,6 +164,12 @@ void ignore(Source& source, const std::string& what, const std::string& reason, 
     source.ignored.push_back({what, reason, count});
 }
 
+void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count) {
+    ignore(source, what, reason, count);
+    for (Ignored& entry : source.ignored)
+        if (entry.what == what && entry.reason == reason) entry.damage = true;
+}
+
 const nlohmann::json* findExtension(const nlohmann::json& object, const char* name) {
     const auto extensions = object.find("extensions");
     if (extensions == object.end() || !extensions->is_object()) return nullptr;

@@ -54,6 +54,8 @@ void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes,
 
 // Notes something that is not drawn; equal things are counted in one entry.
 void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count = 1);
+// The same of what can't be drawn as it is because the file is damaged there.
+void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count);
 
 // The object `name` among the "extensions" of a JSON object, or nullptr.
 const nlohmann::json* findExtension(const nlohmann::json& object, const char* name);

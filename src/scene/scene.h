@@ -154,6 +154,7 @@ struct Ignored {
     std::string what;
     std::string reason;
     std::uint64_t count = 1;
+    bool damage = false;  // a fault of the file, worth a warning, not something that is only not drawn
 };
 
 struct Scene {

@@ -8,6 +8,7 @@
 #include "app/two_quads.h"
 #include "image/image_io.h"
 #include "models.h"
+#include "scene/gltf_builder.h"
 
 namespace defocus {
 namespace {
@@ -248,6 +249,21 @@ TEST_F(BadInput, hostileModels) {
         }
     }
     EXPECT_EQ(fileCount(), 1u);
+}
+
+// What can be drawn of a damaged file is, and what can't is counted.
+TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    GltfBuilder builder;
+    builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, nan})}}},
+                   {"indices", builder.indices({0, 1, 2, 0, 1, 3, 1, 2, 3})}}});
+    GltfBuilder::save(folder() / "damaged.glb", builder.glb());
+    for (const char* command : {"plan", "pyramid"}) {
+        const Outcome outcome = run({command, "damaged.glb"});
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_EQ(outcome.err, "warning: 2 triangles left out: a corner's position is not finite (NaN or infinite)\n");
+        EXPECT_EQ(run({"--quiet", command, "damaged.glb"}).err, "");
+    }
 }
 
 }  // namespace

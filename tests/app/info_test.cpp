@@ -9,6 +9,7 @@
 #include "app/command.h"
 #include "core/error.h"
 #include "models.h"
+#include "scene/gltf_builder.h"
 
 namespace defocus {
 namespace {
@@ -40,6 +41,22 @@ TEST(Info, jsonHoldsWhatTheFileHolds) {
     ASSERT_EQ(json["ignored"].size(), 2u);
     EXPECT_EQ(json["ignored"][0]["what"], "extension KHR_materials_transmission");
     EXPECT_NE(json["ignored"][0]["reason"], "");
+}
+
+// A square, one of its triangles once more, one without area, and a fin on its diagonal.
+TEST(Info, countsWhatIsRepairedBeforeSimplification) {
+    GltfBuilder builder;
+    builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1})}}},
+                   {"indices", builder.indices({0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 0, 1, 0, 2, 4})}}});
+    const ScratchFolder folder;
+    GltfBuilder::save(folder / "fin.glb", builder.glb());
+    const std::string file = (folder / "fin.glb").string();
+    EXPECT_EQ(nlohmann::json::parse(info(file + " --json"))["meshes"][0]["repairedFaces"],
+              nlohmann::json({{"all", 3}, {"dropped", 2}, {"turned", 0}, {"cut", 1}, {"split", 1}}));
+    EXPECT_NE(info(file).find("repairs     3 faces before simplification: 2 without area or repeated, 1 at edges of "
+                              "more than two faces, 1 at corners where surfaces only touch"),
+              std::string::npos)
+        << info(file);
 }
 
 TEST(Info, textNamesWhatIsIgnoredAndWhy) {

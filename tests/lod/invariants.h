@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/vector_relational.hpp>
 
+#include "lod/level_selection.h"
 #include "shapes.h"
 
 namespace defocus {
@@ -37,6 +39,29 @@ inline void expectClustersHold(const Pyramid& pyramid) {
                 ASSERT_GE(glm::dot(normal, glm::dvec3(c.axis)), c.leastCosine);
                 ASSERT_GE(glm::dot(normal, p[0] - glm::dvec3(c.centre)), c.planes);
             }
+    }
+}
+
+// λ grows with the target from level 0 to the last, and nowhere by more than the least growth from level to level
+// allows: 5 % of the edges, 25 % of the errors (the slope is largest at an interval's end).
+inline void expectContinuousLevels(const Pyramid& pyramid) {
+    if (pyramid.levels.size() < 2) return;
+    constexpr double step = 1.0005;
+    for (const LodMetric metric : {LodMetric::size, LodMetric::error}) {
+        const auto stored = [&](const PyramidLevel& level) {
+            return metric == LodMetric::size ? level.meanEdge : level.error;
+        };
+        const double most = metric == LodMetric::size ? std::log(step) / std::log(1.05) : (step - 1) / (1 - 1 / 1.25);
+        const double pixelsPerUnit = 10 / stored(pyramid.levels[1]);
+        const double end = 1.1 * pixelsPerUnit * stored(pyramid.levels.back());
+        double last = 0;
+        for (double target = 1e-3; target < end; target *= step) {
+            const double lambda = levelOfDetail(pyramid, {pixelsPerUnit, 0}, metric, {0, target});
+            ASSERT_GE(lambda, last) << "at " << target;
+            ASSERT_LE(lambda - last, 1.001 * most) << "at " << target;
+            last = lambda;
+        }
+        EXPECT_EQ(last, static_cast<double>(pyramid.levels.size() - 1));
     }
 }
 
@@ -82,6 +107,7 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
         EXPECT_GE(level.error, 1.25 * finer.error);
     }
     expectClustersHold(pyramid);
+    expectContinuousLevels(pyramid);
 }
 
 }  // namespace defocus

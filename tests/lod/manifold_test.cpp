@@ -37,7 +37,7 @@ TEST(Manifold, TetrahedronIsClosed) {
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 12);
     EXPECT_EQ(manifold.positions.size(), 4u);
-    EXPECT_EQ(manifold.repairedFaces, 0u);
+    EXPECT_EQ(manifold.repairs.faces, 0u);
 }
 
 // 3---2
@@ -48,7 +48,7 @@ TEST(Manifold, SquareHasOneInnerEdge) {
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 2);
     EXPECT_EQ(manifold.positions.size(), 4u);
-    EXPECT_EQ(manifold.repairedFaces, 0u);
+    EXPECT_EQ(manifold.repairs.faces, 0u);
 }
 
 TEST(Manifold, FaceWoundAgainstItsNeighboursIsTurned) {
@@ -58,7 +58,8 @@ TEST(Manifold, FaceWoundAgainstItsNeighboursIsTurned) {
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 4);
     EXPECT_EQ(manifold.turned, (std::vector<std::uint8_t>{0, 1, 0}));
-    EXPECT_EQ(manifold.repairedFaces, 1u);
+    EXPECT_EQ(manifold.repairs.faces, 1u);
+    EXPECT_EQ(manifold.repairs.turned, 1u);
 }
 
 TEST(Manifold, BowTieGetsTwoVerticesAtItsKnot) {
@@ -69,7 +70,8 @@ TEST(Manifold, BowTieGetsTwoVerticesAtItsKnot) {
     const Manifold manifold = manifoldOf(points, {0, 2, 1, 3, 4, 2});
     EXPECT_EQ(manifold.positions.size(), 6u);
     EXPECT_EQ(std::count(manifold.positions.begin(), manifold.positions.end(), 2u), 2);
-    EXPECT_EQ(manifold.repairedFaces, 1u);
+    EXPECT_EQ(manifold.repairs.faces, 1u);
+    EXPECT_EQ(manifold.repairs.split, 1u);
 }
 
 TEST(Manifold, ThirdFaceOfAnEdgeIsCutOffWhereTheOthersContinueEachOther) {
@@ -81,7 +83,8 @@ TEST(Manifold, ThirdFaceOfAnEdgeIsCutOffWhereTheOthersContinueEachOther) {
     EXPECT_EQ(pairedHalfEdges(manifold), 2);
     EXPECT_EQ(manifold.twins[2], 6u);  // 2→0 of the first face, 0→2 of the last
     EXPECT_EQ(manifold.positions.size(), 7u);
-    EXPECT_EQ(manifold.repairedFaces, 1u);
+    EXPECT_EQ(manifold.repairs.faces, 1u);
+    EXPECT_EQ(manifold.repairs.cut, 1u);
 }
 
 TEST(Manifold, SheetWithTwoFacesClosesAroundItsOutline) {
@@ -92,13 +95,14 @@ TEST(Manifold, SheetWithTwoFacesClosesAroundItsOutline) {
     EXPECT_EQ(pairedHalfEdges(manifold), 12);
     EXPECT_EQ(manifold.twins[2], 6u);
     EXPECT_EQ(manifold.positions.size(), 4u);
-    EXPECT_EQ(manifold.repairedFaces, 0u);
+    EXPECT_EQ(manifold.repairs.faces, 0u);
 }
 
 TEST(Manifold, DegenerateAndRepeatedFacesHaveNoPlaceInASurface) {
     const Manifold manifold = manifoldOf(square, {0, 1, 2, 1, 2, 0, 0, 0, 1, 3, 3, 3, 0, 2, 3});
     EXPECT_EQ(manifold.faces, (std::vector<std::uint32_t>{0, 4}));
-    EXPECT_EQ(manifold.repairedFaces, 3u);
+    EXPECT_EQ(manifold.repairs.faces, 3u);
+    EXPECT_EQ(manifold.repairs.dropped, 3u);
     EXPECT_EQ(manifold.positions.size(), 4u);
 }
 
@@ -119,7 +123,7 @@ TEST(Manifold, MoebiusBandIsCutAtOneEdge) {
     const Manifold manifold = manifoldOf(points, corners);
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 8);
-    EXPECT_GT(manifold.repairedFaces, 0u);
+    EXPECT_GT(manifold.repairs.faces, 0u);
 }
 
 TEST(Manifold, HundredFacesAtOneEdgeAreCutApart) {

@@ -9,6 +9,7 @@
 
 #include "invariants.h"
 #include "lod/pyramid.h"
+#include "lod/repairs.h"
 #include "lod/surface_distance.h"
 #include "models.h"
 #include "scene/gltf.h"
@@ -42,6 +43,7 @@ TEST(RealModels, AllBecomePyramids) {
         for (std::size_t m = 0; m < pyramids.size(); ++m) {
             SCOPED_TRACE(testing::Message() << "mesh " << m << " " << scene.meshes[m].name);
             expectPyramidInvariants(scene.meshes[m], pyramids[m]);
+            EXPECT_EQ(pyramids[m].repairedFaces, repairsOf(scene.meshes[m]).faces);
         }
     }
 }

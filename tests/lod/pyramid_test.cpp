@@ -374,7 +374,8 @@ TEST(Pyramid, SameMeshGivesTheSameBitsAloneAndAmongOthers) {
     EXPECT_EQ(many[0].levels[0].triangleCount, 576u);
     // The last one alone, with all cores for its levels.
     many.push_back(std::move(buildPyramids({mesh}).front()));
-    for (const std::size_t i : {1u, 3u, 5u}) {
+    many.push_back(buildPyramid(mesh, {}, 3));
+    for (const std::size_t i : {1u, 3u, 5u, 6u}) {
         EXPECT_TRUE(sameBits(many[i].indices, first.indices));
         EXPECT_TRUE(sameBits(many[i].vertices.positions, first.vertices.positions));
         EXPECT_TRUE(sameBits(many[i].source, first.source));

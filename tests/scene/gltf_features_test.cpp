@@ -146,6 +146,7 @@ TEST(GltfMesh, trianglesWithoutAPlaceAreLeftOutAndCounted) {
     ASSERT_EQ(scene.ignored.size(), 1u);
     EXPECT_EQ(scene.ignored[0].what, "triangles");
     EXPECT_EQ(scene.ignored[0].count, 3u);
+    EXPECT_TRUE(scene.ignored[0].damage);
 }
 
 TEST(GltfAccessor, normalisedIntegersOfEveryType) {
