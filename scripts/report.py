@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Draws the report of `defocus bench convergence` as one index.html that needs nothing else.
+"""Draws the report of `defocus bench` as one index.html that needs nothing else.
 
     report.py RESULTS [REPORT]
 
-RESULTS holds results.json and the images that it names; index.html goes to REPORT (the same folder, if not given).
-Further sections come from what else lies in REPORT:
-    speedup.csv   of `defocus bench speedup`: speed-up against lens samples (Jeong, Kim and Lee 2011, Figure 2)
-    popping.csv   of `defocus bench popping`: what levels add to each change from frame to frame
-    strips.json   pictures to show side by side: [{"title", "text", "images": [{"label", "file"}]}]
+RESULTS may hold results.json of `bench convergence` and the images that it names; index.html goes to REPORT (the same
+folder, if not given). Further sections come from what else lies in REPORT:
+    speedup.json                of `bench speedup`: speed-up against lens samples (Jeong, Kim and Lee 2011, Figure 2)
+    popping.json, popping.csv   of `bench popping`: what levels add to each change from frame to frame
+    scaling.json                of `bench scaling`: time against triangles, instances, samples, pixels, blur
+    stability.json              of `bench stability`: extreme cases, and the blur against the lens
+    strips.json                 pictures to show side by side: [{"title", "text", "images": [{"label", "file"}]}]
 
 Needs matplotlib and Pillow (Debian: python3-matplotlib). The program carries this script and runs it for --report.
 """
@@ -44,6 +46,9 @@ STAND_INS = [f"#0102{i:02x}" for i in range(0x10, 0x10 + len(PALETTE))]
 CROP_WIDTH = 176  # px on the page
 LABEL_LETTERS = 42  # fit beside a plot; longer labels are smaller
 BASELINE = ("accumulation", "lod=off")  # what all else is seen against
+# Levels of detail in plots: label, number in the palette.
+MODES = {"off": ("full detail", 6), "nearest": ("nearest level", 0), "fractional": ("fractional levels", 1),
+         "continuous": ("continuous levels", 2)}
 
 
 # ---- data -----------------------------------------------------------------------------------------------------------
@@ -101,6 +106,14 @@ def time_text(milliseconds):
     return f"{milliseconds / 1000:.3g} s" if milliseconds >= 1000 else f"{milliseconds:.3g} ms"
 
 
+def results_of(folder, bench):
+    """What a bench wrote, or None."""
+    try:
+        return json.loads((folder / f"{bench}.json").read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return None
+
+
 # ---- plots ----------------------------------------------------------------------------------------------------------
 
 
@@ -122,11 +135,13 @@ def as_svg(figure, name, description):
     return svg.replace("<svg", f'<svg role="img" aria-label="{html.escape(description)}"', 1)
 
 
-def new_plots(count, right, height):
+def new_plots(count, right, height, rows=1):
+    """Plots beside and below each other as an array of rows; those of a row share their heights."""
     plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "defocus", "font.size": 10})
-    figure, columns = plt.subplots(1, count, figsize=(10, height), sharey=True, squeeze=False)
+    figure, plots = plt.subplots(rows, count, figsize=(10, height), sharex="col" if rows > 1 else False, sharey="row",
+                                 squeeze=False)
     figure.subplots_adjust(left=0.085, right=right, top=0.97, bottom=0.11)
-    for axes in columns[0]:
+    for axes in plots.flat:
         for spine in axes.spines.values():
             spine.set_color(GRID)
         axes.tick_params(colors=INK, which="both", length=3)
@@ -134,12 +149,20 @@ def new_plots(count, right, height):
         axes.set_axisbelow(True)
         for axis in (axes.xaxis, axes.yaxis):
             axis.label.set_color(INK)
-    return figure, columns[0]
+    return figure, plots
 
 
 def new_plot(right=0.62):
-    figure, columns = new_plots(1, right, 5.6)
-    return figure, columns[0]
+    figure, plots = new_plots(1, right, 5.6)
+    return figure, plots[0][0]
+
+
+def draw_mode(axes, mode, points, size=6):
+    """A line of one of MODES; returns its end for label_beside."""
+    label, colour = MODES[mode]
+    marker = MARKERS[list(MODES).index(mode)]
+    axes.plot(*zip(*points), color=STAND_INS[colour], marker=marker, markersize=size, linewidth=1.6 if size > 4 else 1.2)
+    return (*points[-1], label, STAND_INS[colour], marker)
 
 
 def logarithmic(axis, text):
@@ -156,6 +179,7 @@ def label_beside(axes, ends):
     axes.figure.canvas.draw()
     box = axes.get_window_extent()
     step = 15.0
+    beside, text_at = 1 + 15 / box.width, 1 + 24 / box.width
     placed = sorted(((axes.transData.transform(end[:2])[1], *end) for end in ends), key=lambda end: end[0])
     heights = []
     for height, *_ in placed:
@@ -166,11 +190,11 @@ def label_beside(axes, ends):
         heights[i] = min(heights[i], limit)
     for (_, x, y, text, colour, marker), height in zip(placed, heights):
         share = (height - box.y0) / box.height
-        axes.annotate("", xy=(x, y), xycoords="data", xytext=(1.04, share), textcoords="axes fraction",
+        axes.annotate("", xy=(x, y), xycoords="data", xytext=(beside, share), textcoords="axes fraction",
                       annotation_clip=False, arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.7,
                                                          "linestyle": ":", "shrinkA": 4, "shrinkB": 4})
-        axes.plot([1.04], [share], marker, color=colour, markersize=6, transform=axes.transAxes, clip_on=False)
-        axes.annotate(text, (1.06, share), xycoords="axes fraction", color=colour, va="center",
+        axes.plot([beside], [share], marker, color=colour, markersize=6, transform=axes.transAxes, clip_on=False)
+        axes.annotate(text, (text_at, share), xycoords="axes fraction", color=colour, va="center",
                       fontsize=min(9.5, 9.5 * LABEL_LETTERS / len(text)),
                       annotation_clip=False)
 
@@ -238,27 +262,21 @@ def error_plot(results, series, error_of, name, axis_label, front_key):
     return as_svg(figure, name, f"{axis_label} against the time of a frame, both logarithmic. " + "; ".join(described))
 
 
-def speedup_plot(path):
-    """Speed-up against lens samples; None where the file has no such rows."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = [row for row in csv.DictReader(file) if row.get("sweep") == "samples"]
-    names = {"off": "full detail", "nearest": "nearest level", "fractional": "fractional levels"}
+def speedup_plot(rows):
+    """Speed-up against lens samples; empty without such rows."""
     figure, axes = new_plot(right=0.8)
     axes.set_xscale("log", base=2)
-    ends = []
-    described = []
-    for index, (mode, label) in enumerate(names.items()):
-        points = sorted((int(row["samples"]), float(row["speedUp"])) for row in rows if row["lod"] == mode)
-        if not points:
-            continue
-        axes.plot(*zip(*points), color=STAND_INS[index], marker=MARKERS[index], markersize=6, linewidth=1.6)
-        ends.append((*points[-1], label, STAND_INS[index], MARKERS[index]))
-        described.append(f"{label}: {points[0][1]:.2f} at {points[0][0]} samples, {points[-1][1]:.2f} at {points[-1][0]}")
+    ends, described = [], []
+    for mode, (label, _) in MODES.items():
+        points = sorted((row["samples"], row["speedUp"]) for row in rows if (row["sweep"], row["lod"]) == ("samples", mode))
+        if points:
+            ends.append(draw_mode(axes, mode, points))
+            described.append(f"{label}: {points[0][1]:.2f} at {points[0][0]} samples, {points[-1][1]:.2f} at {points[-1][0]}")
     if not ends:
         plt.close(figure)
-        return None
+        return ""
     axes.set_ylim(0, None)
-    axes.set_xticks(sorted({int(row["samples"]) for row in rows}))
+    axes.set_xticks(sorted({row["samples"] for row in rows if row["sweep"] == "samples"}))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("lens samples")
@@ -267,35 +285,57 @@ def speedup_plot(path):
     return as_svg(figure, "speedup", "Speed-up against lens samples. " + "; ".join(described))
 
 
-def popping_plot(path):
-    """The levels' pops frame by frame, at the most samples, a movement beside the other; None without rows."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    if not rows:
-        return None
-    most = max(int(row["samples"]) for row in rows)
-    rows = [row for row in rows if int(row["samples"]) == most]
+def popping_plot(rows, samples):
+    """Frame by frame, a movement beside the other: the pop, the whole change, how fast levels change."""
+    kinds = [("stepRmse", "pop, RMSE"), ("changeRmse", "change, RMSE"), ("speed", "levels a frame")]
     movements = list(dict.fromkeys(row["movement"] for row in rows))
-    names = {"nearest": "nearest level", "fractional": "fractional levels", "continuous": "continuous levels"}
-    figure, columns = new_plots(len(movements), 0.8, 4.2)
-    figure.subplots_adjust(top=0.92, bottom=0.14, wspace=0.06)
+    figure, plots = new_plots(len(movements), 0.8, 7.5, len(kinds))
+    figure.subplots_adjust(top=0.95, bottom=0.08, wspace=0.06, hspace=0.12)
     described = []
-    for axes, movement in zip(columns, movements):
+    for (kind, kind_label), line in zip(kinds, plots):
+        for axes, movement in zip(line, movements):
+            ends = []
+            for mode, (label, _) in MODES.items():
+                points = sorted((int(row["frame"]), float(row[kind])) for row in rows
+                                if (row["movement"], row["lod"]) == (movement, mode))
+                if not points or (kind == "speed" and mode != "fractional"):
+                    continue
+                ends.append(draw_mode(axes, mode, points, 3))
+                described.append(f"{movement}, {label}: {kind_label} at most {max(value for _, value in points):.3g}")
+        line[0].set_ylim(0, None)
+        line[0].set_ylabel(kind_label)
+        if kind != "speed":
+            label_beside(line[-1], ends)
+    for axes, movement in zip(plots[0], movements):
         axes.set_title(movement, color=INK, fontsize=10)
+    for axes in plots[-1]:
         axes.set_xlabel("frame")
+    return as_svg(figure, "popping", f"Pops frame by frame at {samples} lens samples. " + "; ".join(described))
+
+
+def scaling_plot(results):
+    axes_names = list(dict.fromkeys(row["axis"] for row in results["rows"]))
+    units = {"pixels": "pixels", "blur": "blur, px"}
+    figure, plots = new_plots(len(axes_names), 0.84, 4.2)
+    figure.subplots_adjust(top=0.92, bottom=0.14, wspace=0.08)
+    described = []
+    for axes, name in zip(plots[0], axes_names):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_title(name, color=INK, fontsize=10)
+        axes.set_xlabel(units.get(name, name))
         ends = []
-        for index, (mode, label) in enumerate(names.items()):
-            points = sorted((int(row["frame"]), float(row["stepRmse"])) for row in rows
-                            if row["movement"] == movement and row["lod"] == mode)
-            if not points:
-                continue
-            axes.plot(*zip(*points), color=STAND_INS[index], marker=MARKERS[index], markersize=3.5, linewidth=1.2)
-            ends.append((*points[-1], label, STAND_INS[index], MARKERS[index]))
-            described.append(f"{movement}, {label}: at most {max(value for _, value in points):.3g}")
-    columns[0].set_ylim(0, None)
-    columns[0].set_ylabel("RMSE of the pop, objects' pixels")
-    label_beside(columns[-1], ends)
-    return as_svg(figure, "popping", f"Pops frame by frame at {most} lens samples. " + "; ".join(described))
+        for mode, (label, _) in MODES.items():
+            points = [(row["value"], row["milliseconds"]["median"]) for row in results["rows"]
+                      if (row["axis"], row["lod"]) == (name, mode)]
+            if points:
+                ends.append(draw_mode(axes, mode, points, 5))
+                described.append(f"{name}, {label}: {time_text(points[0][1])} to {time_text(points[-1][1])}")
+        axes.xaxis.set_minor_formatter(NullFormatter())
+    logarithmic(plots[0][0].yaxis, time_text)
+    plots[0][0].set_ylabel("a frame (median)")
+    label_beside(plots[0][-1], ends)
+    return as_svg(figure, "scaling", "Time of a frame against what grows, both logarithmic. " + "; ".join(described))
 
 
 # ---- pictures -------------------------------------------------------------------------------------------------------
@@ -404,7 +444,7 @@ def strips_section(folder):
 
 def table(header, rows, left=1):
     """`left`: how many columns hold text."""
-    head = "".join(f'<th scope="col">{cell}</th>' for cell in header)
+    head = "".join(f'<th scope="col"{" class=text" if i < left else ""}>{cell}</th>' for i, cell in enumerate(header))
     lines = []
     for row in rows:
         cells = [f'<th scope="row">{row[0]}</th>']
@@ -466,19 +506,39 @@ def equal_error_table(results):
 
 
 def subject_table(results):
-    lens, machine, reference = results["lens"], results["machine"], results["reference"]
+    lens, reference = results["lens"], results["reference"]
     remaining = reference["remaining"]
     lens_text = (f"{lens['focalLength']:g} mm, f/{lens['fStop']:g}, focused at {lens['focusDistance']:g} m"
                  if lens["focusDistance"] else f"{lens['focalLength']:g} mm, f/{lens['fStop']:g}, focused at infinity")
-    lines = [
+    return facts(results | {"scene": ""}, [
         ["scene", f"{results['scene']}; camera “{results['camera']}”, {lens_text}; {results['width']} × {results['height']} px"],
         ["reference", f"{reference['samples']} lens samples at full detail from number {reference['firstSample']} of their "
                       f"sequence on, 32-bit layers; hash {reference['hash']}; {reference['milliseconds'] / 1000:.1f} s"
                       f"{', kept from an earlier run' if reference['reused'] else ''}. Its own remaining error, from its two "
                       f"halves: RMSE {rmse(remaining):.5f}, PSNR {number(remaining['psnr'], 2)} dB, FLIP {remaining['flip']:.4f}"],
         ["errors", results["errorsMeasuredOn"]],
-        ["held equal", results["heldEqual"]],
-        ["runs", f"{results['runs']} of each; medians"],
+    ])
+
+
+def spread_text(time):
+    return f"{time['low']:.1f}–{time['high']:.1f}"
+
+
+def differences(difference):
+    """PSNR, SSIM, FLIP as cells."""
+    if difference is None:
+        return ["", "", ""]
+    return [number(difference["psnr"], 1), f"{difference['ssim']:.4f}", f"{difference['flip']:.4f}"]
+
+
+def facts(results, more=()):
+    """What a bench was run on and with."""
+    machine = results["machine"]
+    lines = [["scene", f"{results['scene']}, {results['width']} × {results['height']} px"]] if results.get("scene") else []
+    lines += [["runs", f"{results['runs']} of each; medians"]] if results.get("runs") else []
+    lines += [["held equal", results["heldEqual"]]] if "heldEqual" in results else []
+    lines += more
+    lines += [
         ["program", f"{results['program']}, commit {results['commit'] or 'unknown'}"],
         ["device", f"{results['device']}; driver {results['driver']}"],
         ["machine", f"{machine['processor'] or 'unknown processor'}, {machine['threads']} threads, "
@@ -512,7 +572,7 @@ p {{ max-width: 46rem; }}
 figure {{ margin: 0; }}
 figure.plot {{ overflow-x: auto; }}
 figure.plot svg {{ width: 100%; min-width: 44rem; height: auto; display: block; }}
-figcaption {{ font-size: .85rem; line-height: 1.35; }}
+figcaption, li {{ font-size: .85rem; line-height: 1.35; }}
 figure.plot figcaption {{ max-width: 46rem; margin-top: .4rem; }}
 figure.overview svg {{ width: 100%; max-width: 40rem; height: auto; display: block; }}
 .strip {{ display: flex; flex-wrap: wrap; gap: 1.1rem .9rem; }}
@@ -523,10 +583,11 @@ figure.overview svg {{ width: 100%; max-width: 40rem; height: auto; display: blo
 .pictures figure {{ margin: 0; }}
 .wide img {{ display: block; max-width: 100%; height: auto; margin-bottom: 3px; }}
 .scroll {{ overflow-x: auto; }}
+.scroll, .facts {{ margin-top: 1rem; }}
 table {{ border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }}
 th, td {{ padding: .28rem .6rem; text-align: right; border-bottom: 1px solid var(--grid); vertical-align: top; }}
 thead th {{ vertical-align: bottom; background: var(--band); }}
-th:first-child, td.text {{ text-align: left; }}
+th:first-child, .text {{ text-align: left; }}
 tbody th {{ font-weight: normal; }}
 tbody th, .scroll td {{ white-space: nowrap; }}
 .facts th {{ color: var(--soft); }}
@@ -534,53 +595,140 @@ pre {{ margin: 0 0 .3rem; white-space: pre-wrap; overflow-wrap: anywhere; font-s
 """
 
 
-def page(results, series, folder, extra):
+def convergence_section(results, folder, extra):
+    series = series_of(results["rows"])
+    if not series:
+        sys.exit(f"report.py: {folder / 'results.json'}: holds no rows")
     time = common_time(series)
     own = results["reference"]["remaining"]
     parts = [
-        f'<h1>Error against run time</h1><p class="lead">{html.escape(results["scene"])}, {results["width"]} × '
-        f'{results["height"]} px, {html.escape(results["device"])}; drawn {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC</p>',
+        "<h2>Error against run time</h2>",
         '<p>Each line is a method with one setting; along it the number of lens samples grows. Rings: no other row is both '
         'as fast and as close (the Pareto front). A dashed line at the right is a bias floor: however many more lens samples '
         'these thresholds get, the image comes no closer to full detail. Numbers: lens samples of accumulation at full '
         f'detail. Nothing can be read below the reference’s own error (RMSE {rmse(own):.5f}, FLIP {own["flip"]:.4f}).</p>',
-        "<h2>RMSE</h2>", f'<figure class="plot">{error_plot(results, series, rmse, "rmse", "RMSE from the reference", "front")}'
+        "<h3>RMSE</h3>", f'<figure class="plot">{error_plot(results, series, rmse, "rmse", "RMSE from the reference", "front")}'
         "<figcaption>Root mean square difference on display-encoded values. Set-up is not in these times: see the table."
         "</figcaption></figure>",
-        "<h2>FLIP</h2>", f'<figure class="plot">{error_plot(results, series, flip, "flip", "mean FLIP from the reference", "frontByFlip")}'
+        "<h3>FLIP</h3>", f'<figure class="plot">{error_plot(results, series, flip, "flip", "mean FLIP from the reference", "frontByFlip")}'
         "<figcaption>FLIP weighs what a person sees when the two images alternate: ghosts and bands that RMSE hides."
         "</figcaption></figure>",
-    ]
-    if (extra / "speedup.csv").exists() and (plot := speedup_plot(extra / "speedup.csv")):
-        parts.append(f'<h2>Speed-up</h2><figure class="plot">{plot}<figcaption>Frame time at full detail over frame time '
-                     "with levels, at the same lens samples (speedup.csv; Figure 2 of Jeong, Kim and Lee 2011)."
-                     "</figcaption></figure>")
-    if (extra / "popping.csv").exists() and (plot := popping_plot(extra / "popping.csv")):
-        parts.append(f'<h2>Popping</h2><figure class="plot">{plot}<figcaption>What the change of levels alone adds to '
-                     "each frame of a movement: the frame against the same view at the levels of the frame before, on "
-                     "display-encoded values (popping.csv).</figcaption></figure>")
-    parts += ["<h2>Pictures at about equal time</h2>",
-              f"<p>Of each line the frame nearest to {time_text(time)}; below it FLIP, from 0 (black) to "
-              f"{results['errorMapFullScale']:g} and more (pale yellow).</p>",
-              overview(results, folder)]
+        "<h3>Pictures at about equal time</h3>",
+        f"<p>Of each line the frame nearest to {time_text(time)}; below it FLIP, from 0 (black) to "
+        f"{results['errorMapFullScale']:g} and more (pale yellow).</p>",
+        overview(results, folder)]
     parts += [crop_strip(results, series, folder, crop, time) for crop in results["crops"]]
-    parts += [equal_error_table(results), strips_section(extra), "<h2>Bias floors</h2>",
+    parts += [equal_error_table(results), strips_section(extra), "<h3>Bias floors</h3>",
               "<p>The difference between the image with levels and the one at full detail, at the same lens samples, so that "
               "sampling noise cancels; at the largest number measured. The standard thresholds shrink as samples grow, so "
               "that the floor sinks with them; with these thresholds held, it stays.</p>",
               floors_table(results) or "<p>No levels were measured.</p>",
-              "<h2>All rows</h2>", rows_table(results["rows"]),
+              "<h3>All rows</h3>", rows_table(results["rows"]),
               "<p>Set-up is what a renderer takes before its first frame; pyramids are simplified once for a scene and kept "
               "on disk by other commands. Neither is part of a frame’s time. Bias: difference from full detail at the same "
               "lens samples.</p>"]
     if results["leftOut"]:
         entries = "".join(f"<li>{html.escape(label_of(e['method'], e['setting']))}: {html.escape(e['reason'])}</li>"
                           for e in results["leftOut"])
-        parts.append(f"<h2>Left out</h2><ul>{entries}</ul>")
-    parts += ["<h2>How it was measured</h2>", subject_table(results)]
+        parts.append(f"<h3>Left out</h3><ul>{entries}</ul>")
+    return parts + ["<h3>How it was measured</h3>", subject_table(results)]
+
+
+def speedup_section(results):
+    truths = [(key, name) for key, name in (("fromFullDetail", "full detail"), ("fromReference", "the reference"))
+              if any(row[key] for row in results["rows"])]
+    lines = []
+    for row in results["rows"]:
+        time = row["milliseconds"]
+        lines.append([MODES[row["lod"]][0], row["samples"], f"{row['fStop']:g}", f"{row['focusDistance']:g}",
+                      f"{time['median']:.1f}", spread_text(time), f"{row['speedUp']:.2f}", f"{row['triangles'] / 1e6:.2f}",
+                      f"{row['gpuBytes'] / 2**20:.0f}"] + [cell for key, _ in truths for cell in differences(row[key])])
+    header = ["levels", "lens samples", "f-number", "focus, m", "frame, ms", "10–90 %, ms", "times as fast",
+              "triangles, millions", "GPU, MiB"] + [f"{name} from {truth}" for _, truth in truths
+                                                    for name in ("PSNR, dB,", "SSIM", "FLIP")]
+    plot = speedup_plot(results["rows"])
+    figure = (f'<figure class="plot">{plot}<figcaption>Frame time at full detail over frame time with levels, at the same lens '
+              "samples (Figure 2 of Jeong, Kim and Lee 2011).</figcaption></figure>") if plot else ""
+    return ["<h2>Speed-up</h2>", figure, table(header, lines), facts(results, [
+        ["pyramids", f"{time_text(results['pyramidMilliseconds'])} once for the scene, in no row’s time"]])]
+
+
+def popping_section(results, path):
+    with open(path, newline="", encoding="utf-8") as file:
+        frames = list(csv.DictReader(file))
+    samples = max(int(row["samples"]) for row in frames)
+    plot = popping_plot([row for row in frames if int(row["samples"]) == samples], samples)
+    lines = []
+    for row in results["rows"]:
+        line = [row["movement"], MODES[row["lod"]][0], row["samples"], f"{row['largestSpeed']:.4f}"]
+        for name in ("stepRmse", "stepFlip", "changeRmse", "changeFlip"):
+            error = row[name]
+            line += [f"{error['worst']:.5f}", f"{error['percentile99']:.5f}",
+                     "" if error["ofNearest"] is None else f"{error['ofNearest']:.2f}"]
+        lines.append(line)
+    header = ["movement", "levels", "lens samples", "levels a frame"] + [
+        f"{name}, {what}" for name in ("pop, RMSE", "pop, FLIP", "change, RMSE", "change, FLIP")
+        for what in ("worst", "99 %", "of nearest’s")]
+    text = "".join(f"<li>{name}: {html.escape(what)}</li>" for name, what in results["definitions"].items())
+    return ["<h2>Popping</h2>", f'<figure class="plot">{plot}<figcaption>{samples} lens samples. Pop: the frame against the same '
+            "view at the levels of the frame before. Change: what the step from frame to frame differs from the reference’s by, "
+            "which also holds what coarse levels get wrong that moves with the camera. Display-encoded values, over the objects’ "
+            "pixels.</figcaption></figure>", table(header, lines, 2), f"<ul>{text}</ul>", facts(results)]
+
+
+def scaling_section(results):
+    def fitted(fit):
+        return f"{fit['exponent']:.2f} ± {fit['residual']:.2f}" if fit else ""
+    curves = [[curve["axis"], MODES[curve["lod"]][0], fitted(curve["time"]), fitted(curve["gpuMemory"]),
+               html.escape(curve["bounds"])] for curve in results["curves"]]
+    rows = [[row["axis"], MODES[row["lod"]][0], f"{row['value']:g}", row["samples"], f"{row['width']} × {row['height']}",
+             f"{row['milliseconds']['median']:.1f}", spread_text(row["milliseconds"]), f"{row['layersMilliseconds']:.1f}",
+             f"{row['verticesMilliseconds']:.1f}", f"{row['fillMilliseconds']:.1f}", f"{row['triangles'] / 1e6:.2f}",
+             f"{row['gpuBytes'] / 2**20:.0f}", f"{row['pyramidBytes'] / 2**20:.0f}"] for row in results["rows"]]
+    return ["<h2>Scaling</h2>", f'<figure class="plot">{scaling_plot(results)}<figcaption>Time of a frame, both axes '
+            "logarithmic.</figcaption></figure>",
+            table(["what grows", "levels", "exponent of time", "of GPU memory", "bound by"], curves, 2),
+            table(["what grows", "levels", "value", "lens samples", "pixels", "frame, ms", "10–90 %, ms", "layers, ms",
+                   "vertices, ms", "fill, ms", "triangles, millions", "GPU, MiB", "pyramids, MiB"], rows, 2),
+            facts(results, [["parts", results["parts"]]])]
+
+
+def stability_section(results):
+    cases = [[html.escape(case["area"]), html.escape(case["case"]), html.escape(case["errorOf"]), html.escape(case["against"]),
+              "for comparison" if case["limit"] is None else f"{case['limit']:.3g}",
+              "∞" if case["error"] is None else f"{case['error']:.3g}", "within" if case["passed"] else "<b>beyond</b>"] for case in results["cases"]]
+    honesty = [[html.escape(row["method"]), html.escape(row["varied"]), f"{row['expectedDiameter']:.2f}",
+                f"{row['measuredDiameter']:.2f}", f"{row['measuredDiameter'] - row['expectedDiameter']:+.2f}",
+                f"{row['energy']:.4f}"] for row in results["lensHonesty"]]
+    return ["<h2>Stiff and extreme cases</h2>",
+            table(["area", "case", "error", "against", "limit", "measured", "verdict"], cases, 4),
+            "<h3>Blur against the lens</h3>",
+            "<p>The disk of a point of light: its diameter by the formula and as each method shows it, and its energy over that "
+            "of the point in focus.</p>",
+            table(["method", "varied", "expected, px", "measured, px", "off by, px", "energy"], honesty, 2), facts(results)]
+
+
+def sections(folder, report):
+    """Of all that there are results of."""
+    parts = []
+    if results := results_of(folder, "results"):
+        parts += convergence_section(results, folder, report)
+    if results := results_of(report, "speedup"):
+        parts += speedup_section(results)
+    if (report / "popping.csv").exists() and (results := results_of(report, "popping")):
+        parts += popping_section(results, report / "popping.csv")
+    if results := results_of(report, "scaling"):
+        parts += scaling_section(results)
+    if results := results_of(report, "stability"):
+        parts += stability_section(results)
+    return parts
+
+
+def page(parts):
     return (f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
-            f'content="width=device-width, initial-scale=1"><title>defocus: error against run time</title>'
-            f"<style>{style()}</style></head><body><main>{''.join(parts)}</main></body></html>\n")
+            f'content="width=device-width, initial-scale=1"><title>defocus bench</title><style>{style()}</style></head><body>'
+            f'<main><h1>defocus bench</h1><p class="lead">drawn {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} '
+            f"UTC</p>{''.join(parts)}</main></body></html>\n")
 
 
 def write_whole(path, text):
@@ -597,13 +745,12 @@ def main(arguments):
     folder = Path(arguments[0])
     report = Path(arguments[-1])
     try:
-        results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError) as fault:
-        sys.exit(f"report.py: {folder / 'results.json'}: {fault}")
-    series = series_of(results["rows"])
-    if not series:
-        sys.exit(f"report.py: {folder / 'results.json'}: holds no rows")
-    write_whole(report / "index.html", page(results, series, folder, report))
+        parts = sections(folder, report)
+    except (OSError, ValueError, KeyError) as fault:
+        sys.exit(f"report.py: the results in {folder} can't be read: {fault!r}")
+    if not parts:
+        sys.exit(f"report.py: there are no results in {folder}")
+    write_whole(report / "index.html", page(parts))
 
 
 if __name__ == "__main__":

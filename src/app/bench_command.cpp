@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/bench_commands.h"
+#include "app/bench_report.h"
 #include "app/command.h"
 #include "app/prepared_frame.h"
 #include "app/program_facts.h"
@@ -25,10 +26,12 @@ struct SpeedupArguments {
     SceneOptions scene;
     SpeedupOptions speedup;
     std::filesystem::path folder;  // empty: only the table
+    std::filesystem::path report;  // empty: none
 };
 
 void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) {
-    makeOutputFolder(arguments.folder, {"speedup.csv", "speedup.json"});
+    const std::filesystem::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
     Progress progress = terminalProgress(global);
     SceneOptions scene = arguments.scene;
     scene.noCache = true;  // the time that pyramids take is part of the result
@@ -54,11 +57,12 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
             rows.push_back(row);
             fmt::print("{}", speedupLine(row));
             std::fflush(stdout);
-            if (arguments.folder.empty()) return;
-            writeFile(arguments.folder / "speedup.csv", speedupCsv(rows));
-            writeFile(arguments.folder / "speedup.json", speedupJson(rows, subject));
+            if (folder.empty()) return;
+            writeFile(folder / "speedup.csv", speedupCsv(rows));
+            writeFile(folder / "speedup.json", speedupJson(rows, subject));
         },
         progress);
+    drawReport(arguments.report, arguments.report);
 }
 
 void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
@@ -95,9 +99,11 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
         ->type_name("N")
         ->default_str("0")
         ->group(group);
-    command->add_option("-o,--output", arguments->folder, "Folder for speedup.csv and speedup.json")
-        ->type_name("FOLDER")
-        ->group("Output");
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->folder, "Folder for speedup.csv and speedup.json")
+            ->type_name("FOLDER")
+            ->group("Output");
+    addReport(*command, output, arguments->report);
     addSceneOptions(*command, arguments->scene);
     command->footer(
         "Examples:\n"

@@ -130,18 +130,6 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
-void drawReport(const ConvergenceArguments& arguments, const ResultsFolder& results) {
-    if (arguments.report.empty()) return;
-    results.writeResults(arguments.report);
-    if (writeReport(resultsFolder(arguments), arguments.report))
-        fmt::print("\nreport: {}\n", (arguments.report / "index.html").string());
-    else
-        fmt::print(stderr,
-                   "no report: there is no python3 with matplotlib (Debian: python3-matplotlib); {} stands on its "
-                   "own\n",
-                   (arguments.report / "results.csv").string());
-}
-
 void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& global) {
     // Faults first: scene, lens, device, folders.
     Progress progress = terminalProgress(global);
@@ -197,7 +185,8 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     fmt::print("{}", convergenceHeader());
     for (const ConvergenceRow& row : rows) fmt::print("{}", convergenceLine(row));
     fmt::print("{}", convergenceSummary(rows, reference));
-    drawReport(arguments, results);
+    if (!arguments.report.empty()) results.writeResults(arguments.report);
+    drawReport(resultsFolder(arguments), arguments.report);
 }
 
 // ---- options --------------------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/bench_commands.h"
+#include "app/bench_report.h"
 #include "app/option_text.h"
 #include "app/prepared_frame.h"
 #include "app/scene_options.h"
@@ -28,13 +29,15 @@ struct PoppingArguments {
     SceneOptions scene;
     PoppingOptions options;
     fs::path folder;  // empty: only the table
+    fs::path report;  // empty: none
 };
 
 void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) {
     if (arguments.options.frames > arguments.options.pathFrames)
         fail("--frames {}: the whole movement has {} (--path-frames)", arguments.options.frames,
              arguments.options.pathFrames);
-    makeOutputFolder(arguments.folder, {"popping.csv", "popping.json"});
+    const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    makeOutputFolder(folder, {"popping.csv", "popping.json"});
     Progress progress = terminalProgress(global);
     PreparedFrame frame = placeFrame(arguments.scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
@@ -59,9 +62,9 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     std::vector<SampleStep> steps;
     const auto write = [&] {
         std::fflush(stdout);
-        if (arguments.folder.empty()) return;
-        writeFile(arguments.folder / "popping.csv", poppingCsv(frames));
-        writeFile(arguments.folder / "popping.json", poppingJson(frames, steps, subject, options));
+        if (folder.empty()) return;
+        writeFile(folder / "popping.csv", poppingCsv(frames));
+        writeFile(folder / "popping.json", poppingJson(frames, steps, subject, options));
     };
     bool hasHeader = false;
     PoppingVisitor visitor;
@@ -79,6 +82,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     };
     measurePopping(frame.world, frame.view, options, visitor, progress);
     fmt::print("{}", poppingSummary(poppingRows(frames)));
+    drawReport(arguments.report, arguments.report);
 }
 
 }  // namespace
@@ -109,9 +113,11 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
              "Frames that a whole movement takes (focus from the nearest to the farthest object, dolly over half the "
              "focus distance, once around, the clip once): its speed")
         ->group(group);
-    command->add_option("-o,--output", arguments->folder, "Folder for popping.csv and popping.json")
-        ->type_name("FOLDER")
-        ->group("Output");
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->folder, "Folder for popping.csv and popping.json")
+            ->type_name("FOLDER")
+            ->group("Output");
+    addReport(*command, output, arguments->report);
     command->footer(
         "Examples:\n"
         "  defocus bench popping --fish 6 --fish-triangles 20000 -o popping\n"

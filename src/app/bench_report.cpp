@@ -1,9 +1,11 @@
 #include "app/bench_report.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -36,18 +38,43 @@ int exitCodeOf(std::vector<std::string> words, bool silent) {
     return WEXITSTATUS(status);
 }
 
-}  // namespace
-
-bool writeReport(const std::filesystem::path& results, const std::filesystem::path& report) {
+// False where there is no Python with matplotlib.
+bool runScript(const std::filesystem::path& results, const std::filesystem::path& report) {
     for (const char* python : interpreters) {
         if (exitCodeOf({python, "-c", "import matplotlib.pyplot, PIL"}, true) != 0) continue;
         const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()}, false);
         if (code != 0)
-            fail("{}: the report could not be drawn (exit code {} of its script); results.csv stands on its own",
-                 (report / "index.html").string(), code);
+            fail(
+                "{}: the report could not be drawn (exit code {} of its script); the results beside it stand on their "
+                "own",
+                (report / "index.html").string(), code);
         return true;
     }
     return false;
+}
+
+}  // namespace
+
+void addReport(CLI::App& command, CLI::Option* output, std::filesystem::path& report) {
+    command
+        .add_option("--report", report,
+                    "Instead: a folder for the same files and index.html, plots and tables in one file; of all benches "
+                    "that have written there (needs python3-matplotlib)")
+        ->type_name("FOLDER")
+        ->excludes(output)
+        ->group("Output");
+}
+
+void drawReport(const std::filesystem::path& results, const std::filesystem::path& report) {
+    if (report.empty()) return;
+    if (runScript(results, report))
+        fmt::print("\nreport: {}\n", (report / "index.html").string());
+    else
+        fmt::print(
+            stderr,
+            "no report: there is no python3 with matplotlib (Debian: python3-matplotlib); the results in {} stand "
+            "on their own\n",
+            report.string());
 }
 
 }  // namespace defocus

@@ -4,14 +4,19 @@
 
 #include <filesystem>
 
+#include "app/command.h"
+
 namespace defocus {
 
 // The script's text.
 const char* reportScript();
 
-// Draws `results`/results.json, with the images it names, into `report`/index.html, and what else lies in `report`:
-// speedup.csv, popping.csv, strips.json. False where there is no Python with matplotlib. Throws Error where the script
-// fails.
-bool writeReport(const std::filesystem::path& results, const std::filesystem::path& report);
+// --report FOLDER instead of `output`, the command's -o: its files go there, and the page with them.
+void addReport(CLI::App& command, CLI::Option* output, std::filesystem::path& report);
+
+// Draws what benches have left in `report` (and `results`/results.json, with the images it names) as
+// `report`/index.html, and says where it is, or that there is no Python with matplotlib. Nothing for an empty path.
+// Throws Error where the script fails.
+void drawReport(const std::filesystem::path& results, const std::filesystem::path& report);
 
 }  // namespace defocus

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/bench_commands.h"
+#include "app/bench_report.h"
 #include "app/option_text.h"
 #include "app/scene_options.h"
 #include "core/error.h"
@@ -27,10 +28,12 @@ struct ScalingArguments {
     ScalingOptions options;
     fs::path cacheFolder;  // empty: the default
     fs::path folder;       // empty: only the table
+    fs::path report;       // empty: none
 };
 
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
-    makeOutputFolder(arguments.folder, {"scaling.csv", "scaling.json"});
+    const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    makeOutputFolder(folder, {"scaling.csv", "scaling.json"});
     const Progress progress = terminalProgress(global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ScalingOptions options = arguments.options;
@@ -46,9 +49,9 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
     std::vector<ScalingLeftOut> leftOut;
     const auto write = [&] {
         std::fflush(stdout);
-        if (arguments.folder.empty()) return;
-        writeFile(arguments.folder / "scaling.csv", scalingCsv(rows));
-        writeFile(arguments.folder / "scaling.json", scalingJson(rows, leftOut, subject));
+        if (folder.empty()) return;
+        writeFile(folder / "scaling.csv", scalingCsv(rows));
+        writeFile(folder / "scaling.json", scalingJson(rows, leftOut, subject));
     };
     const ScalingVisitor visitor = {[&](const ScalingRow& row) {
                                         rows.push_back(row);
@@ -62,6 +65,7 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
                                     }};
     measureScaling(options, visitor, progress);
     fmt::print("{}", scalingSummary(rows));
+    drawReport(arguments.report, arguments.report);
 }
 
 }  // namespace
@@ -93,9 +97,11 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
         ->group(group);
     addWhole(*command, "--runs", options.runs, 1, 1000, "Runs of each frame; the median counts")->group(group);
     addCacheFolder(*command, arguments->cacheFolder)->group(group);
-    command->add_option("-o,--output", arguments->folder, "Folder for scaling.csv and scaling.json")
-        ->type_name("FOLDER")
-        ->group("Output");
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->folder, "Folder for scaling.csv and scaling.json")
+            ->type_name("FOLDER")
+            ->group("Output");
+    addReport(*command, output, arguments->report);
     command->footer(
         "Examples:\n"
         "  defocus bench scaling -o scaling\n"

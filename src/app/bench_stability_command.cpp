@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/bench_commands.h"
+#include "app/bench_report.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "eval/stability_text.h"
@@ -19,10 +20,14 @@ namespace {
 
 struct StabilityArguments {
     std::filesystem::path output;  // JSON; empty: only the table
+    std::filesystem::path report;  // folder; empty: none
 };
 
 void runStability(const StabilityArguments& arguments, const GlobalOptions& global) {
-    if (!arguments.output.empty()) checkWritable(arguments.output);
+    makeOutputFolder(arguments.report, {"stability.json"});
+    const std::filesystem::path output =
+        arguments.report.empty() ? arguments.output : arguments.report / "stability.json";
+    if (!output.empty()) checkWritable(output);
     const auto context = createHeadlessContext();
     const Progress progress = terminalProgress(global);
     std::vector<StabilityRow> rows;
@@ -47,7 +52,8 @@ void runStability(const StabilityArguments& arguments, const GlobalOptions& glob
             honesty.push_back(row);
         },
         progress);
-    if (!arguments.output.empty()) writeFile(arguments.output, stabilityJson(rows, honesty, benchSubject(*context)));
+    if (!output.empty()) writeFile(output, stabilityJson(rows, honesty, benchSubject(*context)));
+    drawReport(arguments.report, arguments.report);
     const auto failed = std::count_if(rows.begin(), rows.end(), [](const StabilityRow& row) { return !row.passed(); });
     if (failed > 0) fail("{} of {} cases are beyond their limits", failed, rows.size());
 }
@@ -58,7 +64,10 @@ void addStabilityCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<StabilityArguments>();
     CLI::App* command = bench.add_subcommand(
         "stability", "Stiff and extreme cases against closed forms, and whether the blur follows the lens alone");
-    command->add_option("-o,--output", arguments->output, "JSON file for the rows")->type_name("FILE");
+    CLI::Option* output = command->add_option("-o,--output", arguments->output, "JSON file for the rows")
+                              ->type_name("FILE")
+                              ->group("Output");
+    addReport(*command, output, arguments->report);
     command->footer("Example:\n  defocus bench stability -o stability.json");
     command->callback([arguments, &global] { runStability(*arguments, global); });
 }

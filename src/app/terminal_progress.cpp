@@ -33,7 +33,9 @@ public:
 
     void show(std::string_view stage, std::uint64_t done, std::uint64_t total) {
         const Clock::time_point now = Clock::now();
-        if (now < next_) return;
+        const bool ends = !terminal_ && stage == shown_ && done == total;  // what was said to be going on is done
+        if (now < next_ && !ends) return;
+        shown_ = stage;
         next_ = now + (terminal_ ? Clock::duration(redraw) : Clock::duration(plainLines));
         const double share = total > 0 ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0;
         if (terminal_)
@@ -65,6 +67,7 @@ private:
 
     bool terminal_;
     bool drawn_ = false;
+    std::string shown_;  // the stage that was shown last
     Clock::time_point next_ = Clock::now() + firstShown;
 };
 

@@ -111,24 +111,24 @@ TEST_F(BenchConvergence, diffOfARunWithItselfIsNothing) {
     EXPECT_NE(outcome.out.find("4 rows: 0 faster, 0 slower, 4 within noise"), std::string::npos) << outcome.out;
 }
 
+// Nothing is fetched from elsewhere, and every picture has a text in its place.
+void expectWholePage(const std::string& page) {
+    const std::regex outside("(src|href)=\"(?!data:|#)|url\\((?!#)|@import|<script|<link");
+    const std::regex picture("<img (?![^>]*alt=\"[^\"]+\")|<svg (?![^>]*role=\"img\")");
+    std::smatch found;
+    EXPECT_FALSE(std::regex_search(page, found, outside)) << found.str();
+    EXPECT_FALSE(std::regex_search(page, found, picture)) << found.str();
+}
+
 TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
-    fs::create_directory(folder() / "page");
-    std::ofstream(folder() / "page/speedup.csv")
-        << "sweep,samples,lod,speedUp\nsamples,16,off,1\nsamples,16,fractional,2\nsamples,64,fractional,3\n";
     const Outcome outcome = bench({"-o", "out", "--report", "page"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_TRUE(fs::exists(folder() / "page/results.csv"));
     if (outcome.err.find("no report") != std::string::npos) GTEST_SKIP() << outcome.err;
     const std::string page = textOf(folder() / "page/index.html");
-    const std::regex outside("(src|href)=\"(?!data:|#)|url\\((?!#)|@import|<script|<link");
-    std::smatch found;
-    EXPECT_FALSE(std::regex_search(page, found, outside)) << found.str();
+    expectWholePage(page);
     EXPECT_NE(page.find("accumulation, full detail"), std::string::npos);
     EXPECT_NE(page.find("defocus --quiet bench convergence quads.gltf"), std::string::npos);
-    EXPECT_NE(page.find("times as fast as full detail"), std::string::npos);
-    // Every picture has a text in its place.
-    const std::regex picture("<img (?![^>]*alt=\"[^\"]+\")|<svg (?![^>]*role=\"img\")");
-    EXPECT_FALSE(std::regex_search(page, found, picture)) << found.str();
 
     // Pictures to show beside.
     std::ofstream(folder() / "page/strips.json")
@@ -138,6 +138,29 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
     const std::string strips = textOf(folder() / "page/index.html");
     EXPECT_NE(strips.find("of &lt;colour&gt;"), std::string::npos);
     EXPECT_GT(strips.size(), page.size());
+}
+
+// One page of all benches that wrote into the folder: two that run, two of committed runs.
+TEST_F(BenchConvergence, reportHasASectionForEachBench) {
+    fs::create_directory(folder() / "page");
+    for (const char* name : {"scaling", "stability"})
+        fs::copy(fs::path(DEFOCUS_SOURCE_DIR) / "bench/results" / (std::string("llvmpipe-") + name + ".json"),
+                 folder() / "page" / (std::string(name) + ".json"));
+    ASSERT_EQ(run({"--quiet", "bench", "speedup", "quads.gltf", "--counts", "2,4", "--size", "32x24", "--runs", "1",
+                   "--report", "page"})
+                  .exitCode,
+              0);
+    const Outcome outcome = run({"--quiet", "bench", "popping", "quads.gltf", "--counts", "2", "--size", "32x24",
+                                 "--frames", "3", "--report", "page"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    for (const char* file : {"speedup.csv", "speedup.json", "popping.csv", "popping.json"})
+        EXPECT_TRUE(fs::exists(folder() / "page" / file)) << file;
+    if (outcome.err.find("no report") != std::string::npos) GTEST_SKIP() << outcome.err;
+    const std::string page = textOf(folder() / "page/index.html");
+    expectWholePage(page);
+    for (const char* section : {"Speed-up", "Popping", "Scaling", "Stiff and extreme cases", "Blur against the lens"})
+        EXPECT_NE(page.find(std::string(">") + section + "</h"), std::string::npos) << section;
+    EXPECT_NE(page.find("defocus --quiet bench speedup quads.gltf --counts 2,4"), std::string::npos);
 }
 
 }  // namespace
