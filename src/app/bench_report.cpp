@@ -22,6 +22,7 @@ constexpr const char* interpreters[] = {"python3", "/usr/bin/python3"};
 // stderr, or nowhere.
 int exitCodeOf(std::vector<std::string> words, bool silent) {
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     const pid_t child = ::fork();

@@ -63,7 +63,7 @@ const CLI::App& chosenCommand(const CLI::App& program) {
 std::string helpHint(const CLI::App& program) {
     std::string names;
     for (const CLI::App* app = &chosenCommand(program); app != &program; app = app->get_parent())
-        names = ' ' + app->get_name() + names;
+        names.insert(0, ' ' + app->get_name());
     return fmt::format("see defocus{} --help", names);
 }
 
