@@ -45,6 +45,7 @@ struct ConvergenceArguments {
     fs::path output;  // empty: as `report`, else "convergence"
     fs::path report;  // empty: none
     bool resume = false;
+    bool overwrite = false;
 };
 
 fs::path resultsFolder(const ConvergenceArguments& arguments) {
@@ -65,14 +66,33 @@ std::string textIn(const fs::path& path) {
 }
 
 // What a journal's frames have in common: another scene, reference, device or program makes another subject.
-std::uint64_t subjectHash(const ReferenceImage& reference, const ConvergenceSubject& subject,
-                          const ConvergenceOptions& options) {
+std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const ConvergenceOptions& options) {
     const RenderSettings& plan = options.plan;
     const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {}", subject.bench.program, subject.bench.commit, subject.bench.device,
-                    subject.bench.driver, sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, plan.keepAll,
+        fmt::format("{} {} {} {} {} {} {} {} {} {}", bench.program, bench.commit, bench.device, bench.driver,
+                    sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, plan.keepAll,
                     static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
-    return hashBytes(std::as_bytes(std::span(text)), reference.hash);
+    return hashBytes(std::as_bytes(std::span(text)), reference);
+}
+
+// The frames that are to be gone on from. Throws Error, before anything is touched, where the folder holds what this
+// run would destroy: frames or a reference that took long to make.
+std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, std::uint64_t reference,
+                                        std::uint64_t subject) {
+    if (arguments.overwrite) return {};
+    const fs::path folder = resultsFolder(arguments);
+    const fs::path journal = folder / "runs.csv";
+    std::vector<ConvergenceRun> runs;
+    if (fs::exists(journal)) runs = readRunsCsv(textIn(journal), subject, journal.string());
+    if (!runs.empty() && !arguments.resume)
+        fail("{}: holds {} frames of an earlier run: --resume goes on from them, --overwrite begins anew",
+             journal.string(), runs.size());
+    if (holdsOtherReference(folder, reference))
+        fail(
+            "{}: holds the reference of another scene, camera, size, number of samples or build of the program; choose "
+            "another folder, or begin anew with --overwrite",
+            folder.string());
+    return runs;
 }
 
 // Results in their folder: as frames come in, everything is written anew, so that a killed run loses none of them.
@@ -81,11 +101,9 @@ public:
     ResultsFolder(fs::path folder, const ReferenceImage& reference, ConvergenceSubject subject, std::uint64_t hash)
         : folder_(std::move(folder)), reference_(reference), subject_(std::move(subject)), hash_(hash) {}
 
-    // Takes up what an earlier run has left here. Throws Error where it was of another subject.
-    void resume() {
-        const fs::path journal = folder_ / "runs.csv";
-        if (!fs::exists(journal)) return;
-        runs_ = readRunsCsv(textIn(journal), hash_, journal.string());
+    // Goes on from the frames, and the commands, that an earlier run has left here.
+    void resume(std::vector<ConvergenceRun> runs) {
+        runs_ = std::move(runs);
         const fs::path results = folder_ / "results.json";
         if (!fs::exists(results)) return;
         const nlohmann::json document = nlohmann::json::parse(textIn(results), nullptr, false);
@@ -119,7 +137,6 @@ public:
         writeFile(folder / "results.json", convergenceJson(all, reference_, subject_));
     }
 
-    [[nodiscard]] const std::vector<ConvergenceRun>& runs() const { return runs_; }
     [[nodiscard]] std::vector<ConvergenceRow> rows() const { return convergenceRows(runs_); }
 
 private:
@@ -145,16 +162,20 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
         *frame.scene = unlitScene(std::move(*frame.scene));
         frame.sceneName += ", unlit";
     }
-    addPyramids(frame, progress);
     options.plan = frame.settings;
     options.renderer.layerFormat = scene.layerFormat;
     options.renderer.wave = scene.wave;
     options.renderer.shaderFolder = global.shaderDir;
+    const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer};
+    const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
+    const std::uint64_t hash = subjectHash(referenced, benchSubject(*context), options);
+    const std::vector<ConvergenceRun> done = earlierRuns(arguments, referenced, hash);
+    const fs::path folder = resultsFolder(arguments);
+    if (arguments.overwrite) writeFile(folder / "runs.csv", runsCsv({}, hash));
+    addPyramids(frame, progress);
 
     // The reference, and where to look.
-    const fs::path folder = resultsFolder(arguments);
-    const ReferenceImage reference =
-        referenceImage(frame.world, frame.view, {arguments.referenceSamples, options.renderer}, folder, progress);
+    const ReferenceImage reference = referenceImage(frame.world, frame.view, referenceOptions, folder, progress);
     writeImage(folder / "images" / "reference.png", reference.image);
     ConvergenceSubject subject;
     subject.bench = benchSubject(*context, frame, options.runs);
@@ -164,12 +185,11 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     subject.crops = tellingCrops(frame.world, frame.view, reference, fewest, options.renderer);
 
     // The frames.
-    ResultsFolder results(folder, reference, subject, subjectHash(reference, subject, options));
-    if (arguments.resume) results.resume();
+    ResultsFolder results(folder, reference, subject, hash);
+    if (arguments.resume) results.resume(done);
     fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n", subject.bench.scene, subject.bench.width,
                subject.bench.height, options.runs, subject.bench.device);
     std::fflush(stdout);
-    const std::vector<ConvergenceRun> done = results.runs();
     const ConvergenceVisitor visitor = {
         [&](const ConvergenceRun& run, const Image* image, const Image* flipMap) { results.add(run, image, flipMap); },
         [&](const ConvergenceCase& wanted, const std::string& reason) {
@@ -272,7 +292,13 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
                     "report, else convergence")
         ->type_name("FOLDER")
         ->group(group);
-    command.add_flag("--resume", arguments.resume, "Measure only what the folder's runs.csv doesn't have yet")
+    CLI::Option* resume =
+        command.add_flag("--resume", arguments.resume, "Measure only what the folder's runs.csv doesn't have yet")
+            ->group(group);
+    command
+        .add_flag("--overwrite", arguments.overwrite,
+                  "Begin anew in a folder that holds frames or the reference of another run; they are lost")
+        ->excludes(resume)
         ->group(group);
     command
         .add_option("--report", arguments.report,

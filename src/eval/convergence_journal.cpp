@@ -84,7 +84,8 @@ std::string runsCsv(std::span<const ConvergenceRun> runs, std::uint64_t subject)
 std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t subject, const std::string& name) {
     std::vector<ConvergenceRun> runs;
     if (text.size() < header.size() && header.starts_with(text)) return runs;
-    if (!text.starts_with(header)) fail("{}: is no journal of bench convergence; leave out --resume", name);
+    if (!text.starts_with(header))
+        fail("{}: is no journal of bench convergence; choose another folder, or begin anew with --overwrite", name);
     std::size_t begin = header.size();
     for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string_view::npos; begin = end + 1) {
         FieldReader fields(text.substr(begin, end - begin));
@@ -109,11 +110,12 @@ std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t sub
         else
             fields.error(run.bias.emplace());
         run.fault = fields.text();
-        if (!fields.good()) fail("{}: line {} is no run; leave out --resume", name, runs.size() + 2);
+        if (!fields.good())
+            fail("{}: line {} is no run; choose another folder, or begin anew with --overwrite", name, runs.size() + 2);
         if (measured != subject)
             fail(
                 "{}: holds another scene, camera, size, reference, device or build of the program; choose another "
-                "folder or leave out --resume",
+                "folder, or begin anew with --overwrite",
                 name);
         runs.push_back(std::move(run));
     }

@@ -19,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t mostSamples = 65'536;
+constexpr const char* referenceName = "reference.exr";
+constexpr const char* referenceHalfName = "reference-half.exr";
 
 // An image and what was found out when it was made.
 struct Part {
@@ -32,11 +34,6 @@ std::uint64_t pixelHash(const Image& image) {
 
 std::string hexadecimal(std::uint64_t hash) {
     return fmt::format("{:016x}", hash);
-}
-
-std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options) {
-    const std::array<std::uint64_t, 2> samples = {options.samples, referenceOffset};
-    return hashBytes(std::as_bytes(std::span(samples)), worldHash(world, view, options.renderer.shaderFolder));
 }
 
 // ---- files ----------------------------------------------------------------------------------------------------------
@@ -130,6 +127,25 @@ Image meanOf(const Image& a, const Half& first, const Image& b, const Half& seco
 
 }  // namespace
 
+std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options) {
+    const std::array<std::uint64_t, 2> samples = {options.samples, referenceOffset};
+    return hashBytes(std::as_bytes(std::span(samples)), worldHash(world, view, options.renderer.shaderFolder));
+}
+
+bool holdsOtherReference(const fs::path& folder, std::uint64_t hash) {
+    return std::ranges::any_of(std::array{referenceName, referenceHalfName}, [&](const char* name) {
+        std::error_code ignored;
+        if (!fs::exists(folder / name, ignored)) return false;
+        try {
+            Metadata metadata;
+            readImage(folder / name, &metadata);
+            return !holds(metadata, "defocus:referenceHash", hexadecimal(hash));
+        } catch (const Error&) {
+            return false;
+        }
+    });
+}
+
 ReferenceImage referenceImage(const World& world, const View& view, const ReferenceOptions& options,
                               const fs::path& folder, const Progress& progress) {
     if (options.samples < 2 || options.samples > mostSamples)
@@ -139,7 +155,7 @@ ReferenceImage referenceImage(const World& world, const View& view, const Refere
     reference.hash = referenceHash(world, view, options);
 
     // As it was stored, if it is what is asked for.
-    const fs::path path = folder / "reference.exr";
+    const fs::path path = folder / referenceName;
     Metadata metadata;
     if (std::optional<Part> part = stored(path, reference.hash, metadata)) {
         reference.image = std::move(part->image);
@@ -152,7 +168,7 @@ ReferenceImage referenceImage(const World& world, const View& view, const Refere
     // Two halves; the first is kept until the second is there too.
     const Half first{0, options.samples / 2};
     const Half second{first.count, options.samples - first.count};
-    const fs::path halfPath = folder / "reference-half.exr";
+    const fs::path halfPath = folder / referenceHalfName;
     std::optional<Part> one = stored(halfPath, reference.hash, metadata);
     if (!one) {
         one = rendered(world, view, options, first, progress);

@@ -36,6 +36,13 @@ struct ReferenceImage {
     bool reused = false;      // read from the folder
 };
 
+// What ReferenceImage::hash will be. Needs no pyramids.
+std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options);
+
+// Does the folder hold a reference, or the half of one, of another hash, which referenceImage would replace? Files that
+// can't be read as images are worth nothing.
+bool holdsOtherReference(const std::filesystem::path& folder, std::uint64_t hash);
+
 // Takes `folder`/reference.exr where it has the hash and is whole, else renders it and writes it there; a half that a
 // killed run has left (reference-half.exr) is used. Needs a current GL context for the rendering. Throws Error for an
 // impossible number of samples and where the files can't be written.

@@ -74,7 +74,7 @@ void addMaterials(Hasher& hasher, const Scene& scene) {
 
 void addObjects(Hasher& hasher, const Pose& pose) {
     for (const Object& object : pose.objects) {
-        hasher.add(object.mesh, object.worldFromObject);
+        hasher.add(object.mesh, object.worldFromObject, object.cocScale);
         for (const glm::dmat4& matrix : object.worldFromJoint) hasher.add(matrix);
         hasher.addAll(object.morphWeights);
     }

@@ -104,6 +104,44 @@ TEST_F(BenchConvergence, resumesNothingButTheSame) {
     EXPECT_EQ(textOf(folder() / "out/runs.csv"), journal);
 }
 
+// What took long to make is lost only to those who say so.
+TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
+    ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
+    const auto contents = [&] {
+        std::vector<std::string> texts;
+        for (const char* file : {"reference.exr", "runs.csv", "results.csv", "results.json", "images/reference.png"})
+            texts.push_back(textOf(folder() / "out" / file));
+        return texts;
+    };
+    const std::vector<std::string> before = contents();
+    const auto expectRefused = [&](const std::string& part, const std::vector<std::string>& arguments) {
+        std::vector<std::string> words = {"-o", "out"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const Outcome outcome = bench(words);
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_TRUE(contents() == before) << outcome.err;
+    };
+    expectRefused("holds 8 frames of an earlier run: --resume goes on from them, --overwrite begins anew", {});
+    expectRefused("holds another scene", {"--focus-distance", "3"});
+    expectRefused("holds another scene", {"--resume", "--focus-distance", "3"});
+    expectRefused("holds another scene", {"--resume", "--seed", "7"});  // whose reference is the same
+
+    // A reference without frames, as a run leaves that was killed between the two.
+    fs::remove(folder() / "out/runs.csv");
+    const std::string reference = textOf(folder() / "out/reference.exr");
+    const Outcome other = bench({"-o", "out", "--focus-distance", "3"});
+    expectOneLine(other, 1);
+    EXPECT_NE(other.err.find("reference of another scene"), std::string::npos) << other.err;
+    EXPECT_TRUE(textOf(folder() / "out/reference.exr") == reference);
+
+    ASSERT_EQ(bench({"-o", "out", "--focus-distance", "3", "--overwrite"}).exitCode, 0);
+    EXPECT_FALSE(textOf(folder() / "out/reference.exr") == reference);
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 4).size(), 8u);
+    EXPECT_EQ(json::parse(textOf(folder() / "out/results.json")).at("commands").size(), 1u);
+    expectOneLine(bench({"-o", "out", "--resume", "--overwrite"}), 2);
+}
+
 TEST_F(BenchConvergence, diffOfARunWithItselfIsNothing) {
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
     const Outcome outcome = run({"bench", "diff", "out/results.json", "out/results.csv"});

@@ -92,6 +92,21 @@ TEST_F(ConvergenceReference, isRenderedAnewForAnythingElse) {
     EXPECT_TRUE(reference().reused);
 }
 
+TEST_F(ConvergenceReference, isToldFromOthersBeforeItIsReplaced) {
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), 0));
+    const std::uint64_t hash = referenceHash(small_->world, small_->view, {32, {}});
+    EXPECT_EQ(reference().hash, hash);
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash));
+    EXPECT_TRUE(holdsOtherReference(folder_.path(), referenceHash(small_->world, small_->view, {34, {}})));
+    fs::rename(folder_ / "reference.exr", folder_ / "reference-half.exr");
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash));
+    EXPECT_TRUE(holdsOtherReference(folder_.path(), hash + 1));
+    writeFile(folder_ / "reference-half.exr", "");
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash + 1)) << "an empty file is no loss";
+    writeImage(folder_ / "reference.exr", Image(2, 2, 3));  // somebody's own
+    EXPECT_TRUE(holdsOtherReference(folder_.path(), hash));
+}
+
 TEST_F(ConvergenceReference, isRenderedAnewWhereTheFileIsDamaged) {
     const ReferenceImage first = reference();
     const fs::path path = folder_ / "reference.exr";

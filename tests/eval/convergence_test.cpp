@@ -330,6 +330,7 @@ TEST(ConvergenceHash, changesWithWhateverTheImageShows) {
     changed(small->scene.materials[0].roughnessFactor, 0.41f);
     changed(small->scene.materials[0].unlit, true);
     changed(small->world.pose.objects[1].worldFromObject[3].x, 0.30001);
+    changed(small->world.pose.objects[1].cocScale, 0.5);
     changed(small->world.lights[0].light.intensity, 3.0f);
     changed(small->world.environment.nadir.z, 0.25f);
     changed(small->view.width, 161);
