@@ -353,6 +353,8 @@ void registerEmbree() {
             registerMethod({.name = name,
                             .description = description,
                             .needsGl = false,
+                            .shadesAsLit = false,
+                            .drawsMotion = false,
                             .settings = {},
                             .make = [sampling](const World& world, const RendererOptions&) {
                                 return makeEmbreeRenderer(world, sampling);

@@ -112,8 +112,30 @@ std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats
     return {};
 }
 
+// Not unlit and opaque. glTF's default material is lit.
+bool needsShading(const Scene& scene, const Primitive& primitive) {
+    if (primitive.material < 0) return true;
+    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+    return !material.unlit || material.alphaMode != AlphaMode::opaque;
+}
+
+bool needsShading(const Scene& scene) {
+    return std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+        return std::ranges::any_of(mesh.primitives, [&](const Primitive& p) { return needsShading(scene, p); });
+    });
+}
+
+// Throws Error where the method's image could only be another than the reference's, however good the method is.
+void checkComparable(const Method& method, const World& world, const FramePlan& plan) {
+    if (!method.shadesAsLit && needsShading(*world.scene))
+        fail("it shades otherwise than the reference; compare it with --shading unlit");
+    if (!method.drawsMotion && !plan.moments.empty())
+        fail("it draws no motion, which the scene has while the shutter is open");
+}
+
 Frame frameOf(const World& world, const View& view, const ConvergenceCase& wanted, const RendererOptions& options) {
     const FramePlan plan = planFrame(world, view, wanted.plan);
+    checkComparable(*wanted.use.method, world, plan);
     RendererOptions own = options;
     own.settings = wanted.use.settings;
 

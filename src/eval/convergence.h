@@ -83,7 +83,8 @@ bool sameCase(const ConvergenceRun& run, const ConvergenceCase& wanted);
 struct ConvergenceVisitor {
     // Each frame as soon as it is measured. `image` and its FLIP map come with the first frame of a case only.
     std::function<void(const ConvergenceRun& run, const Image* image, const Image* flipMap)> run;
-    // A case that can't be measured here, and why (a ray tracer without environment maps …). Others go on.
+    // A case that can't be measured here (a ray tracer without environment maps …) or could only show another image
+    // than the reference's (Method::shadesAsLit, drawsMotion), and why. Others go on.
     std::function<void(const ConvergenceCase& wanted, const std::string& reason)> leftOut;
 };
 

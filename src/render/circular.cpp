@@ -250,6 +250,7 @@ Method circularMethod() {
     return {.name = "circular",
             .description = "post-process: circular separable convolution of one pinhole image (Garcia 2018)",
             .usesLensSamples = false,
+            .drawsMotion = false,
             .settings = settings,
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;

@@ -29,6 +29,8 @@ struct Method {
     std::string description;
     bool needsGl = true;          // a current GL context
     bool usesLensSamples = true;  // false: the plan's number of samples means nothing to it (post-process methods)
+    bool shadesAsLit = true;      // false: only unlit, opaque surfaces look as with the other methods
+    bool drawsMotion = true;      // false: everything stands still while the shutter is open
     std::vector<MethodSetting> settings;
     // Throws Error for settings that the method doesn't take.
     std::function<std::unique_ptr<Renderer>(const World&, const RendererOptions&)> make;

@@ -206,6 +206,7 @@ Method scheuermannMethod() {
     return {.name = "scheuermann",
             .description = "post-process: Poisson disk over one pinhole image (Scheuermann 2004)",
             .usesLensSamples = false,
+            .drawsMotion = false,
             .settings = settings,
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;

@@ -198,6 +198,39 @@ TEST_F(Convergence, aMethodThatFailsIsLeftOutAndOthersGoOn) {
     EXPECT_EQ(leftOut_.at("failing"), "not in this scene");
 }
 
+// Where a scene asks for more than a method can draw, its image says nothing about the method.
+TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
+    const auto make = [](const World&, const RendererOptions&) { return std::make_unique<Pretender>(0.5f, 4); };
+    registerMethod(
+        {.name = "unshaded", .description = "", .needsGl = false, .shadesAsLit = false, .settings = {}, .make = make});
+    registerMethod(
+        {.name = "frozen", .description = "", .needsGl = false, .drawsMotion = false, .settings = {}, .make = make});
+    options_.sampleCounts = {4};
+    options_.lods = {LodMode::off};
+    options_.methods = {parseMethodUse("unshaded"), parseMethodUse("frozen")};
+    const auto namesLeftOut = [&] {
+        leftOut_.clear();
+        const std::size_t measured = measure().size();
+        std::string names;
+        for (const auto& [name, reason] : leftOut_) names += name + ' ';
+        EXPECT_EQ(measured + leftOut_.size(), 3u);
+        return names;
+    };
+    EXPECT_EQ(namesLeftOut(), "unshaded ");  // the spheres are lit
+
+    Pose moved = small_->world.pose;
+    for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;
+    small_->world.shutter.poses = {small_->world.pose, moved};
+    EXPECT_EQ(namesLeftOut(), "frozen unshaded ");
+
+    for (Material& material : small_->scene.materials) material.unlit = true;
+    EXPECT_EQ(namesLeftOut(), "frozen ");
+    small_->world.shutter.poses = {small_->world.pose, small_->world.pose};  // open, and nothing moves
+    EXPECT_EQ(namesLeftOut(), "");
+    small_->scene.materials[0].alphaMode = AlphaMode::mask;
+    EXPECT_EQ(namesLeftOut(), "unshaded ");
+}
+
 TEST_F(Convergence, cropsLieInTheImageAndApart) {
     const std::vector<Crop> crops = tellingCrops(small_->world, small_->view, reference_, 4, {});
     ASSERT_EQ(crops.size(), 2u);
