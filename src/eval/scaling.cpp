@@ -20,6 +20,7 @@ constexpr int gridTriangles = 500;        // of an instance
 constexpr int smallFactor = 40;           // by which the image shrinks for the work of vertices alone
 constexpr double bytesPerTriangle = 600;  // mesh, pyramid while it is made, and what the driver keeps
 constexpr double mostOfMemory = 0.8;
+constexpr double leastMargin = 0.05;  // of the frame, between parts that are told apart
 
 FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode mode) {
     View view = world.view;
@@ -45,15 +46,15 @@ struct TimedMode {
     std::unique_ptr<Renderer> renderer;
     std::unique_ptr<Renderer> smallRenderer;
     FramePlan whole, empty, small;
-    std::vector<double> wholeTimes, emptyTimes, smallTimes;
+    ScalingTimes times;
 
     void run(bool counts) {
-        const double times[] = {milliseconds(*renderer, whole), milliseconds(*renderer, empty),
-                                milliseconds(*smallRenderer, small)};
+        const double one[] = {milliseconds(*renderer, whole), milliseconds(*renderer, empty),
+                              milliseconds(*smallRenderer, small)};
         if (!counts) return;
-        wholeTimes.push_back(times[0]);
-        emptyTimes.push_back(times[1]);
-        smallTimes.push_back(times[2]);
+        times.whole.push_back(one[0]);
+        times.layers.push_back(one[1]);
+        times.vertices.push_back(one[2]);
     }
 };
 
@@ -97,9 +98,7 @@ ScalingRow rowOf(const ScalingWorld& world, const ScalingPoint& point, LodMode m
     row.samples = static_cast<std::uint32_t>(timed.whole.samples.size());
     row.width = point.width;
     row.height = point.height;
-    row.milliseconds = spreadOf(timed.wholeTimes);
-    row.layers = spreadOf(timed.emptyTimes).median;
-    row.vertices = spreadOf(timed.smallTimes).median;
+    setTimes(row, timed.times);
     row.triangles = timed.whole.trianglesDrawn;
     row.gpuBytes = timed.renderer->stats().peakBytes;
     row.pyramidBytes = pyramidBytes(world.world);
@@ -224,13 +223,28 @@ std::vector<ScalingPoint> scalingPoints(ScalingAxis axis, bool large) {
     return points;
 }
 
-double ScalingRow::fill() const {
-    return std::max(0.0, milliseconds.median - layers - vertices);
+std::vector<ScalingPart> ScalingRow::largestParts() const {
+    constexpr std::array parts = {ScalingPart::layers, ScalingPart::vertices, ScalingPart::fill};
+    const std::array<const Spread*, 3> times = {&layers, &vertices, &fill};
+    const Spread& largest = **std::ranges::max_element(times, {}, [](const Spread* time) { return time->median; });
+    std::vector<ScalingPart> found;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const bool touches = times[i]->high >= largest.low;
+        const bool close = largest.median - times[i]->median < leastMargin * milliseconds.median;
+        if (touches || close) found.push_back(parts[i]);
+    }
+    return found;
 }
 
-ScalingPart ScalingRow::largestPart() const {
-    if (layers >= vertices && layers >= fill()) return ScalingPart::layers;
-    return vertices >= fill() ? ScalingPart::vertices : ScalingPart::fill;
+void setTimes(ScalingRow& row, const ScalingTimes& times) {
+    std::vector<double> fill;
+    for (std::size_t i = 0; i < times.whole.size(); ++i)
+        fill.push_back(std::max(0.0, times.whole[i] - times.layers[i] - times.vertices[i]));
+    row.runs = static_cast<int>(times.whole.size());
+    row.milliseconds = spreadOf(times.whole);
+    row.layers = spreadOf(times.layers);
+    row.vertices = spreadOf(times.vertices);
+    row.fill = spreadOf(fill);
 }
 
 void measureScaling(const ScalingOptions& options, const ScalingVisitor& visitor, const Progress& progress) {

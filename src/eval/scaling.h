@@ -70,16 +70,29 @@ struct ScalingRow {
     std::uint32_t samples = 0;
     int width = 0;
     int height = 0;
+    int runs = 0;
     Spread milliseconds;             // the whole frame
-    double layers = 0;               // ms, medians
-    double vertices = 0;             // ms
+    Spread layers;                   // ms
+    Spread vertices;                 // ms
+    Spread fill;                     // ms; the rest of each run, 0 or more
     std::uint64_t triangles = 0;     // drawn, over all samples
     std::uint64_t gpuBytes = 0;      // held by the renderer, at their peak
     std::uint64_t pyramidBytes = 0;  // of all levels, in main memory
 
-    [[nodiscard]] double fill() const;  // ms; the rest, 0 or more
-    [[nodiscard]] ScalingPart largestPart() const;
+    // The part with the largest median, and those that can't be told from it: their spreads touch, or their medians
+    // differ by less than a twentieth of the frame. In the order of ScalingPart.
+    [[nodiscard]] std::vector<ScalingPart> largestParts() const;
 };
+
+// A frame's runs in its three versions, ms, as many of each.
+struct ScalingTimes {
+    std::vector<double> whole;
+    std::vector<double> layers;    // nothing drawn
+    std::vector<double> vertices;  // drawn into a small image
+};
+
+// Fills runs, milliseconds, layers, vertices and fill.
+void setTimes(ScalingRow& row, const ScalingTimes& times);
 
 struct ScalingVisitor {
     std::function<void(const ScalingRow&)> row;

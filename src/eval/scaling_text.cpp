@@ -52,6 +52,14 @@ std::optional<PowerLaw> lawOf(std::span<const ScalingRow> curve, double (*quanti
     return fittedPowerLaw(points);
 }
 
+// "fill"; "vertex work and fill alike"
+std::string largestText(const ScalingRow& row) {
+    std::string text;
+    const std::vector<ScalingPart> largest = row.largestParts();
+    for (const ScalingPart part : largest) text += (text.empty() ? "" : " and ") + std::string(scalingPartName(part));
+    return largest.size() > 1 ? text + " alike" : text;
+}
+
 ordered_json lawJson(const std::optional<PowerLaw>& law) {
     if (!law) return nullptr;
     return {{"exponent", law->exponent}, {"residual", law->residual}, {"points", law->points}};
@@ -64,12 +72,11 @@ ordered_json rowJson(const ScalingRow& row) {
             {"samples", row.samples},
             {"width", row.width},
             {"height", row.height},
-            {"milliseconds",
-             {{"median", row.milliseconds.median}, {"low", row.milliseconds.low}, {"high", row.milliseconds.high}}},
-            {"layersMilliseconds", row.layers},
-            {"verticesMilliseconds", row.vertices},
-            {"fillMilliseconds", row.fill()},
-            {"largestPart", scalingPartName(row.largestPart())},
+            {"milliseconds", spreadJson(row.milliseconds)},
+            {"layersMilliseconds", spreadJson(row.layers)},
+            {"verticesMilliseconds", spreadJson(row.vertices)},
+            {"fillMilliseconds", spreadJson(row.fill)},
+            {"largestPart", largestText(row)},
             {"triangles", row.triangles},
             {"gpuBytes", row.gpuBytes},
             {"pyramidBytes", row.pyramidBytes}};
@@ -102,18 +109,18 @@ std::string scalingLine(const ScalingRow& row) {
     return fmt::format(
         "{:<10} {:>10} {:<10} {:>9.1f} {:>15}  {:>9.1f} {:>9.1f} {:>9.1f}  {:>10.3f} {:>8.1f} {:>8.1f}\n",
         scalingAxisName(row.axis), valueText(row), lodModeName(row.mode), row.milliseconds.median,
-        fmt::format("{:.1f} to {:.1f}", row.milliseconds.low, row.milliseconds.high), row.layers, row.vertices,
-        row.fill(), static_cast<double>(row.triangles) / 1e6, static_cast<double>(row.gpuBytes) / 1e6,
-        static_cast<double>(row.pyramidBytes) / 1e6);
+        fmt::format("{:.1f} to {:.1f}", row.milliseconds.low, row.milliseconds.high), row.layers.median,
+        row.vertices.median, row.fill.median, static_cast<double>(row.triangles) / 1e6,
+        static_cast<double>(row.gpuBytes) / 1e6, static_cast<double>(row.pyramidBytes) / 1e6);
 }
 
 std::string boundsAlong(std::span<const ScalingRow> rows) {
     std::string text;
     for (std::size_t begin = 0; begin < rows.size();) {
         std::size_t end = begin;
-        while (end < rows.size() && rows[end].largestPart() == rows[begin].largestPart()) ++end;
+        while (end < rows.size() && largestText(rows[end]) == largestText(rows[begin])) ++end;
         if (!text.empty()) text += ", ";
-        text += scalingPartName(rows[begin].largestPart());
+        text += largestText(rows[begin]);
         const bool fromStart = begin == 0;
         const bool toEnd = end == rows.size();
         if (fromStart && toEnd)
@@ -133,7 +140,8 @@ std::string boundsAlong(std::span<const ScalingRow> rows) {
 
 std::string scalingSummary(std::span<const ScalingRow> rows) {
     std::string text =
-        "\ntime and memory against each axis, over the upper half of its points; what takes most of the frame\n";
+        "\ntime and memory against each axis, over the upper half of its points; what takes most of the frame "
+        "(alike: their spreads touch, or less than a twentieth of the frame is between them)\n";
     for (const std::vector<ScalingRow>& curve : curvesOf(rows)) {
         text += fmt::format("  {:<10} {:<10} ", scalingAxisName(curve.front().axis), lodModeName(curve.front().mode));
         const std::optional<PowerLaw> time = lawOf(curve, timeOf);
@@ -150,13 +158,13 @@ std::string scalingSummary(std::span<const ScalingRow> rows) {
 std::string scalingCsv(std::span<const ScalingRow> rows) {
     std::string text =
         "axis,value,lod,samples,width,height,milliseconds,low,high,layersMilliseconds,verticesMilliseconds,"
-        "fillMilliseconds,largestPart,triangles,gpuBytes,pyramidBytes\n";
+        "fillMilliseconds,largestPart,triangles,gpuBytes,pyramidBytes,runs\n";
     for (const ScalingRow& row : rows)
-        text +=
-            fmt::format("{},{:.8g},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{}\n",
-                        scalingAxisName(row.axis), row.value, lodModeName(row.mode), row.samples, row.width, row.height,
-                        row.milliseconds.median, row.milliseconds.low, row.milliseconds.high, row.layers, row.vertices,
-                        row.fill(), scalingPartName(row.largestPart()), row.triangles, row.gpuBytes, row.pyramidBytes);
+        text += fmt::format("{},{:.8g},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{}\n",
+                            scalingAxisName(row.axis), row.value, lodModeName(row.mode), row.samples, row.width,
+                            row.height, row.milliseconds.median, row.milliseconds.low, row.milliseconds.high,
+                            row.layers.median, row.vertices.median, row.fill.median, largestText(row), row.triangles,
+                            row.gpuBytes, row.pyramidBytes, row.runs);
     return text;
 }
 

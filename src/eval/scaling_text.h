@@ -16,7 +16,8 @@ std::string scalingLine(const ScalingRow& row);  // one line
 // Exponents of the time against each axis, and what bounds the frame along it, in sentences.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
-// "fill up to 300 k, vertex work from 1 M": the largest part of the rows of one axis and mode, in their order.
+// "fill up to 300 k, vertex work and fill alike from 1 M": the largest parts of the rows of one axis and mode, in their
+// order.
 std::string boundsAlong(std::span<const ScalingRow> rows);
 
 struct ScalingLeftOut {

@@ -59,18 +59,44 @@ TEST(ScalingFit, needsTwoDifferentPlaces) {
 ScalingRow rowOf(double value, double frame, double layers, double vertices) {
     ScalingRow row;
     row.value = value;
-    row.milliseconds = {frame, frame, frame};
-    row.layers = layers;
-    row.vertices = vertices;
+    setTimes(row, {{frame}, {layers}, {vertices}});
     return row;
 }
 
+using Parts = std::vector<ScalingPart>;
+
 TEST(ScalingParts, theRestIsFill) {
-    EXPECT_EQ(rowOf(1, 10, 2, 3).fill(), 5);
-    EXPECT_EQ(rowOf(1, 10, 2, 3).largestPart(), ScalingPart::fill);
-    EXPECT_EQ(rowOf(1, 10, 6, 3).largestPart(), ScalingPart::layers);
-    EXPECT_EQ(rowOf(1, 10, 1, 8).largestPart(), ScalingPart::vertices);
-    EXPECT_EQ(rowOf(1, 10, 4, 8).fill(), 0) << "parts that overlap leave nothing";
+    EXPECT_EQ(rowOf(1, 10, 2, 3).fill.median, 5);
+    EXPECT_EQ(rowOf(1, 10, 2, 3).largestParts(), Parts{ScalingPart::fill});
+    EXPECT_EQ(rowOf(1, 10, 6, 3).largestParts(), Parts{ScalingPart::layers});
+    EXPECT_EQ(rowOf(1, 10, 1, 8).largestParts(), Parts{ScalingPart::vertices});
+    EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "parts that overlap leave nothing";
+}
+
+// Each run leaves its own rest: 5, 7 and 6 ms.
+TEST(ScalingParts, spreadAsTheirRunsDo) {
+    ScalingRow row;
+    setTimes(row, {{10, 20, 15}, {2, 6, 4}, {3, 7, 5}});
+    EXPECT_EQ(row.runs, 3);
+    EXPECT_EQ(row.fill.median, 6);
+    EXPECT_DOUBLE_EQ(row.fill.low, 5.2);
+    EXPECT_DOUBLE_EQ(row.fill.high, 6.8);
+    EXPECT_EQ(row.layers.median, 4);
+}
+
+TEST(ScalingParts, areAlikeWhereNoneIsLargerBeyondDoubt) {
+    // One run, which says nothing about its noise: 23.5 against 24.1 ms of 60 is too close.
+    EXPECT_EQ(rowOf(1, 60, 12.4, 23.5).largestParts(), (Parts{ScalingPart::vertices, ScalingPart::fill}));
+    EXPECT_EQ(rowOf(1, 60, 12.4, 21).largestParts(), Parts{ScalingPart::fill});
+    EXPECT_EQ(rowOf(1, 60, 20, 20).largestParts(),
+              (Parts{ScalingPart::layers, ScalingPart::vertices, ScalingPart::fill}));
+
+    // Layers at 30 and fill at 40 ms, once far apart in all runs, once crossing.
+    ScalingRow row;
+    setTimes(row, {{72, 71, 73}, {30, 29, 31}, {2, 2, 2}});
+    EXPECT_EQ(row.largestParts(), Parts{ScalingPart::fill});
+    setTimes(row, {{72, 72, 72}, {30, 40, 20}, {2, 2, 2}});
+    EXPECT_EQ(row.largestParts(), (Parts{ScalingPart::layers, ScalingPart::fill}));
 }
 
 TEST(ScalingText, whatIsLeftOutIsNamedAsInTheTable) {
@@ -89,6 +115,10 @@ TEST(ScalingParts, areNamedWhereTheyChange) {
     EXPECT_EQ(boundsAlong(std::vector{fill, vertices}), "fill up to 100 k, vertex work from 1 M");
     EXPECT_EQ(boundsAlong(std::vector{fill, vertices, layers}),
               "fill up to 100 k, vertex work at 1 M, adding layers from 10 M");
+    const ScalingRow both = rowOf(300'000, 10, 1, 4.5);
+    EXPECT_EQ(boundsAlong(std::vector{fill, both, vertices}),
+              "fill up to 100 k, vertex work and fill alike at 300 k, vertex work from 1 M");
+    EXPECT_NE(scalingCsv(std::vector{both}).find(",vertex work and fill alike,"), std::string::npos);
     EXPECT_EQ(boundsAlong(std::vector{fill, vertices, more, layers}),
               "fill up to 100 k, vertex work from 1 M to 3 M, adding layers from 10 M");
 }
