@@ -90,12 +90,21 @@ std::string unexpected(const CLI::App& program, const std::vector<std::string>& 
     return fmt::format("there is no option '{}'; {}", word, helpHint(program));
 }
 
+// The option that stands there more often than once; none where that isn't the fault.
+const CLI::Option* repeatedOption(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_items_expected_max() == 1 && option->count() > 1) return option;
+    return nullptr;
+}
+
 std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     const CLI::App& command = chosenCommand(program);
     const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a command must follow
     const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
     const std::vector<std::string> words = program.remaining(true);
     if (strange && !words.empty()) return unexpected(program, words);
+    if (const CLI::Option* option = repeatedOption(command))
+        return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());
     if (unfinished && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
         return fmt::format("which command? There are: {}; {}", fmt::join(namesOf(command), ", "), helpHint(program));
     return fmt::format("{}; {}", error.what(), helpHint(program));

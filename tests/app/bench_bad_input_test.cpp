@@ -43,6 +43,13 @@ TEST_F(Bench, convergenceRefusesListsThatAreNone) {
                 {"convergence", "quads.gltf", "--method", "accumulation"});  // it goes through them itself
 }
 
+TEST_F(Bench, whatIsGivenTwiceIsNamed) {
+    expectFault(2, "--counts is given 2 times; give it once",
+                {"convergence", "quads.gltf", "--counts", "4", "--counts", "8"});
+    expectFault(2, "--runs is given 3 times", {"scaling", "--runs", "1", "--runs", "2", "--runs", "3"});
+    expectFault(2, "--output is given 2 times", {"speedup", "quads.gltf", "-o", "a", "-o", "b"});
+}
+
 TEST_F(Bench, convergenceLeavesNothingWhereItCannotBegin) {
     expectFault(1, "missing.glb", {"convergence", "missing.glb", "-o", "out"});
     expectFault(1, "quads.gltf", {"convergence", "quads.gltf", "-o", "quads.gltf"});
