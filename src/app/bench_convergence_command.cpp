@@ -137,7 +137,7 @@ public:
         writeFile(folder / "results.json", convergenceJson(all, reference_, subject_));
     }
 
-    [[nodiscard]] std::vector<ConvergenceRow> rows() const { return convergenceRows(runs_); }
+    [[nodiscard]] std::vector<ConvergenceRow> rows() const { return convergenceRows(runs_, reference_.remaining); }
 
 private:
     fs::path folder_;
@@ -179,8 +179,6 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     writeImage(folder / "images" / "reference.png", reference.image);
     ConvergenceSubject subject;
     subject.bench = benchSubject(*context, frame, options.runs);
-    subject.camera = frame.cameraName;
-    subject.lens = frame.view.lens;
     const std::uint32_t fewest = *std::ranges::min_element(options.sampleCounts);
     subject.crops = tellingCrops(frame.world, frame.view, reference, fewest, options.renderer);
 

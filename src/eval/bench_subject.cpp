@@ -2,7 +2,23 @@
 
 #include <nlohmann/json.hpp>
 
+#include "eval/json_number.h"
+
 namespace defocus {
+
+namespace {
+
+nlohmann::ordered_json lensJson(const Lens& lens) {
+    return {{"focalLength", lens.focalLength},
+            {"fStop", lens.fStop},
+            {"focusDistance", jsonNumber(lens.focusDistance)},
+            {"horizontalAperture", lens.horizontalAperture},
+            {"bladeCount", lens.bladeCount},
+            {"blurScale", lens.blurScale},
+            {"dofEnabled", lens.dofEnabled}};
+}
+
+}  // namespace
 
 nlohmann::ordered_json subjectJson(const std::string& bench, const BenchSubject& subject) {
     const Machine& machine = subject.machine;
@@ -19,6 +35,8 @@ nlohmann::ordered_json subjectJson(const std::string& bench, const BenchSubject&
                                    {"driver", subject.driver},
                                    {"gpuTimesCoverVertexWork", !subject.software}};
     if (!subject.scene.empty()) json["scene"] = subject.scene;
+    if (!subject.camera.empty()) json["camera"] = subject.camera;
+    if (subject.lens) json["lens"] = lensJson(*subject.lens);
     if (subject.width > 0) {
         json["width"] = subject.width;
         json["height"] = subject.height;

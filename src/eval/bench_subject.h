@@ -2,10 +2,12 @@
 // What the rows of a bench were measured on and with.
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "eval/machine.h"
+#include "lens/lens.h"
 
 namespace defocus {
 
@@ -18,9 +20,11 @@ struct BenchSubject {
     std::string driver;
     bool software = false;  // a software driver: its timer queries miss vertex work
     std::string scene;      // empty: the bench has scenes of its own
-    int width = 0;          // px; 0: the bench goes through sizes of its own
-    int height = 0;         // px
-    int runs = 0;           // of each frame; 0: nothing is timed
+    std::string camera;
+    std::optional<Lens> lens;  // none: the bench goes through lenses of its own
+    int width = 0;             // px; 0: the bench goes through sizes of its own
+    int height = 0;            // px
+    int runs = 0;              // of each frame; 0: nothing is timed
     double pyramidMilliseconds = 0;
 };
 

@@ -89,7 +89,7 @@ std::vector<bool> paretoFront(std::span<const Trial> trials) {
     return front;
 }
 
-std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs) {
+std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining) {
     std::vector<ConvergenceRow> rows;
     for (const ConvergenceRun& run : runs) {
         if (std::ranges::any_of(rows, [&](const ConvergenceRow& row) { return sameRow(row, run); })) continue;
@@ -98,7 +98,11 @@ std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs
         rows.back().setting = run.setting;
         rows.back().asked = run.asked;
     }
-    for (ConvergenceRow& row : rows) complete(row, runs);
+    for (ConvergenceRow& row : rows) {
+        complete(row, runs);
+        row.mseBelowReference = row.error.mse < remaining.rmse * remaining.rmse;
+        row.flipBelowReference = row.error.flip < remaining.flip;
+    }
     markFronts(rows);
     return rows;
 }

@@ -29,11 +29,14 @@ struct ConvergenceRow {
     bool front = false;          // no row of any method has both a lower or equal time and MSE, and one of them lower
     bool frontOfMethod = false;  // the same among the rows of its method
     bool frontByFlip = false;    // as `front`, by FLIP
-    std::string fault;           // why the image is not what it claims to be: the row is on no front
+    // The error is below the reference's own: it says no more than that.
+    bool mseBelowReference = false;
+    bool flipBelowReference = false;
+    std::string fault;  // why the image is not what it claims to be: the row is on no front
 };
 
-// In the order in which the cases first appear.
-std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs);
+// In the order in which the cases first appear. `remaining`: the reference's estimate of its own error.
+std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining = {});
 
 struct Trial {
     double cost = 0;

@@ -51,6 +51,8 @@ ordered_json rowJson(const ConvergenceRow& row) {
     json["front"] = row.front;
     json["frontOfMethod"] = row.frontOfMethod;
     json["frontByFlip"] = row.frontByFlip;
+    json["mseBelowReference"] = row.mseBelowReference;
+    json["flipBelowReference"] = row.flipBelowReference;
     json["fault"] = row.fault;
     json["image"] = imageName(row.method, row.setting, row.asked);
     json["errorMap"] = errorMapName(row.method, row.setting, row.asked);
@@ -68,16 +70,6 @@ ordered_json referenceJson(const ReferenceImage& reference) {
         {"milliseconds", reference.milliseconds},
         {"reused", reference.reused},
         {"remaining", {{"mse", r.rmse * r.rmse}, {"psnr", jsonNumber(r.psnr)}, {"ssim", r.ssim}, {"flip", r.flip}}}};
-}
-
-ordered_json lensJson(const Lens& lens) {
-    return {{"focalLength", lens.focalLength},
-            {"fStop", lens.fStop},
-            {"focusDistance", jsonNumber(lens.focusDistance)},
-            {"horizontalAperture", lens.horizontalAperture},
-            {"bladeCount", lens.bladeCount},
-            {"blurScale", lens.blurScale},
-            {"dofEnabled", lens.dofEnabled}};
 }
 
 ordered_json competitorJson(const Competitor& competitor) {
@@ -116,6 +108,7 @@ std::string convergenceLine(const ConvergenceRow& row) {
         row.pyramidMilliseconds, row.error.psnr(), row.error.ssim, row.error.flip,
         row.bias ? fmt::format("{:.2f}", row.bias->psnr()) : "", static_cast<double>(row.triangles) / 1e6,
         static_cast<double>(row.peakBytes) / (1 << 20));
+    line += belowReferenceText(row.mseBelowReference, row.flipBelowReference);
     if (!row.fault.empty()) line += "  NOT WHAT IT CLAIMS: " + row.fault;
     return line + '\n';
 }
@@ -146,16 +139,17 @@ std::string errorMapName(std::string_view method, std::string_view setting, std:
 std::string convergenceCsv(std::span<const ConvergenceRow> rows) {
     std::string text =
         "method,setting,samples,runs,milliseconds,low,high,setupMilliseconds,pyramidMilliseconds,gpuMilliseconds,mse,"
-        "psnr,ssim,flip,biasMse,biasFlip,triangles,peakBytes,front,frontOfMethod,frontByFlip,fault\n";
+        "psnr,ssim,flip,biasMse,biasFlip,triangles,peakBytes,front,frontOfMethod,frontByFlip,mseBelowReference,"
+        "flipBelowReference,fault\n";
     for (const ConvergenceRow& row : rows) {
         const std::string bias = row.bias ? fmt::format("{:.6g},{:.6g}", row.bias->mse, row.bias->flip) : ",";
         text += fmt::format(
             "{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{:d},{:d},"
-            "{:d},{}\n",
+            "{:d},{:d},{:d},{}\n",
             row.method, row.setting, row.samples, row.runs, row.milliseconds.median, row.milliseconds.low,
             row.milliseconds.high, row.setupMilliseconds.median, row.pyramidMilliseconds, row.gpuMilliseconds,
             row.error.mse, row.error.psnr(), row.error.ssim, row.error.flip, bias, row.triangles, row.peakBytes,
-            row.front, row.frontOfMethod, row.frontByFlip, row.fault);
+            row.front, row.frontOfMethod, row.frontByFlip, row.mseBelowReference, row.flipBelowReference, row.fault);
     }
     return text;
 }
@@ -163,8 +157,6 @@ std::string convergenceCsv(std::span<const ConvergenceRow> rows) {
 std::string convergenceJson(std::span<const ConvergenceRow> rows, const ReferenceImage& reference,
                             const ConvergenceSubject& subject) {
     ordered_json document = subjectJson("convergence", subject.bench);
-    document["camera"] = subject.camera;
-    document["lens"] = lensJson(subject.lens);
     document["heldEqual"] =
         "scene, camera, lens, image size, reference, process; the methods take turns frame by frame, the first wave of "
         "a frame is drawn once before it counts, nothing is pinned";

@@ -27,8 +27,6 @@ std::string convergenceSummary(std::span<const ConvergenceRow> rows, const Refer
 // What the rows were measured on and with.
 struct ConvergenceSubject {
     BenchSubject bench;
-    std::string camera;
-    Lens lens;
     std::vector<Crop> crops;
     struct LeftOut {
         std::string method;

@@ -125,7 +125,37 @@ Image meanOf(const Image& a, const Half& first, const Image& b, const Half& seco
     return mean;
 }
 
+Half firstHalf(std::uint32_t samples) {
+    return {0, samples / 2};
+}
+
+Half secondHalf(std::uint32_t samples) {
+    return {samples / 2, samples - samples / 2};
+}
+
+// The mean of both, and how far it is from either.
+void complete(ReferenceImage& reference, const Part& one, const Part& other) {
+    reference.image = meanOf(one.image, firstHalf(reference.samples), other.image, secondHalf(reference.samples));
+    reference.remaining = compareImages(reference.image, one.image);
+    reference.milliseconds = one.milliseconds + other.milliseconds;
+}
+
+// Without its image yet.
+ReferenceImage askedFor(const World& world, const View& view, const ReferenceOptions& options) {
+    if (options.samples < 2 || options.samples > mostSamples)
+        fail("reference of {} samples: choose 2 to {}", options.samples, mostSamples);
+    ReferenceImage reference;
+    reference.samples = options.samples;
+    reference.hash = referenceHash(world, view, options);
+    return reference;
+}
+
 }  // namespace
+
+std::string belowReferenceText(bool psnr, bool flip) {
+    if (!psnr && !flip) return {};
+    return fmt::format("  {} below the reference's own error", psnr && flip ? "PSNR and FLIP" : psnr ? "PSNR" : "FLIP");
+}
 
 std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options) {
     const std::array<std::uint64_t, 2> samples = {options.samples, referenceOffset};
@@ -146,13 +176,17 @@ bool holdsOtherReference(const fs::path& folder, std::uint64_t hash) {
     });
 }
 
+ReferenceImage renderedReference(const World& world, const View& view, const ReferenceOptions& options,
+                                 const Progress& progress) {
+    ReferenceImage reference = askedFor(world, view, options);
+    const Part one = rendered(world, view, options, firstHalf(options.samples), progress);
+    complete(reference, one, rendered(world, view, options, secondHalf(options.samples), progress));
+    return reference;
+}
+
 ReferenceImage referenceImage(const World& world, const View& view, const ReferenceOptions& options,
                               const fs::path& folder, const Progress& progress) {
-    if (options.samples < 2 || options.samples > mostSamples)
-        fail("reference of {} samples: choose 2 to {}", options.samples, mostSamples);
-    ReferenceImage reference;
-    reference.samples = options.samples;
-    reference.hash = referenceHash(world, view, options);
+    ReferenceImage reference = askedFor(world, view, options);
 
     // As it was stored, if it is what is asked for.
     const fs::path path = folder / referenceName;
@@ -166,20 +200,13 @@ ReferenceImage referenceImage(const World& world, const View& view, const Refere
     }
 
     // Two halves; the first is kept until the second is there too.
-    const Half first{0, options.samples / 2};
-    const Half second{first.count, options.samples - first.count};
     const fs::path halfPath = folder / referenceHalfName;
     std::optional<Part> one = stored(halfPath, reference.hash, metadata);
     if (!one) {
-        one = rendered(world, view, options, first, progress);
+        one = rendered(world, view, options, firstHalf(options.samples), progress);
         store(halfPath, *one, reference.hash, {});
     }
-    const Part other = rendered(world, view, options, second, progress);
-
-    // Their mean, and how far it is from either.
-    reference.image = meanOf(one->image, first, other.image, second);
-    reference.remaining = compareImages(reference.image, one->image);
-    reference.milliseconds = one->milliseconds + other.milliseconds;
+    complete(reference, *one, rendered(world, view, options, secondHalf(options.samples), progress));
     store(path, {reference.image, reference.milliseconds}, reference.hash, metadataOf(reference));
     std::error_code ignored;
     fs::remove(halfPath, ignored);

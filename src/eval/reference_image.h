@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "core/progress.h"
 #include "image/metrics.h"
@@ -35,6 +36,14 @@ struct ReferenceImage {
     double milliseconds = 0;  // what it took to render
     bool reused = false;      // read from the folder
 };
+
+// For a row whose PSNR or FLIP from the reference says nothing but that it is below the reference's own error: that, in
+// words; else empty.
+std::string belowReferenceText(bool psnr, bool flip);
+
+// Rendered, and kept nowhere. Needs a current GL context. Throws Error for an impossible number of samples.
+ReferenceImage renderedReference(const World& world, const View& view, const ReferenceOptions& options,
+                                 const Progress& progress = {});
 
 // What ReferenceImage::hash will be. Needs no pyramids.
 std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options);

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 
+#include "core/stopwatch.h"
+#include "eval/reference_image.h"
+
 namespace defocus {
 
 namespace {
 
 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional};
 constexpr std::uint32_t warmUpSamples = 2;
-constexpr std::uint32_t referenceOffset = 1u << 20;  // into the sequence of lens samples: its own
+constexpr std::uint32_t referenceFactor = 8;  // samples of the reference, unless told, over the most measured with it
 
 struct Setting {
     const char* sweep;
@@ -47,24 +50,51 @@ void finish(Renderer& renderer, const FramePlan& plan) {
     }
 }
 
-Image reference(const World& world, const View& view, const SpeedupOptions& options) {
-    RenderSettings settings;
-    settings.sampleCount = options.referenceSamples;
-    settings.sequence = Sequence::halton;  // its own too
-    settings.firstSample = referenceOffset;
-    settings.lod = LodMode::off;
-    RendererOptions precise = options.renderer;
-    precise.layerFormat = LayerFormat::rgba32f;
-    const auto renderer = methodNamed("accumulation").make(world, precise);
-    finish(*renderer, planFrame(world, view, settings));
-    return renderer->image();
+bool sameLens(const Setting& a, const Setting& b) {
+    return a.view.lens.fStop == b.view.lens.fStop && a.view.lens.focusDistance == b.view.lens.focusDistance;
 }
+
+std::uint32_t referenceSamplesOf(const Setting& setting, const std::vector<Setting>& all,
+                                 const SpeedupOptions& options) {
+    if (options.referenceSamples) return *options.referenceSamples;
+    std::uint32_t most = 0;
+    for (const Setting& other : all)
+        if (sameLens(other, setting)) most = std::max(most, other.samples);
+    return std::clamp(referenceFactor * most, 2u, 65'536u);
+}
+
+// Of the setting's lens; that of the setting before where it has the same.
+class References {
+public:
+    References(const World& world, const std::vector<Setting>& settings, const SpeedupOptions& options,
+               const Progress& progress)
+        : world_(world), settings_(settings), options_(options), progress_(progress) {}
+
+    // Null where none is asked for.
+    const ReferenceImage* of(const Setting& setting) {
+        const std::uint32_t samples = referenceSamplesOf(setting, settings_, options_);
+        if (samples == 0) return nullptr;
+        if (last_ == nullptr || !sameLens(*last_, setting))
+            image_ = renderedReference(world_, setting.view, {samples, options_.renderer}, progress_);
+        last_ = &setting;
+        return &image_;
+    }
+
+private:
+    const World& world_;
+    const std::vector<Setting>& settings_;
+    const SpeedupOptions& options_;
+    const Progress& progress_;
+    const Setting* last_ = nullptr;
+    ReferenceImage image_;
+};
 
 struct Mode {
     std::unique_ptr<Renderer> renderer;
     FramePlan plan;
     std::vector<double> milliseconds;
     std::vector<double> gpuMilliseconds;
+    double setupMilliseconds = 0;  // of the renderer, once
     Image image;
 };
 
@@ -76,20 +106,26 @@ void run(Mode& mode) {
     mode.image = mode.renderer->image();
 }
 
-SpeedupRow rowOf(const Setting& setting, LodMode lod, const Mode& mode, const Mode& fullDetail, const Image* truth) {
+SpeedupRow rowOf(const Setting& setting, LodMode lod, const Mode& mode, const Mode& fullDetail,
+                 const ReferenceImage* reference) {
     SpeedupRow row;
     row.sweep = setting.sweep;
     row.samples = setting.samples;
     row.fStop = setting.view.lens.fStop;
     row.focusDistance = setting.view.lens.focusDistance;
     row.mode = lod;
+    row.runs = static_cast<int>(mode.milliseconds.size());
     row.milliseconds = spreadOf(mode.milliseconds);
     row.gpuMilliseconds = spreadOf(mode.gpuMilliseconds);
     row.speedUp = spreadOf(fullDetail.milliseconds).median / row.milliseconds.median;
     row.triangles = mode.plan.trianglesDrawn;
+    row.setupMilliseconds = mode.setupMilliseconds;
     row.gpuBytes = mode.renderer->stats().peakBytes;
     row.fromFullDetail = compareImages(fullDetail.image, mode.image);
-    if (truth != nullptr) row.fromReference = compareImages(*truth, mode.image);
+    if (reference == nullptr) return row;
+    row.fromReference = compareImages(reference->image, mode.image);
+    row.referenceSamples = reference->samples;
+    row.referenceRemaining = reference->remaining;
     return row;
 }
 
@@ -100,14 +136,17 @@ void measureSpeedup(const World& world, const View& view, const SpeedupOptions& 
     const std::vector<Setting> settings = settingsOf(view, options);
     const std::uint64_t total = settings.size() * static_cast<std::size_t>(options.runs) * modes.size();
     std::uint64_t done = 0;
-    std::optional<Image> truth;
-    if (options.referenceSamples > 0) truth = reference(world, view, options);
+    References references(world, settings, options, progress);
 
     for (const Setting& setting : settings) {
+        const ReferenceImage* const reference = references.of(setting);
         // Shaders, uploads and the driver's own caches are ready before anything is timed.
         std::array<Mode, modes.size()> measured;
         for (std::size_t m = 0; m < modes.size(); ++m) {
+            const Clock::time_point begin = Clock::now();
             measured[m].renderer = methodNamed("accumulation").make(world, options.renderer);
+            measured[m].renderer->start(planOf(world, setting, modes[m], options));
+            measured[m].setupMilliseconds = millisecondsSince(begin);
             measured[m].plan = planOf(world, setting, modes[m], options);
             Setting few = setting;
             few.samples = std::min(setting.samples, warmUpSamples);
@@ -118,10 +157,11 @@ void measureSpeedup(const World& world, const View& view, const SpeedupOptions& 
                 report(progress, "runs", done++, total);
                 run(mode);
             }
-        const bool ownLens =
-            setting.view.lens.fStop == view.lens.fStop && setting.view.lens.focusDistance == view.lens.focusDistance;
-        for (std::size_t m = 0; m < modes.size(); ++m)
-            visit(rowOf(setting, modes[m], measured[m], measured[0], truth && ownLens ? &*truth : nullptr));
+        for (std::size_t m = 0; m < modes.size(); ++m) {
+            SpeedupRow row = rowOf(setting, modes[m], measured[m], measured[0], reference);
+            if (modes[m] != LodMode::off) row.pyramidMilliseconds = options.pyramidMilliseconds;
+            visit(row);
+        }
     }
 }
 

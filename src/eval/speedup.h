@@ -24,8 +24,10 @@ struct SpeedupOptions {
     std::vector<double> focusDistances;  // further focus distances, m, at `sweepSamples`
     std::uint32_t sweepSamples = 64;
     int runs = 3;  // of each mode; 1 or more
-    std::uint32_t referenceSamples =
-        0;  // of a full-detail reference with its own samples, for the view's lens; 0: none
+    // Of a converged reference (reference_image.h) for each lens. None: eight times the most that are measured with the
+    // lens, which takes about two thirds of the time of three runs of all modes. 0: no reference.
+    std::optional<std::uint32_t> referenceSamples;
+    double pyramidMilliseconds = 0;      // what the world's pyramids took
     LodMetric metric = LodMetric::size;  // thresholds are the defaults for each number of samples
     Sequence sequence = RenderSettings{}.sequence;
     RendererOptions renderer;
@@ -37,13 +39,18 @@ struct SpeedupRow {
     double fStop = 0;
     double focusDistance = 0;  // m
     LodMode mode = LodMode::off;
-    Spread milliseconds;     // a frame, wall clock
-    Spread gpuMilliseconds;  // timer queries; on a software driver these miss vertex work
-    double speedUp = 1;      // full detail's median over this one's
+    int runs = 0;
+    Spread milliseconds;             // a frame, wall clock
+    Spread gpuMilliseconds;          // timer queries; on a software driver these miss vertex work
+    double setupMilliseconds = 0;    // of the renderer, not in `milliseconds`
+    double pyramidMilliseconds = 0;  // of the pyramids, where levels are used; not in `milliseconds`
+    double speedUp = 1;              // full detail's median over this one's
     std::uint64_t triangles = 0;
     std::uint64_t gpuBytes = 0;  // resources held by the renderer, at their peak
     Difference fromFullDetail;   // at the same number of samples
     std::optional<Difference> fromReference;
+    std::uint32_t referenceSamples = 0;  // 0: there is none
+    Difference referenceRemaining;       // the reference's estimate of its own error
 };
 
 // Calls `visit` with each row as soon as it is measured: full detail, nearest level, fractional level for each setting.

@@ -139,6 +139,29 @@ TEST(ConvergenceRows, markFrontsAndLeaveFaultsOff) {
     EXPECT_NE(convergenceLine(rows[3]).find("no numbers"), std::string::npos);
 }
 
+// RMSE 0.1 and FLIP 0.02 are what the reference may be off by itself.
+TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
+    std::vector<ConvergenceRun> runs;
+    for (const auto& [mse, flip] : {std::pair{0.02, 0.03}, {0.009, 0.03}, {0.02, 0.01}, {0.009, 0.01}}) {
+        runs.push_back(runOf("a", "x", static_cast<std::uint32_t>(runs.size() + 1), 0, 1, mse));
+        runs.back().error.flip = flip;
+    }
+    Difference remaining;
+    remaining.rmse = 0.1;
+    remaining.flip = 0.02;
+    const std::vector<ConvergenceRow> rows = convergenceRows(runs, remaining);
+    const char* said[] = {"", "  PSNR below", "  FLIP below", "  PSNR and FLIP below"};
+    const nlohmann::json json = nlohmann::json::parse(convergenceJson(rows, {}, {}));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(rows[i].mseBelowReference, i % 2 == 1);
+        EXPECT_EQ(rows[i].flipBelowReference, i >= 2);
+        EXPECT_NE(convergenceLine(rows[i]).find(said[i]), std::string::npos);
+        EXPECT_EQ(convergenceLine(rows[i]).find("below") == std::string::npos, i == 0);
+        EXPECT_EQ(json["rows"][i]["mseBelowReference"], i % 2 == 1);
+        EXPECT_EQ(json["rows"][i]["flipBelowReference"], i >= 2);
+    }
+}
+
 TEST(ConvergenceRows, runsThatDifferAreAFault) {
     EXPECT_NE(convergenceRows(std::vector{runOf("a", "x", 8, 0, 1, 0.5), runOf("a", "x", 8, 1, 1, 0.51)})[0].fault, "");
     EXPECT_EQ(convergenceRows(std::vector{runOf("a", "x", 8, 0, 1, 0.5), runOf("a", "x", 8, 1, 1, 0.504)})[0].fault,
