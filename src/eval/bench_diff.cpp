@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <limits>
 
 #include "core/error.h"
 
@@ -14,197 +13,184 @@ namespace defocus {
 
 namespace {
 
-using nlohmann::json;
+constexpr double ssimRounding = 1e-6;  // CSV has six digits of it
 
-struct BenchKind {
-    const char* name;
-    std::vector<std::string> keys;    // columns that say what was asked for
-    std::vector<std::string> errors;  // columns that say how far off the image is
+// ---- subjects -------------------------------------------------------------------------------------------------------
+
+struct Comparable {
+    bool times = true;
+    bool errors = true;
+    bool errorsFromReference = true;
 };
 
-const std::vector<BenchKind>& kinds() {
-    static const std::vector<BenchKind> table = {
-        {"convergence", {"method", "setting", "samples"}, {"psnr", "ssim", "flip", "biasFlip"}},
-        {"speedup",
-         {"sweep", "samples", "fStop", "focusDistance", "lod"},
-         {"psnrFull", "ssimFull", "flipFull", "psnrReference", "ssimReference", "flipReference"}},
-    };
-    return table;
-}
-
-// A row as texts by column.
-using Cells = std::map<std::string, std::string>;
-
-std::optional<double> numberIn(const Cells& cells, const std::string& column) {
-    const auto found = cells.find(column);
-    if (found == cells.end()) return {};
-    const std::string& text = found->second;
-    double value = 0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-    return value;
-}
-
-BenchRow rowOf(const Cells& cells, const BenchKind& kind, const std::string& name) {
-    BenchRow row;
-    for (const std::string& column : kind.keys) {
-        // 2.8 from CSV and from JSON are one.
-        const std::optional<double> number = numberIn(cells, column);
-        row.key += (row.key.empty() ? "" : " ") + (number ? fmt::format("{:.6g}", *number) : cells.at(column));
-    }
-    const std::array<std::optional<double>, 3> times = {numberIn(cells, "milliseconds"), numberIn(cells, "low"),
-                                                        numberIn(cells, "high")};
-    if (!times[0] || !times[1] || !times[2]) fail("{}: the row '{}' has no times", name, row.key);
-    row.milliseconds = {*times[0], *times[1], *times[2]};
-    for (const std::string& column : kind.errors)
-        if (const std::optional<double> error = numberIn(cells, column)) row.errors[column] = *error;
-    return row;
-}
-
-const BenchKind& kindOf(const Cells& cells, const std::string& name) {
-    for (const BenchKind& kind : kinds())
-        if (std::ranges::all_of(kind.keys, [&](const std::string& key) { return cells.contains(key); })) return kind;
-    fail("{}: holds neither results of bench convergence nor of bench speedup", name);
-}
-
-// ---- CSV ------------------------------------------------------------------------------------------------------------
-
-std::vector<std::string> split(std::string_view text, char separator) {
-    std::vector<std::string> parts;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(separator, begin), text.size());
-        parts.emplace_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return parts;
-}
-
-std::vector<Cells> cellsOfCsv(std::string_view text, const std::string& name) {
-    std::vector<std::string> lines = split(text, '\n');
-    for (std::string& line : lines)
-        if (line.ends_with('\r')) line.pop_back();
-    const std::vector<std::string> columns = split(lines.front(), ',');
-    std::vector<Cells> rows;
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-        if (lines[i].empty()) continue;
-        const std::vector<std::string> values = split(lines[i], ',');
-        if (values.size() != columns.size())
-            fail("{}: line {} has {} values instead of {}", name, i + 1, values.size(), columns.size());
-        Cells& cells = rows.emplace_back();
-        for (std::size_t c = 0; c < columns.size(); ++c) cells[columns[c]] = values[c];
-    }
-    return rows;
-}
-
-// ---- JSON -----------------------------------------------------------------------------------------------------------
-
-std::string textOf(const json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
-// Names that are nested in JSON have one of their own in CSV.
-void addNested(Cells& cells, const std::string& name, const json& value) {
-    static const std::map<std::string, std::string> endings = {{"fromFullDetail", "Full"},
-                                                               {"fromReference", "Reference"}};
-    for (const auto& [part, inner] : value.items()) {
-        if (name == "milliseconds")
-            cells[part == "median" ? name : part] = textOf(inner);
-        else if (name == "bias" && part == "flip")
-            cells["biasFlip"] = textOf(inner);
-        else if (endings.contains(name))
-            cells[part + endings.at(name)] = textOf(inner);
-    }
-}
-
-std::vector<Cells> cellsOfJson(const json& document, const std::string& name) {
-    if (!document.is_object() || !document.contains("rows") || !document["rows"].is_array())
-        fail("{}: holds no rows of a bench", name);
-    std::vector<Cells> rows;
-    for (const json& row : document["rows"]) {
-        if (!row.is_object()) fail("{}: holds a row that is none", name);
-        Cells& cells = rows.emplace_back();
-        for (const auto& [key, value] : row.items()) {
-            if (value.is_object())
-                addNested(cells, key, value);
-            else
-                cells[key] = textOf(value);
+// What two files say that must be alike, and don't: a sentence each. Leaves in `comparable` what can be compared still.
+std::vector<std::string> unlikeSubjects(const BenchResults& before, const BenchResults& after, Comparable& comparable) {
+    std::vector<std::string> sentences;
+    for (const auto& [name, text] : before.subject) {
+        const auto other = after.subject.find(name);
+        if (other == after.subject.end() || other->second == text) continue;
+        std::string left = "neither times nor errors can be compared";
+        if (name == "machine") {
+            left = "times can't be compared";
+            comparable.times = false;
+        } else if (name == "reference") {
+            left = "errors from it can't be compared";
+            comparable.errorsFromReference = false;
+        } else {
+            comparable = {false, false, false};
         }
+        sentences.push_back(fmt::format("another {}: {} in old, {} in new: {}", name, text, other->second, left));
     }
-    return rows;
+    return sentences;
 }
 
-std::string measuredOn(const json& document) {
-    std::string text;
-    for (const char* key : {"program", "commit", "scene", "width", "height", "device", "driver"})
-        if (document.contains(key)) text += (text.empty() ? "" : ", ") + textOf(document[key]);
-    return text;
+bool isFromReference(const std::string& column) {
+    return !column.starts_with("bias") && !column.ends_with("Full");
 }
 
-// ---- differences ----------------------------------------------------------------------------------------------------
+// ---- times ----------------------------------------------------------------------------------------------------------
+
+double ratioOf(double after, double before) {
+    return before > 0 ? after / before : std::numeric_limits<double>::infinity();
+}
+
+// Empty where there can be a verdict.
+std::string whyNoVerdict(const BenchRow& before, const BenchRow& after, const Comparable& comparable) {
+    if (!comparable.times) return "not comparable";
+    const int runs = std::min(before.runs, after.runs);
+    if (runs == 0) return "runs not said";
+    if (runs == 1) return "one run";
+    return runs < leastRuns ? fmt::format("{} runs", runs) : "";
+}
+
+TimeDifference timeDifference(const BenchRow& before, const BenchRow& after, const Comparable& comparable) {
+    TimeDifference time;
+    time.before = *before.milliseconds;
+    time.after = *after.milliseconds;
+    time.ratio = ratioOf(time.after.median, time.before.median);
+    time.leastRatio = ratioOf(time.after.low, time.before.high);
+    time.mostRatio = ratioOf(time.after.high, time.before.low);
+    time.unknownBecause = whyNoVerdict(before, after, comparable);
+    if (!time.unknownBecause.empty())
+        time.change = TimeChange::unknown;
+    else if (time.after.high < time.before.low)
+        time.change = TimeChange::faster;
+    else if (time.after.low > time.before.high)
+        time.change = TimeChange::slower;
+    return time;
+}
+
+// ---- errors ---------------------------------------------------------------------------------------------------------
+
+// 0 for no error at all.
+double distanceOf(const std::string& column, double value) {
+    if (column.starts_with("psnr")) return std::pow(10, -value / 20);
+    return column.starts_with("ssim") ? 1 - value : value;
+}
+
+ErrorDifference errorDifference(const std::string& column, const BenchRow& before, const BenchRow& after,
+                                const Comparable& comparable) {
+    ErrorDifference error{before.errors.at(column), after.errors.at(column)};
+    const bool otherReference = !comparable.errorsFromReference || before.referenceSamples != after.referenceSamples;
+    if (!comparable.errors || (otherReference && isFromReference(column))) {
+        error.change = ErrorChange::unknown;
+        return error;
+    }
+    const double old = distanceOf(column, error.before);
+    const double now = distanceOf(column, error.after);
+    const double rounding = column.starts_with("ssim") ? ssimRounding : 0;
+    if (std::abs(now - old) > errorTolerance * std::max(now, old) + rounding)
+        error.change = now < old ? ErrorChange::closer : ErrorChange::farther;
+    error.beyondLimit = after.limit && error.after > *after.limit && error.before <= *after.limit;
+    return error;
+}
+
+// ---- rows -----------------------------------------------------------------------------------------------------------
 
 const BenchRow* find(const BenchResults& results, const std::string& key) {
     const auto found = std::ranges::find(results.rows, key, &BenchRow::key);
     return found == results.rows.end() ? nullptr : &*found;
 }
 
-double ratioOf(double after, double before) {
-    return before > 0 ? after / before : std::numeric_limits<double>::infinity();
-}
-
-RowDifference differenceOf(const BenchRow& before, const BenchRow& after) {
+RowDifference differenceOf(const BenchRow& before, const BenchRow& after, const Comparable& comparable) {
     RowDifference row;
     row.key = before.key;
-    row.before = before.milliseconds;
-    row.after = after.milliseconds;
-    row.ratio = ratioOf(row.after.median, row.before.median);
-    row.leastRatio = ratioOf(row.after.low, row.before.high);
-    row.mostRatio = ratioOf(row.after.high, row.before.low);
-    if (row.after.high < row.before.low) row.change = TimeChange::faster;
-    if (row.after.low > row.before.high) row.change = TimeChange::slower;
-    for (const auto& [column, error] : after.errors)
-        if (const auto old = before.errors.find(column); old != before.errors.end())
-            row.errors[column] = error - old->second;
+    if (before.milliseconds && after.milliseconds) row.time = timeDifference(before, after, comparable);
+    for (const auto& [column, value] : after.errors)
+        if (before.errors.contains(column)) row.errors[column] = errorDifference(column, before, after, comparable);
     return row;
 }
 
+// ---- for people -----------------------------------------------------------------------------------------------------
+
+std::string timeText(const TimeDifference& time) {
+    constexpr std::array words = {"within noise", "faster", "slower", "unknown"};
+    std::string verdict = words[static_cast<std::size_t>(time.change)];
+    if (time.change == TimeChange::unknown) verdict += ": " + time.unknownBecause;
+    return fmt::format("{:>10.1f} {:>10.1f} {:>6.3f} {:>15} {:<22}", time.before.median, time.after.median, time.ratio,
+                       fmt::format("{:.3f} to {:.3f}", time.leastRatio, time.mostRatio), verdict);
+}
+
+std::string errorText(const std::string& column, const ErrorDifference& error) {
+    constexpr std::array words = {"", " closer", " farther", ""};
+    return fmt::format("  {} {:.4g} to {:.4g}{}{}", column, error.before, error.after,
+                       words[static_cast<std::size_t>(error.change)], error.beyondLimit ? ", BEYOND ITS LIMIT" : "");
+}
+
+// Errors that haven't changed are not spelt out.
 std::string rowText(const RowDifference& row, std::size_t keyWidth) {
-    constexpr std::array words = {"within noise", "faster", "slower"};
+    std::string text = fmt::format("{:<{}}", row.key, keyWidth);
+    if (row.time) text += ' ' + timeText(*row.time);
+    std::string errors;
+    for (const auto& [column, error] : row.errors)
+        if (error.change != ErrorChange::none || error.beyondLimit) errors += errorText(column, error);
+    text += errors.empty() && !row.errors.empty() ? "  alike" : errors;
+    return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
+}
+
+std::string timeCounts(const BenchDifference& difference) {
+    std::array<int, 4> counts{};
+    for (const RowDifference& row : difference.rows)
+        if (row.time) ++counts[static_cast<std::size_t>(row.time->change)];
+    return fmt::format(
+        "{} rows: {} faster, {} slower, {} within noise, {} unknown (within noise: spreads of 10-90 % that touch; a "
+        "verdict takes {} runs)\n",
+        difference.rows.size(), counts[1], counts[2], counts[0], counts[3], leastRuns);
+}
+
+std::string errorCounts(const BenchDifference& difference) {
+    std::array<int, 4> counts{};
+    int beyond = 0;
+    for (const RowDifference& row : difference.rows)
+        for (const auto& [column, error] : row.errors) {
+            ++counts[static_cast<std::size_t>(error.change)];
+            beyond += error.beyondLimit ? 1 : 0;
+        }
     std::string text =
-        fmt::format("{:<{}} {:>10.1f} {:>10.1f} {:>6.3f} {:>15} {:<12}", row.key, keyWidth, row.before.median,
-                    row.after.median, row.ratio, fmt::format("{:.3f} to {:.3f}", row.leastRatio, row.mostRatio),
-                    words[static_cast<std::size_t>(row.change)]);
-    for (const auto& [column, difference] : row.errors) text += fmt::format("  {} {:+.4g}", column, difference);
-    return text + '\n';
+        fmt::format("errors: {} closer, {} farther, {} alike, {} not comparable (alike: within {:g} %)\n", counts[1],
+                    counts[2], counts[0], counts[3], 100 * errorTolerance);
+    return beyond > 0 ? text + fmt::format("{} errors are beyond their limits now\n", beyond) : text;
+}
+
+// What each file was measured on. A CSV file doesn't say.
+std::string subjectText(const char* which, const BenchResults& results) {
+    return fmt::format("{}: {}\n", which,
+                       results.measuredOn.empty()
+                           ? "doesn't say scene, size, lens and machine (its JSON does); taken to be those of the other"
+                           : results.measuredOn);
 }
 
 }  // namespace
-
-BenchResults parseBenchResults(std::string_view text, const std::string& name) {
-    const std::size_t start = text.find_first_not_of(" \t\r\n");
-    const bool isJson = start != std::string_view::npos && text[start] == '{';
-    const json document = isJson ? json::parse(text, nullptr, false) : json();
-    if (document.is_discarded()) fail("{}: is no whole JSON file", name);
-
-    BenchResults results;
-    const std::vector<Cells> rows = isJson ? cellsOfJson(document, name) : cellsOfCsv(text, name);
-    if (rows.empty()) fail("{}: holds no results", name);
-    const BenchKind& kind = kindOf(rows.front(), name);
-    results.bench = kind.name;
-    if (isJson) results.measuredOn = measuredOn(document);
-    for (const Cells& cells : rows) {
-        if (&kindOf(cells, name) != &kind) fail("{}: holds rows of different benches", name);
-        results.rows.push_back(rowOf(cells, kind, name));
-    }
-    return results;
-}
 
 BenchDifference diffBenches(const BenchResults& before, const BenchResults& after) {
     if (before.bench != after.bench)
         fail("bench {} and bench {}: only results of one bench can be compared", before.bench, after.bench);
     BenchDifference difference;
+    Comparable comparable;
+    difference.unlike = unlikeSubjects(before, after, comparable);
     for (const BenchRow& row : before.rows) {
         if (const BenchRow* other = find(after, row.key))
-            difference.rows.push_back(differenceOf(row, *other));
+            difference.rows.push_back(differenceOf(row, *other, comparable));
         else
             difference.onlyBefore.push_back(row.key);
     }
@@ -215,24 +201,25 @@ BenchDifference diffBenches(const BenchResults& before, const BenchResults& afte
 
 std::string benchDifferenceTable(const BenchResults& before, const BenchResults& after) {
     const BenchDifference difference = diffBenches(before, after);
-    std::string text;
-    if (!before.measuredOn.empty()) text += "old: " + before.measuredOn + '\n';
-    if (!after.measuredOn.empty()) text += "new: " + after.measuredOn + '\n';
+    std::string text = subjectText("old", before) + subjectText("new", after);
+    for (const std::string& sentence : difference.unlike) text += sentence + '\n';
 
     std::size_t width = 4;
     for (const RowDifference& row : difference.rows) width = std::max(width, row.key.size());
-    text += fmt::format("{:<{}} {:>10} {:>10} {:>6} {:>15} {:<12}  errors, new minus old\n", "row", width, "old ms",
-                        "new ms", "ratio", "10-90 %", "time");
+    const bool timed =
+        std::ranges::any_of(difference.rows, [](const RowDifference& row) { return row.time.has_value(); });
+    text += fmt::format("{:<{}}", "row", width);
+    if (timed)
+        text += fmt::format(" {:>10} {:>10} {:>6} {:>15} {:<22}", "old ms", "new ms", "ratio", "10-90 %", "time");
+    text += "  errors\n";
     for (const RowDifference& row : difference.rows) text += rowText(row, width);
     for (const std::string& key : difference.onlyBefore) text += "only in old: " + key + '\n';
     for (const std::string& key : difference.onlyAfter) text += "only in new: " + key + '\n';
 
-    const auto count = [&](TimeChange change) {
-        return std::ranges::count(difference.rows, change, &RowDifference::change);
-    };
-    return text + fmt::format("{} rows: {} faster, {} slower, {} within noise (spreads of 10-90 % that touch)\n",
-                              difference.rows.size(), count(TimeChange::faster), count(TimeChange::slower),
-                              count(TimeChange::none));
+    if (timed) text += timeCounts(difference);
+    const bool hasErrors =
+        std::ranges::any_of(difference.rows, [](const RowDifference& row) { return !row.errors.empty(); });
+    return hasErrors ? text + errorCounts(difference) : text;
 }
 
 }  // namespace defocus
