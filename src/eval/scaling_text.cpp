@@ -66,20 +66,23 @@ ordered_json lawJson(const std::optional<PowerLaw>& law) {
 }
 
 ordered_json rowJson(const ScalingRow& row) {
-    return {{"axis", scalingAxisName(row.axis)},
-            {"value", row.value},
-            {"lod", lodModeName(row.mode)},
-            {"samples", row.samples},
-            {"width", row.width},
-            {"height", row.height},
-            {"milliseconds", spreadJson(row.milliseconds)},
-            {"layersMilliseconds", spreadJson(row.layers)},
-            {"verticesMilliseconds", spreadJson(row.vertices)},
-            {"fillMilliseconds", spreadJson(row.fill)},
-            {"largestPart", largestText(row)},
-            {"triangles", row.triangles},
-            {"gpuBytes", row.gpuBytes},
-            {"pyramidBytes", row.pyramidBytes}};
+    return {
+        {"axis", scalingAxisName(row.axis)},
+        {"value", row.value},
+        {"lod", lodModeName(row.mode)},
+        {"samples", row.samples},
+        {"width", row.width},
+        {"height", row.height},
+        {"milliseconds", spreadJson(row.milliseconds)},
+        {"layersMilliseconds", row.layers.median},
+        {"verticesMilliseconds", row.vertices.median},
+        {"fillMilliseconds", row.fill.median},
+        {"partSpreads",
+         {{"layers", spreadJson(row.layers)}, {"vertices", spreadJson(row.vertices)}, {"fill", spreadJson(row.fill)}}},
+        {"largestPart", largestText(row)},
+        {"triangles", row.triangles},
+        {"gpuBytes", row.gpuBytes},
+        {"pyramidBytes", row.pyramidBytes}};
 }
 
 ordered_json curveJson(std::span<const ScalingRow> curve) {
