@@ -231,6 +231,31 @@ TEST_F(Convergence, methodsThatCanOnlyShowAnotherImageAreLeftOut) {
     EXPECT_EQ(namesLeftOut(), "unshaded ");
 }
 
+// Spheres that move by a fifth of a metre while the shutter is open.
+TEST_F(Convergence, methodsDrawMotionIfTheySaySo) {
+    Pose moved = small_->world.pose;
+    for (Object& object : moved.objects) object.worldFromObject[3].x += 0.2;
+    const std::vector<Pose> moving = {small_->world.pose, moved};
+    RenderSettings settings;
+    settings.sampleCount = 8;
+    settings.lod = LodMode::off;
+    settings.keepAll = true;
+    for (const char* name : {"accumulation", "scheuermann", "circular"}) {
+        const MethodUse use = parseMethodUse(name);
+        RendererOptions own;
+        own.settings = use.settings;
+        const auto imageOf = [&](const std::vector<Pose>& poses) {
+            small_->world.shutter.poses = poses;
+            const auto renderer = use.method->make(small_->world, own);
+            renderer->start(planFrame(small_->world, small_->view, settings));
+            while (renderer->advance()) {
+            }
+            return renderer->image().pixels;
+        };
+        EXPECT_EQ(imageOf(moving) != imageOf({}), use.method->drawsMotion) << name;
+    }
+}
+
 TEST_F(Convergence, cropsLieInTheImageAndApart) {
     const std::vector<Crop> crops = tellingCrops(small_->world, small_->view, reference_, 4, {});
     ASSERT_EQ(crops.size(), 2u);

@@ -399,6 +399,8 @@ TEST(EmbreeMethods, AreInTheTableOnceRegistered) {
         FramePlan plan = planOf(view, 2);
         plan.samples.resize(2);
         EXPECT_FALSE(methodNamed(name).needsGl);
+        EXPECT_FALSE(methodNamed(name).shadesAsLit);
+        EXPECT_FALSE(methodNamed(name).drawsMotion);
         EXPECT_EQ(*renderedImage(*methodNamed(name).make(world, {}), plan).at(4, 4), 1) << name;
         EXPECT_EQ(std::count_if(methods().begin(), methods().end(), [&](const Method& m) { return m.name == name; }),
                   1);
