@@ -132,7 +132,8 @@ std::string poppingLine(const PoppingRow& row) {
 
 std::string sampleStepLine(const SampleStep& step) {
     return fmt::format(
-        "{} samples, {} between levels {} and {}: one sample's step is {:.4f} of the whole level's ({:.2f}/N); expected "
+        "{} samples, {} between levels {} and {}: one sample's step is {:.4f} of the whole level's ({:.2f}/N); "
+        "expected "
         "{} = {:.4f} for a blur c of {:.1f} px and an edge error w of {:.2f} px\n",
         step.samples, step.object, step.level, step.level + 1, step.measured, step.measured * step.samples,
         step.coc > step.edgeError ? "sqrt(c/w)/N" : "1/N", step.expected, step.coc, step.edgeError);
