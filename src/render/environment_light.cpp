@@ -3,6 +3,7 @@
 #include "render/environment_light.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 
 namespace defocus {
@@ -52,8 +53,9 @@ std::array<glm::vec4, 9> mapCoefficients(const Image& map) {
             const float* pixel = map.at(x, y);
             const glm::dvec3 radiance =
                 map.channels >= 3 ? glm::dvec3(pixel[0], pixel[1], pixel[2]) : glm::dvec3(pixel[0]);
+            const glm::dvec3 seen = glm::mix(radiance, glm::dvec3(0), glm::isnan(radiance));
             const std::array<double, 9> basis = harmonics(direction);
-            for (std::size_t i = 0; i < 9; ++i) sums[i] += radiance * (basis[i] * solidAngle);
+            for (std::size_t i = 0; i < 9; ++i) sums[i] += seen * (basis[i] * solidAngle);
         }
     }
     std::array<glm::vec4, 9> result{};

@@ -51,7 +51,7 @@ GlTexture environmentTexture(const Image& map) {
         for (std::size_t c = 0; c < 4; ++c) {
             const auto channels = static_cast<std::size_t>(map.channels);
             const float value = c == 3 ? 1.0f : map.pixels[i * channels + (channels >= 3 ? c : 0)];
-            rgba[i * 4 + c] = std::clamp(value, 0.0f, 65504.0f);
+            rgba[i * 4 + c] = std::min(std::max(0.0f, value), 65504.0f);  // NaN becomes 0
         }
     GlTexture texture({.format = TextureFormat::rgba16f, .width = map.width, .height = map.height, .levels = levels});
     texture.upload(0, map.width, map.height, rgba.data());

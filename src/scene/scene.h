@@ -90,7 +90,7 @@ struct Environment {
     glm::vec3 zenith{0.0f};
     glm::vec3 horizon{0.0f};
     glm::vec3 nadir{0.0f};
-    std::shared_ptr<const Image> map;  // EnvironmentType::map
+    std::shared_ptr<const Image> map;  // EnvironmentType::map; NaN is black
     bool visible = true;    // false: it lights the surfaces, but behind them is nothing (alpha is their coverage)
     float lighting = 1.0f;  // scales the light it throws on surfaces (its own look stays)
 };

@@ -207,6 +207,18 @@ TEST_F(BadInput, environmentsThatAreNone) {
     expectFault(1, "quads.gltf", {"--environment", "quads.gltf"});
 }
 
+TEST_F(BadInput, environmentsWithTexelsThatAreNoNumbers) {
+    Image image(4, 2, 3);
+    *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
+    writeImage(folder() / "nan.exr", image);
+    EXPECT_EQ(run({"plan", "quads.gltf", "--environment", "nan.exr"}).exitCode, 0);  // black there
+    *image.at(1, 1) = std::numeric_limits<float>::infinity();
+    writeImage(folder() / "infinite.exr", image);
+    const Outcome outcome = run({"plan", "quads.gltf", "--environment", "infinite.exr"});
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("infinite.exr: holds infinity"), std::string::npos) << outcome.err;
+}
+
 TEST_F(BadInput, apertureImagesThatPassNoLight) {
     expectFault(1, "missing.png", {"--aperture-image", "missing.png"});
     expectFault(1, "quads.gltf", {"--aperture-image", "quads.gltf"});
