@@ -1,10 +1,12 @@
 #include "eval/board_scene.h"
 
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
-#include "image/metrics.h"
+#include "image/moments.h"
 
 namespace defocus {
 
@@ -79,14 +81,33 @@ std::vector<Board> threeBoards(const View& view, double nearest, double farthest
 }
 
 double largestError(const Image& a, const Image& b) {
-    const Difference difference = compareImages(a, b);
-    return difference.nonFinite > 0 ? std::numeric_limits<double>::infinity() : difference.maxError;
+    double largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const double difference = std::abs(static_cast<double>(a.pixels[i]) - b.pixels[i]);
+        if (!std::isfinite(difference)) return std::numeric_limits<double>::infinity();
+        largest = std::max(largest, difference);
+    }
+    return largest;
 }
 
 double blurDiameter(const View& view, double depth) {
     const double aperture = view.lens.blurScale * view.lens.focalLength / (1000 * view.lens.fStop);
     return aperture * std::abs(1 / view.lens.focusDistance - 1 / depth) * view.width * view.lens.focalLength /
            view.lens.horizontalAperture;
+}
+
+BlurredLight blurredLight(const Image& image, const View& view, const LightPlace& light) {
+    const double diameter = blurDiameter(view, light.depth);
+    const glm::dvec2 centre(0.5 * view.width + light.offset.x, 0.5 * view.height - light.offset.y);
+    const double reach = 0.5 * diameter + light.pixels + 2;
+    const glm::ivec2 first(glm::max(glm::floor(centre - reach), glm::dvec2(0)));
+    const glm::ivec2 end(glm::min(glm::ceil(centre + reach), glm::dvec2(view.width, view.height)));
+    Image around(end.x - first.x, end.y - first.y, 1);
+    for (int y = 0; y < around.height; ++y)
+        for (int x = 0; x < around.width; ++x) *around.at(x, y) = image.at(first.x + x, first.y + y)[light.channel];
+    const Moments moments = momentsOf(around);
+    return {std::abs(2 * radiusBySecondMoment(moments, 0, light.pixels) - diameter),
+            glm::distance(moments.mean + glm::dvec2(first), centre)};
 }
 
 void setBlur(View& view, double depth, double pixels) {

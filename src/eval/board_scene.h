@@ -44,11 +44,27 @@ Board squareAt(const View& view, double depth, double pixels, const glm::vec3& r
 // In front of the focus, at it and behind it: nearest and farthest depth as given, the middle one 2 m.
 std::vector<Board> threeBoards(const View& view, double nearest, double farthest);
 
-// Of any channel of any pixel, linear; infinite where one image has a value that isn't finite.
+// Of any channel of any pixel of two images of one size, linear; infinite where one image has a value that isn't
+// finite.
 double largestError(const Image& a, const Image& b);
 
 // The blur diameter in px of DESIGN's formula, c = A·|1/s − 1/z|·W / (2 tan(θx/2)), in double from the lens alone.
 double blurDiameter(const View& view, double depth);
+
+// How far a light that squareAt made is from the closed form: its disk's diameter by the second moment, and its centre.
+struct BlurredLight {
+    double diameterError = 0;  // px
+    double placeError = 0;     // px
+};
+
+// `light` is as the view's squareAt took it. By one channel of the image, which shows nothing else near the disk.
+struct LightPlace {
+    double depth = 6;      // m
+    double pixels = 3;     // wide
+    glm::dvec2 offset{0};  // px from the image's middle (right, up)
+    int channel = 0;
+};
+BlurredLight blurredLight(const Image& image, const View& view, const LightPlace& light);
 
 // Sets blurScale so that depth `depth` is blurred by `pixels`.
 void setBlur(View& view, double depth, double pixels);

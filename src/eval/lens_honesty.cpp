@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <vector>
 
 #include "eval/board_scene.h"
@@ -39,7 +40,7 @@ std::vector<Case> cases() {
     return list;
 }
 
-HonestyRow measured(const Method& method, const Case& subject) {
+HonestyRow measured(const std::string& method, const Case& subject) {
     View view = boardView(subject.width, subject.width * 2 / 3);
     view.lens.focalLength = 100;
     view.lens.fStop = subject.fStop;
@@ -48,29 +49,45 @@ HonestyRow measured(const Method& method, const Case& subject) {
     Board wall{subject.depth + 1e-4, {0, 0}, {50, 50}, glm::vec3(0)};
     BoardScene boards(view, {squareAt(view, subject.depth, square, glm::vec3(8)), wall});
     boards.settings.sampleCount = subject.samples;
-    const Moments moments = momentsOf(rendered(boards, method.name));
+    const Moments moments = momentsOf(rendered(boards, method));
     boards.view.lens.dofEnabled = false;
-    const Moments sharp = momentsOf(rendered(boards, method.name));
-    return {method.name, subject.varied, blurDiameter(view, subject.depth),
-            2 * radiusBySecondMoment(moments, 0, square), moments.energy / sharp.energy};
+    const Moments sharp = momentsOf(rendered(boards, method));
+    return {method, subject.varied, blurDiameter(view, subject.depth), 2 * radiusBySecondMoment(moments, 0, square),
+            moments.energy / sharp.energy};
 }
 
 }  // namespace
 
-void measureHonesty(const std::vector<std::string>& names, const std::function<void(const HonestyRow&)>& visit,
+bool HonestyRow::followsLens() const {
+    return std::abs(measured - expected) <= honestDiameter && std::abs(energy - 1) <= honestEnergy;
+}
+
+std::vector<std::string> honestyMethods() {
+    std::vector<std::string> list;
+    for (const Method& method : methods()) {
+        list.push_back(method.name);
+        for (const MethodSetting& setting : method.settings) {
+            const std::vector<std::string> most = {fmt::format("{:g}", setting.most)};
+            for (const std::string& choice : setting.choices.empty() ? most : setting.choices)
+                if (choice != setting.standard)
+                    list.push_back(fmt::format("{}:{}={}", method.name, setting.name, choice));
+        }
+    }
+    return list;
+}
+
+void measureHonesty(const std::vector<std::string>& methods, const std::function<void(const HonestyRow&)>& visit,
                     const Progress& progress) {
-    std::vector<const Method*> wanted;
-    for (const std::string& name : names) wanted.push_back(&methodNamed(name));
-    if (names.empty())
-        for (const Method& method : methods()) wanted.push_back(&method);
     const std::vector<Case> list = cases();
     std::uint64_t done = 0;
-    for (const Method* method : wanted)
+    for (const std::string& method : methods) {
+        const bool usesLensSamples = parseMethodUse(method).method->usesLensSamples;
         for (const Case& subject : list) {
-            report(progress, "lenses", done++, list.size() * wanted.size());
-            if (subject.aboutSamples && !method->usesLensSamples) continue;
-            visit(measured(*method, subject));
+            report(progress, "lenses", done++, list.size() * methods.size());
+            if (subject.aboutSamples && !usesLensSamples) continue;
+            visit(measured(method, subject));
         }
+    }
 }
 
 }  // namespace defocus

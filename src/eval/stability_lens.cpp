@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 
 #include "eval/board_scene.h"
 #include "eval/stability.h"
@@ -15,6 +17,7 @@ namespace defocus {
 namespace {
 
 constexpr double pixelLimit = 0.5;  // of a diameter, px
+constexpr double placeLimit = 0.1;  // px
 constexpr std::uint32_t manySamples = 1024;
 struct LensSetting {
     double fStop = 1;
@@ -47,21 +50,6 @@ double pinholeError(double fStop, double blurScale) {
     return largestError(image, rendered(boards));
 }
 
-// A wall that fills the frame and far more, blurred by more than the image is wide.
-double macroError() {
-    View view = boardView();
-    view.lens.fStop = 0.7;
-    view.lens.focusDistance = 0.06;
-    BoardScene boards(view, {{3, {0, 0}, {1e3, 1e3}, glm::vec3(0.3f, 0.6f, 0.9f)}});
-    if (blurDiameter(view, 3) < view.width) return infinite;  // not the case that was meant
-    const Image image = rendered(boards);
-    double largest = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(image.at(x, y)[c] - 0.3 * (c + 1)));
-    return largest;
-}
-
 double farFocusError() {
     View view = boardView();
     view.lens.focusDistance = 1e9;
@@ -71,16 +59,47 @@ double farFocusError() {
     return largestError(image, rendered(boards));
 }
 
-// The centre of a square that lies `offset` px from the image's middle, for a field of view in degrees.
-double projectionError(double fieldOfView) {
+// A light near the image's corner, blurred, for a field of view in degrees.
+BlurredLight lightInField(double fieldOfView) {
     View view = boardView(192, 128);
     view.lens.focalLength = view.lens.horizontalAperture / (2 * std::tan(fieldOfView * std::acos(-1.0) / 360));
-    view.lens.dofEnabled = false;
-    const glm::dvec2 offset(70.3, -41.7);
-    BoardScene boards(view, {squareAt(view, 5, 7, glm::vec3(1), offset)});
-    boards.settings.sampleCount = 256;
-    const Moments moments = momentsOf(rendered(boards));
-    return std::hypot(moments.mean.x - (96 + offset.x), moments.mean.y - (64 - offset.y));
+    setBlur(view, 5, 20);
+    const glm::dvec2 place(70.3, -41.7);
+    BoardScene boards(view, {squareAt(view, 5, 3, glm::vec3(8), place)});
+    boards.settings.sampleCount = manySamples;
+    return blurredLight(rendered(boards), view, {.depth = 5, .offset = place});
+}
+
+// Lights in the image's corners, along its edges and in its middle: the largest error of any.
+BlurredLight lightsInLargeImage(int width, int height) {
+    View view = boardView(width, height);
+    setBlur(view, 6, 10);
+    const glm::dvec2 outermost(0.5 * width - 8.3, 0.5 * height - 8.7);  // px; the disks just fit in
+    std::vector<Board> lights;
+    std::vector<glm::dvec2> places;
+    for (const double up : {-1.0, 0.0, 1.0})
+        for (const double right : {-1.0, 0.0, 1.0}) {
+            places.push_back(outermost * glm::dvec2(right, up));
+            lights.push_back(squareAt(view, 6, 3, glm::vec3(8), places.back()));
+        }
+    BoardScene boards(view, lights);
+    boards.settings.sampleCount = 64;
+    const Image image = rendered(boards);
+    BlurredLight largest;
+    for (const glm::dvec2& place : places) {
+        const BlurredLight light = blurredLight(image, view, {.depth = 6, .offset = place});
+        largest.diameterError = std::max(largest.diameterError, light.diameterError);
+        largest.placeError = std::max(largest.placeError, light.placeError);
+    }
+    return largest;
+}
+
+// What two rows share.
+std::function<BlurredLight()> measuredOnce(const std::function<BlurredLight()>& light) {
+    return [light, known = std::make_shared<std::optional<BlurredLight>>()] {
+        if (!*known) *known = light();
+        return **known;
+    };
 }
 
 }  // namespace
@@ -107,10 +126,18 @@ void addLensCases(std::vector<StabilityCase>& cases) {
     addDiameter("focus at 1,000 km", {.fStop = 0.7, .focusDistance = 1e6, .depth = 1});
     addDiameter("focus at infinity", {.fStop = 0.7, .focusDistance = infinite, .depth = 1});
     add("focus at 1e9 m", "largest difference", "focus at infinity", 2e-3, farFocusError);
-    add("macro: blur wider than the image", "largest error", "the wall's radiance", 1e-3, macroError);
-    add("field of view 1 degree", "place, px", "closed form", 0.1, [] { return projectionError(1); });
-    add("field of view 170 degrees", "place, px", "closed form", 0.1, [] { return projectionError(170); });
-    addDiameter("image 8,192 px wide", {.fStop = 16, .width = 8192});
+    using Light = std::pair<const char*, std::function<BlurredLight()>>;
+    std::vector<Light> lights = {
+        {"field of view 1 degree", [] { return lightInField(1); }},
+        {"field of view 170 degrees", [] { return lightInField(170); }},
+        {"9 lights all over 8,192 × 512 px", [] { return lightsInLargeImage(8192, 512); }},
+        {"9 lights all over 512 × 8,192 px", [] { return lightsInLargeImage(512, 8192); }},
+    };
+    for (auto& [name, light] : lights) light = measuredOnce(light);
+    for (const auto& [name, light] : lights)
+        add(name, "disk diameter, px", "closed form", pixelLimit, [light = light] { return light().diameterError; });
+    for (const auto& [name, light] : lights)
+        add(name, "place, px", "closed form", placeLimit, [light = light] { return light().placeError; });
 }
 
 }  // namespace defocus

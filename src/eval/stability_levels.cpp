@@ -1,4 +1,4 @@
-// Levels of detail: λ at whole numbers, and meshes that simplifiers stumble over.
+// Meshes that simplifiers stumble over.
 
 #include <fmt/format.h>
 
@@ -8,27 +8,11 @@
 #include <limits>
 
 #include "eval/stability.h"
-#include "lod/level_selection.h"
 #include "lod/pyramid.h"
 
 namespace defocus {
 
 namespace {
-
-// Samples drawn at another level when λ passes the whole number `level` by ±1e-6.
-double splitError(double level, std::uint32_t samples) {
-    const auto levelsOf = [&](double lambda) {
-        const SampleSplit split = splitSamples(lambda, samples, LodMode::fractional);
-        std::vector<std::uint32_t> levels(samples, split.level);
-        std::fill_n(levels.begin(), split.coarseCount, split.level + 1);
-        return levels;
-    };
-    const std::vector<std::uint32_t> below = levelsOf(level - 1e-6);
-    const std::vector<std::uint32_t> above = levelsOf(level + 1e-6);
-    double moved = 0;
-    for (std::uint32_t i = 0; i < samples; ++i) moved += below[i] != above[i] ? 1 : 0;
-    return moved;
-}
 
 // A grid of cells × cells over the square [0, width] × [0, height], plus triangles that are none or hardly any.
 Mesh gridMesh(int cells, float width, float height) {
@@ -87,10 +71,6 @@ void addLevelCases(std::vector<StabilityCase>& cases) {
                          std::function<double()> error) {
         cases.push_back({"levels", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
     };
-    for (const double level : {1.0, 2.0, 5.0})
-        for (const std::uint32_t samples : {1u, 7u, 64u, 4096u})
-            add(fmt::format("level {:g} by ±1e-6, {} samples", level, samples), "samples that change level",
-                "at most one", 1, [level, samples] { return splitError(level, samples); });
     add("flat grid", "area or height, relative", "the plane", 1e-5, [] { return flatError(gridMesh(64, 1, 1), 1, 1); });
     add("flat grid of 1e6 m", "area or height, relative", "the plane", 1e-5,
         [] { return flatError(gridMesh(64, 1e6f, 1e6f), 1e12, 1e6); });

@@ -1,10 +1,9 @@
-// Scenes at the limits of space: scales, distances, depth ratios, the camera plane, and values that are no numbers.
+// Scenes at the limits of space: scales, distances, depth ratios and the camera plane.
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <limits>
 
 #include "eval/board_scene.h"
 #include "eval/stability.h"
@@ -55,7 +54,7 @@ double cameraPlaneError() {
     return largestError(floorFrom(-25), floorFrom(view.nearPlane));
 }
 
-// Boards at 0.02 m and at 2,000 km, and one just before the far one: each hides what lies behind it.
+// Boards at 0.02 m and at 2,000 km, and one just before the far one, all sharp: each hides what lies behind it.
 double depthRatioError() {
     View view = boardView();
     view.lens.dofEnabled = false;
@@ -75,25 +74,19 @@ double depthRatioError() {
     return largest;
 }
 
-// A material without a value on a small board: pixels beyond its blur that differ from the scene without it.
-double notANumberError() {
-    View view = boardView();
-    setBlur(view, 5, 12);
-    const double reach = 6 + 4 + 1;  // px: the disk, half the board, the pixel filter
-    const std::vector<Board> list = {squareAt(view, 5, 8, glm::vec3(std::numeric_limits<float>::quiet_NaN())),
-                                     squareAt(view, 7, 400, {0.3f, 0.5f, 0.7f})};
-    BoardScene spoiled(view, list);
-    BoardScene whole(view, {list[1]});
-    const Image image = rendered(spoiled);
-    const Image truth = rendered(whole);
-    double wrong = 0;
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x) {
-            const bool inside = std::abs(x + 0.5 - 48) < reach && std::abs(y + 0.5 - 32) < reach;
-            const bool finite = std::isfinite(image.at(x, y)[0]);
-            if (!finite || (!inside && image.at(x, y)[0] != truth.at(x, y)[0])) wrong += 1;
-        }
-    return wrong;
+// A light at 0.02 m and one at 2,000 km, both blurred: red alone shows the one, blue alone the other.
+BlurredLight lightAt(double depth) {
+    View view = boardView(192, 128);
+    view.lens.focusDistance = 0.035;
+    setBlur(view, 2e6, 24);
+    const glm::dvec2 nearPlace(-50.3, 30.7);
+    const glm::dvec2 farPlace(45.3, -20.7);
+    BoardScene boards(view,
+                      {squareAt(view, 0.02, 3, {8, 0, 0}, nearPlace), squareAt(view, 2e6, 3, {0, 0, 8}, farPlace)});
+    boards.settings.sampleCount = 1024;
+    const bool near = depth < 1;
+    const LightPlace light{.depth = depth, .offset = near ? nearPlace : farPlace, .channel = near ? 0 : 2};
+    return blurredLight(rendered(boards), view, light);
 }
 
 }  // namespace
@@ -112,7 +105,12 @@ void addSpaceCases(std::vector<StabilityCase>& cases) {
     add("a floor through the camera plane (w to 0)", "largest difference", "cut at the near plane", 2e-3,
         cameraPlaneError);
     add("depths of 0.02 m, 1,990 km and 2,000 km", "largest error", "the nearest board", 1e-3, depthRatioError);
-    add("a material that is no number", "pixels spoiled outside its disk", "the scene without it", 0, notANumberError);
+    for (const double depth : {0.02, 2e6})
+        add(fmt::format("depths of 0.02 m and 2,000 km: the light at {:g} m", depth), "disk diameter, px",
+            "closed form", 0.5, [depth] { return lightAt(depth).diameterError; });
+    for (const double depth : {0.02, 2e6})
+        add(fmt::format("depths of 0.02 m and 2,000 km: the light at {:g} m", depth), "place, px", "closed form", 0.1,
+            [depth] { return lightAt(depth).placeError; });
 }
 
 }  // namespace defocus

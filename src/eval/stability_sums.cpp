@@ -106,7 +106,7 @@ void addSumCases(std::vector<StabilityCase>& cases) {
     add("radiance of 1,000,000 (above half floats)", relative, "the value", sumLimit,
         [] { return largestRelativeError(wall(glm::vec3(1e6f), 64, {}), glm::dvec3(1e6)); });
     for (const std::uint32_t wave : {1u, 7u, 64u})
-        add(fmt::format("100 samples, {} at once against 8", wave), "pixels that differ", "bit for bit", 0, [wave] {
+        add(fmt::format("100 samples, {} at once against 8", wave), "pixels that differ", "waves of 8", 0, [wave] {
             BoardScene boards(
                 boardView(),
                 {{1.2, {-0.1, 0}, {0.1, 0.1}, {0.9f, 0.2f, 0.1f}}, {5, {0, 0}, {0.7, 0.5}, {0.1f, 0.5f, 0.9f}}},
