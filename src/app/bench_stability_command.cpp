@@ -40,8 +40,9 @@ std::vector<StabilityRow> printedCases(const Progress& progress) {
 // Row by row for the methods as they are by default, all others in the summary.
 std::vector<HonestyRow> printedHonesty(const Progress& progress) {
     fmt::print(
-        "\nThe disk of a point of light against the lens: 100 mm f/1.4 focused at 2 m, light at 6 m, 36 mm, 192 px,\n"
-        "256 samples, but for what is varied. It follows the lens if it is off by at most {:g} px, its energy {:g} %.\n"
+        "\nThe disk of a point of light against the lens: 100 mm f/1.4 focused at 2 m, light at 6 m, 36 mm,\n"
+        "192 px, 256 samples, but for what is varied. It follows the lens if it is off by at most {:g} px\n"
+        "and its energy by {:g} %.\n"
         "\n{}",
         honestDiameter, 100 * honestEnergy, honestyHeader());
     std::vector<HonestyRow> rows;
@@ -54,9 +55,10 @@ std::vector<HonestyRow> printedHonesty(const Progress& progress) {
         },
         progress);
     fmt::print(
-        "\n{}\nWhat differs is the method's own: scheuermann's blur is linear in depth between three planes,\n"
-        "gathered at eight taps and at most 10 px in radius, as published, whatever the lens; circular widens\n"
-        "small disks below full resolution, by the filters of its larger pixels, and with fewer taps.\n",
+        "\n{}\nWhat differs is the method's own. scheuermann: as published, blur is linear in depth between\n"
+        "three planes and at most 10 px wide, whatever the lens; its pre-blurred small copy widens all disks,\n"
+        "with coc=thin-lens too. circular: below full resolution, larger pixels widen small disks, as do\n"
+        "fewer taps.\n",
         honestySummary(rows));
     return rows;
 }

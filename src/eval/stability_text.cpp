@@ -55,8 +55,8 @@ std::string honestyLine(const HonestyRow& row) {
 }
 
 std::string honestySummary(std::span<const HonestyRow> rows) {
-    std::string text = fmt::format("{:<34} {:>11} {:>18} {:>16}  {}\n", "method", "off by, px", "where", "energy",
-                                   "rows that follow the lens");
+    std::string text =
+        fmt::format("{:<30} {:>11} {:>15} {:>15}  {}\n", "method", "off by, px", "where", "energy", "follow the lens");
     for (std::size_t first = 0; first < rows.size();) {
         std::size_t end = first;
         while (end < rows.size() && rows[end].method == rows[first].method) ++end;
@@ -65,7 +65,7 @@ std::string honestySummary(std::span<const HonestyRow> rows) {
             use, {}, [](const HonestyRow& row) { return std::abs(row.measured - row.expected); });
         const auto [least, most] = std::ranges::minmax(use | std::views::transform(&HonestyRow::energy));
         const auto following = std::ranges::count_if(use, &HonestyRow::followsLens);
-        text += fmt::format("{:<34} {:>11.2f} {:>18} {:>16}  {} of {}\n", worst.method, worst.measured - worst.expected,
+        text += fmt::format("{:<30} {:>11.2f} {:>15} {:>15}  {} of {}\n", worst.method, worst.measured - worst.expected,
                             worst.varied, fmt::format("{:.3f} to {:.3f}", least, most), following, use.size());
         first = end;
     }
