@@ -194,14 +194,14 @@ def cache():
 
 def stability():
     results = results_of("stability")
-    cases = [case for case in results["cases"] if case["limit"] is not None]
+    cases = [case for case in results["cases"] if case["limit"] is not None and not case["leftOut"]]
     passed = "all within their limits" if all(case["passed"] for case in cases) else "NOT ALL WITHIN THEIR LIMITS"
     disks = [abs(row["measuredDiameter"] - row["expectedDiameter"]) for row in results["lensHonesty"]
              if row["method"] == "accumulation" and "samples" not in row["varied"]]
     error = {case["case"]: case["error"] for case in results["cases"]}
-    command = f"`defocus bench stability` ({table_of('stability')})"
-    return [(f"{len(cases)} stiff and extreme cases, each against a closed form, double precision or the same scene told "
-             "otherwise", passed, f"{command}; held by a test"),
+    command = f"{command_of(results)} ({table_of('stability')})"
+    return [(f"{len(cases)} stiff and extreme cases, each against a closed form, double precision, the ray tracer or the same "
+             "scene told otherwise", passed, f"{command}; held by a test"),
             ("disk of a point of light, f/0.95 to f/5.6, any focus, sensor, size: diameter off by",
              f"at most {max(disks):.2f} px (256 samples)", "same"),
             ("sum of 65,536 samples of 0.1: relative error; a plain 32-bit sum",
