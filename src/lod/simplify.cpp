@@ -28,10 +28,23 @@ constexpr double largestShare = 0.75;
 // … but leave this share of those that can still go: where many components are as small as they get, halving all would
 // be at the cost of the few large ones.
 constexpr double leastShareOfMovable = 0.25;
+// What is kept for components that can still go while others have most of the faces: so much of the share that their
+// area has in the mesh's, less where the level would otherwise lack whole components.
+constexpr double keptShare = 0.5;
+constexpr double leastKeptShare = 0.25;
+
+void setCandidate(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
+    const bool before = s.candidates[v].harmless();
+    s.candidates[v] = candidate;
+    if (s.components.empty() || candidate.harmless() == before) return;
+    Component& component = s.components[s.componentOf[v]];
+    component.harmless += before ? std::size_t{0} - 1 : 1;
+    if (component.harmless == 0) spend(s, v);
+}
 
 // What the vertex waits for, in the queue once there is one.
 void enqueue(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
-    s.candidates[v] = candidate;
+    setCandidate(s, v, candidate);
     if (!s.queued) return;
     if (candidate.possible())
         s.queue.put(v, candidate.cost, candidate.fit == Fit::bad);
@@ -99,12 +112,20 @@ void requeueAround(Simplifier& s, std::uint32_t survivor, std::uint32_t gone) {
     });
 }
 
+void loseFace(Simplifier& s, std::uint32_t v) {
+    --s.liveFaces;
+    if (s.components.empty()) return;
+    Component& component = s.components[s.componentOf[v]];
+    --component.faces;
+    if (component.spent) --s.spentFaces;
+}
+
 // Of what was judged last.
 void collapse(Simplifier& s, std::uint32_t from, std::uint32_t to) {
     const Edge edge = s.edge;
     const glm::vec3 step(s.step(from, to));
     for (const std::uint32_t side : {edge.along, edge.back})
-        if (side != Corner::none) --s.liveFaces;
+        if (side != Corner::none) loseFace(s, from);
     for (const Retarget& retarget : s.retargets) {
         Corner& corner = s.faces.corners[retarget.corner];
         AttributeQuadric& old = s.attributeQuadrics[corner.wedge];
@@ -116,7 +137,7 @@ void collapse(Simplifier& s, std::uint32_t from, std::uint32_t to) {
         corner.wedge = retarget.wedge;
     }
     s.vertices[to].quadric.add(s.vertices[from].quadric, step);
-    s.candidates[from] = Candidate();
+    setCandidate(s, from, Candidate());
     removeEdge(s, edge, from, to);
     requeueAround(s, to, from);
 }
@@ -127,10 +148,11 @@ void prefetchVertex(const Simplifier& s, std::uint32_t v) {
     prefetch(&s.vertices[v]);
 }
 
-// Collapses in order of fit and cost until `target` faces are left or nothing more is possible.
-void collapseTo(Simplifier& s, std::size_t target) {
+// Collapses in order of fit and cost until `floor` faces are left or nothing more is possible. `target` and `share`:
+// see isKept.
+void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double share) {
     bool collapsed = true;
-    while (s.liveFaces > target) {
+    while (s.liveFaces > floor) {
         if (s.queue.empty()) {
             // A collapse may become possible by one two rings away, which nobody is told of: look once more everywhere.
             if (!collapsed) return;
@@ -149,6 +171,7 @@ void collapseTo(Simplifier& s, std::size_t target) {
             enqueueBest(s, v);
             continue;
         }
+        if (isKept(s, v, candidate.fit, target, share)) continue;
         collapse(s, v, candidate.to);
         collapsed = true;
     }
@@ -208,7 +231,7 @@ bool sweepTo(Simplifier& s, std::size_t target) {
 
 // What is known of components once many are as small as they get.
 void noteComponents(const Simplifier& s, Snapshot& level) {
-    if (s.components.empty()) return;
+    if (!s.grows) return;
     level.removed = removedBalls(s);
     level.growths = growths(s);
     level.growthsOf = s.componentOf;
@@ -262,30 +285,52 @@ SimplifiedLevel described(const Origin& origin, const Snapshot& snapshot) {
     return level;
 }
 
-// Faces of whose vertices none can go: of tetrahedra, single triangles and the like.
-std::size_t stuckFaces(const Simplifier& s) {
-    std::size_t count = 0;
-    forEachLiveFace(s, [&](std::uint32_t face) {
-        const auto canGo = [&](std::uint32_t corner) {
-            return s.candidates[s.faces.corners[corner].vertex].possible();
-        };
-        if (!canGo(3 * face) && !canGo(3 * face + 1) && !canGo(3 * face + 2)) ++count;
-    });
-    return count;
+// Whether `least` is too near to so many faces for a level of its own.
+bool isJustAbove(std::size_t faces, std::size_t least) {
+    return faces > least && largestShare * static_cast<double>(faces) < static_cast<double>(least);
 }
 
 // How many faces the next level should have: half, or the least at once where half would come so near to it that no
 // level fits between.
 std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
     const std::size_t half = s.liveFaces / 2;
-    const bool nearLeast = largestShare * static_cast<double>(half) < static_cast<double>(leastTriangles);
-    return nearLeast ? leastTriangles : half;
+    return half <= leastTriangles || isJustAbove(half, leastTriangles) ? leastTriangles : half;
 }
 
-// How many collapses should leave at least.
-std::size_t collapseFloor(const Simplifier& s) {
-    const std::size_t stuck = stuckFaces(s);
-    return stuck + static_cast<std::size_t>(leastShareOfMovable * static_cast<double>(s.liveFaces - stuck));
+// How many faces collapses should leave at least, of a level that should have `target`; `share`: see isKept.
+std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
+    std::size_t stuck = 0;  // faces of whose vertices none can go: of tetrahedra, single triangles and the like
+    std::vector<std::uint8_t> movable(s.components.size(), 0);  // has others
+    forEachLiveFace(s, [&](std::uint32_t face) {
+        const Corner* const corner = &s.faces.corners[3 * std::size_t{face}];
+        const auto canGo = [&](std::size_t i) { return s.candidates[corner[i].vertex].possible(); };
+        if (!canGo(0) && !canGo(1) && !canGo(2))
+            ++stuck;
+        else if (!movable.empty())
+            movable[s.componentOf[corner[0].vertex]] = 1;
+    });
+    const auto rest = static_cast<double>(s.liveFaces - stuck);
+    double kept = leastShareOfMovable * rest;
+    if (movable.size() > 1) {
+        double area = 0;
+        for (std::size_t c = 0; c < movable.size(); ++c) area += movable[c] != 0 ? s.components[c].area : 0;
+        kept = std::max(kept, std::min(rest, share * evenShare(s, area, target)));
+    }
+    return std::max(target, stuck + static_cast<std::size_t>(kept));
+}
+
+// Collapses until `target` faces are left, or somewhat more, up to `enough`, where the rest would be at the cost of the
+// components that can still go.
+void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
+    const std::size_t floor = collapseFloor(s, target, keptShare);
+    s.queued = false;
+    if (floor >= leastFacesToSweep) sweepTo(s, floor);
+    if (s.liveFaces <= floor) return;
+    startQueue(s);
+    collapseTo(s, floor, target, keptShare);
+    if (s.liveFaces <= enough) return;
+    startQueue(s);
+    collapseTo(s, enough, target, leastKeptShare);
 }
 
 }  // namespace
@@ -302,20 +347,22 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, std::
     for (std::uint32_t v = 0; v < s.vertexCount(); ++v) enqueueCheapest(s, v);
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
         const std::size_t target = nextTarget(s, options.leastTriangles);
-        const std::size_t floor = std::max(target, collapseFloor(s));
-        const auto enough = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
-        if (target > enough || s.liveFaces == 0) break;
-        if (floor <= enough) {
-            s.queued = false;
-            if (floor >= leastFacesToSweep) sweepTo(s, floor);
-            if (s.liveFaces > floor) {
-                startQueue(s);
-                collapseTo(s, floor);
-            }
+        const auto most = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
+        if (target > most || s.liveFaces == 0) break;
+        if (s.liveFaces <= mostFacesToFollow && !isConnected(s)) findComponents(s, triangles);
+        if (collapseFloor(s, target, leastKeptShare) > most) {
+            findComponents(s, triangles);
+            s.grows = true;
+            removeComponents(s, s.liveFaces - (collapseFloor(s, target, keptShare) - target));
         }
-        if (s.liveFaces > enough || manyAreSmallest(s)) findComponents(s, triangles);
-        if (s.liveFaces > enough) removeComponents(s, target);
-        if (s.liveFaces > enough) break;
+        if (collapseFloor(s, target, leastKeptShare) <= most) collapseToLevel(s, target, most);
+        const bool tooMany = s.liveFaces > most || isJustAbove(s.liveFaces, options.leastTriangles);
+        if (tooMany || manyAreSmallest(s)) {
+            findComponents(s, triangles);
+            s.grows = true;
+        }
+        if (tooMany) removeComponents(s, target);
+        if (s.liveFaces > most) break;
         compact(s);
         const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
         tasks.add([origin = s.origin, picture, take, l = result.levelCount++] {

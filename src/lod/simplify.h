@@ -9,9 +9,10 @@
 //          other is left anywhere.
 // The cost of a collapse is the quadric error of places (Garland and Heckbert 1997), with constraints along borders,
 // seams and the rims of thin sheets, plus that of attributes (Hoppe 1999). The topology never changes (link condition):
-// a closed surface is closed at every level, and a component ends as a tetrahedron or its like. Where that is as
-// far as collapses come, whole components go, the smallest first and never the largest; one near each grows in its
-// place.
+// a closed surface is closed at every level, and a component ends as a tetrahedron or its like; one of many handles
+// ends far above that. Where most faces are of components that good and poor collapses make no smaller, the others keep
+// a part of their share by area, and no component makes bad ones below its share. Where collapses come no further,
+// whole components go, the smallest first and never the largest; one near each grows in its place.
 
 #include <cstdint>
 #include <functional>

@@ -26,23 +26,32 @@ std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t v) {
     return v;
 }
 
-// Which vertices hang together, by faces, collapses or an equal position.
-std::vector<std::uint32_t> joinedVertices(const Simplifier& s) {
+void join(std::vector<std::uint32_t>& parents, std::uint32_t a, std::uint32_t b) {
+    parents[rootOf(parents, a)] = rootOf(parents, b);
+}
+
+// Which vertices hang together by faces: a forest.
+std::vector<std::uint32_t> joinedByFaces(const Simplifier& s) {
     std::vector<std::uint32_t> parents(s.vertexCount());
     std::iota(parents.begin(), parents.end(), 0u);
-    const auto join = [&](std::uint32_t a, std::uint32_t b) { parents[rootOf(parents, a)] = rootOf(parents, b); };
     forEachLiveFace(s, [&](std::uint32_t face) {
-        join(s.faces.corners[3 * face].vertex, s.faces.corners[3 * face + 1].vertex);
-        join(s.faces.corners[3 * face].vertex, s.faces.corners[3 * face + 2].vertex);
+        join(parents, s.faces.corners[3 * face].vertex, s.faces.corners[3 * face + 1].vertex);
+        join(parents, s.faces.corners[3 * face].vertex, s.faces.corners[3 * face + 2].vertex);
     });
-    for (std::uint32_t v = 0; v < parents.size(); ++v) join(v, s.survivors[v]);
+    return parents;
+}
+
+// Which vertices hang together, by faces, collapses or an equal position: the root of each.
+std::vector<std::uint32_t> joinedVertices(const Simplifier& s) {
+    std::vector<std::uint32_t> parents = joinedByFaces(s);
+    for (std::uint32_t v = 0; v < parents.size(); ++v) join(parents, v, s.survivors[v]);
     // Cuts of the manifold leave several vertices at one position.
     const std::vector<std::uint32_t>& places = s.origin->places;
     std::vector<std::uint32_t> seen(places.empty() ? 0 : 1 + *std::max_element(places.begin(), places.end()),
                                     noComponent);  // a vertex that was at each position
     for (std::size_t v = 0; v < places.size(); ++v) {
         if (seen[places[v]] == noComponent) seen[places[v]] = s.current[v];
-        join(s.current[v], seen[places[v]]);
+        join(parents, s.current[v], seen[places[v]]);
     }
     for (std::uint32_t v = 0; v < parents.size(); ++v) parents[v] = rootOf(parents, v);
     return parents;
@@ -76,6 +85,17 @@ void measureComponents(Simplifier& s, const LevelTriangles& triangles) {
     for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3)
         if (const std::uint32_t c = componentAt(triangles.indices[i]); c != noComponent)
             s.components[c].area += areaOf(vertices, &triangles.indices[i]);
+    for (const Component& component : s.components) s.area += component.area;
+}
+
+// What lives of them.
+void countComponents(Simplifier& s) {
+    forEachLiveFace(s,
+                    [&](std::uint32_t face) { ++s.components[s.componentOf[s.faces.corners[3 * face].vertex]].faces; });
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
+        if (s.isAlive(v) && s.candidates[v].harmless()) ++s.components[s.componentOf[v]].harmless;
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
+        if (s.isAlive(v) && s.components[s.componentOf[v]].harmless == 0) spend(s, v);
 }
 
 // Spreads equal sizes over the mesh, whatever order they come in.
@@ -146,10 +166,28 @@ void removeComponent(Simplifier& s, const Removable& removable) {
         s.faces.corners[3 * face].vertex = Corner::none;
     }
     s.liveFaces -= removable.faces.size();
-    s.components[removable.component].removed = true;
+    Component& component = s.components[removable.component];
+    if (component.spent) {
+        s.spentFaces -= component.faces;
+        s.spentArea -= component.area;
+    }
+    component.faces = 0;
+    component.removed = true;
 }
 
 }  // namespace
+
+bool isConnected(const Simplifier& s) {
+    std::vector<std::uint32_t> parents = joinedByFaces(s);
+    std::uint32_t first = noComponent;
+    bool connected = true;
+    forEachLiveFace(s, [&](std::uint32_t face) {
+        const std::uint32_t root = rootOf(parents, s.faces.corners[3 * face].vertex);
+        if (first == noComponent) first = root;
+        connected = connected && root == first;
+    });
+    return connected;
+}
 
 bool manyAreSmallest(const Simplifier& s) {
     std::size_t count = 0;
@@ -170,6 +208,28 @@ void findComponents(Simplifier& s, const LevelTriangles& triangles) {
     s.componentOf.reserve(roots.size());
     for (const std::uint32_t root : roots) s.componentOf.push_back(numbers[root]);
     measureComponents(s, triangles);
+    countComponents(s);
+}
+
+void spend(Simplifier& s, std::uint32_t v) {
+    Component& component = s.components[s.componentOf[v]];
+    if (component.spent) return;
+    component.spent = true;
+    s.spentFaces += component.faces;
+    s.spentArea += component.area;
+}
+
+double evenShare(const Simplifier& s, double area, std::size_t faces) {
+    return area / s.area * static_cast<double>(faces);
+}
+
+bool isKept(const Simplifier& s, std::uint32_t v, Fit fit, std::size_t target, double share) {
+    if (s.components.empty()) return false;
+    const Component& component = s.components[s.componentOf[v]];
+    if (fit == Fit::bad) return static_cast<double>(component.faces) <= evenShare(s, component.area, target);
+    if (component.spent || 2 * s.spentFaces <= target) return false;
+    const auto rest = static_cast<double>(s.liveFaces - s.spentFaces);
+    return rest <= share * evenShare(s, s.area - s.spentArea, target);
 }
 
 void removeComponents(Simplifier& s, std::size_t target) {
@@ -201,6 +261,7 @@ void removeComponents(Simplifier& s, std::size_t target) {
                 });
                 if (heir == noComponent) continue;
                 s.components[heir].area += gone.area;
+                if (s.components[heir].spent) s.spentArea += gone.area;
                 s.components[heir].standsIn = true;
                 stays[heir] = 1;
             }
@@ -218,13 +279,11 @@ std::vector<Ball> removedBalls(const Simplifier& s) {
 }
 
 std::vector<Growth> growths(const Simplifier& s) {
-    std::vector<std::uint32_t> faces(s.components.size(), 0);
-    forEachLiveFace(s, [&](std::uint32_t face) { ++faces[s.componentOf[s.faces.corners[3 * face].vertex]]; });
     const CentreTree tree(s.components);
     std::vector<Growth> result(s.components.size());
     for (std::uint32_t c = 0; c < result.size(); ++c) {
         const Component& own = s.components[c];
-        if (own.removed || !(own.standsIn || faces[c] <= fewestFaces) || !(own.ball.radius > 0)) continue;
+        if (own.removed || !(own.standsIn || own.faces <= fewestFaces) || !(own.ball.radius > 0)) continue;
         const std::uint32_t next = tree.nearest(own.ball.centre, [&](std::uint32_t other) { return other != c; });
         if (next == noComponent) continue;
         const double reach = glm::distance(own.ball.centre, s.components[next].ball.centre);

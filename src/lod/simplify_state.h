@@ -55,6 +55,7 @@ struct Candidate {
     bool outdated = false;  // no longer its best, or not at this cost
 
     [[nodiscard]] bool possible() const { return to != Corner::none; }
+    [[nodiscard]] bool harmless() const { return possible() && fit < Fit::bad; }
 };
 
 struct Spoke {
@@ -67,6 +68,9 @@ struct Component {
     Ball ball;                    // around all that the mesh had of it
     double area = 0;              // object units; what the mesh had of it, and of all that it stands in for
     std::uint32_t primitive = 0;  // of one of its faces
+    std::size_t faces = 0;        // that live
+    std::size_t harmless = 0;     // vertices that have a collapse that isn't bad, as far as they have been looked at
+    bool spent = false;           // it had none once
     bool standsIn = false;        // for others that were removed
     bool removed = false;
 };
@@ -89,8 +93,12 @@ struct Simplifier {
     std::vector<std::uint32_t> twins;                         // see Simplification
     std::unordered_map<std::uint32_t, std::uint32_t> twinOf;  // mesh vertex → the number of its twin
 
-    std::vector<Component> components;       // once many are as small as they get
+    std::vector<Component> components;       // once faces are few or many components as small as they get
     std::vector<std::uint32_t> componentOf;  // for each vertex
+    double area = 0;                         // object units; of all components
+    bool grows = false;                      // small ones do, since many are as small as they get
+    std::size_t spentFaces = 0;              // that live, of spent ones
+    double spentArea = 0;                    // object units; of spent ones that are left
 
     // Scratch.
     std::vector<Spoke> spokes;                          // of cheapestCollapse and judgeCollapse
@@ -154,10 +162,20 @@ struct Creases {
 };
 Creases creases(Simplifier& s);
 
-// simplify_components.cpp: are many faces of components that can be no smaller?
+// simplify_components.cpp: do the faces hang together, by faces alone?
+bool isConnected(const Simplifier& s);
+// Are many faces of components that can be no smaller?
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components, of what is left of the mesh, once.
 void findComponents(Simplifier& s, const LevelTriangles& triangles);
+// The vertex's component has no collapse left that isn't bad.
+void spend(Simplifier& s, std::uint32_t v);
+// What so much area would have of so many faces if they were spread evenly over the mesh's.
+double evenShare(const Simplifier& s, double area, std::size_t faces);
+// Whether there are too few faces for the vertex's collapse, of this fit, on the way to a level of `target` faces. A
+// bad one leaves its component the even share of them. Others, where spent components have most of the faces, leave the
+// rest `share` of theirs.
+bool isKept(const Simplifier& s, std::uint32_t v, Fit fit, std::size_t target, double share);
 // Takes whole ones out of the mesh until `target` faces are left, or nothing that may go.
 void removeComponents(Simplifier& s, std::size_t target);
 std::vector<Ball> removedBalls(const Simplifier& s);

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <map>
 
 #include "lod/level_selection.h"
+#include "lod/surface_distance.h"
 #include "shapes.h"
 
 namespace defocus {
@@ -108,6 +111,37 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
     }
     expectClustersHold(pyramid);
     expectContinuousLevels(pyramid);
+}
+
+// The part with the most area keeps its shape while another part has more triangles.
+inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
+    const std::vector<std::uint32_t> parts = partsByPosition(mesh);
+    const auto partIndices = [&](std::size_t level) {
+        std::map<std::uint32_t, std::vector<std::uint32_t>> indices;
+        const std::vector<std::uint32_t> all = levelIndices(pyramid, level);
+        for (const std::uint32_t v : all) indices[parts[pyramid.source[v]]].push_back(v);
+        return indices;
+    };
+    const std::vector<glm::vec3>& positions = pyramid.levels[0].positions;
+    const auto finest = partIndices(0);
+    const auto& [main, mainIndices] =
+        *std::max_element(finest.begin(), finest.end(), [&](const auto& a, const auto& b) {
+            return surfaceArea(positions, a.second) < surfaceArea(positions, b.second);
+        });
+    const Surface surface = prepareSurface(positions, mainIndices);
+    Bounds bounds;
+    for (const std::uint32_t v : mainIndices) bounds.extend(glm::dvec3(positions[v]));
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        const auto coarse = partIndices(l);
+        ASSERT_TRUE(coarse.contains(main)) << "level " << l;
+        const std::vector<std::uint32_t>& own = coarse.at(main);
+        const bool most = std::all_of(coarse.begin(), coarse.end(),
+                                      [&](const auto& part) { return part.second.size() <= own.size(); });
+        if (most) continue;
+        const Surface left = prepareSurface(pyramid.levels[l].positions, own);
+        EXPECT_LT(surfaceDistance(surface, left, 4096).both.mean, 0.03 * glm::length(bounds.size()))
+            << "level " << l << ": " << own.size() / 3 << " triangles";
+    }
 }
 
 }  // namespace defocus

@@ -127,6 +127,28 @@ inline bool isClosed(const std::vector<glm::vec3>& positions, const std::vector<
                        [](const auto& edge) { return edge.second.count == 2 && edge.second.balance == 0; });
 }
 
+// For each vertex of the mesh the number of its part, from 0 on: parts share no position.
+inline std::vector<std::uint32_t> partsByPosition(const Mesh& mesh) {
+    std::map<PositionKey, std::uint32_t> ids;
+    std::vector<std::uint32_t> places;
+    for (const glm::vec3& p : mesh.vertices.positions)
+        places.push_back(ids.try_emplace(keyOf(p), static_cast<std::uint32_t>(ids.size())).first->second);
+    std::vector<std::uint32_t> parents(ids.size());
+    for (std::uint32_t v = 0; v < parents.size(); ++v) parents[v] = v;
+    const auto root = [&](std::uint32_t v) {
+        while (parents[v] != v) v = parents[v] = parents[parents[v]];
+        return v;
+    };
+    for (const Primitive& primitive : mesh.primitives)
+        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
+            for (const std::size_t k : {i + 1, i + 2})
+                parents[root(places[primitive.indices[k]])] = root(places[primitive.indices[i]]);
+    std::map<std::uint32_t, std::uint32_t> numbers;
+    for (std::uint32_t& place : places)
+        place = numbers.try_emplace(root(place), static_cast<std::uint32_t>(numbers.size())).first->second;
+    return places;
+}
+
 // The triangles as corner positions, smallest first in winding order, sorted: equal for equal sets of triangles.
 inline std::vector<std::array<PositionKey, 3>> triangleSet(const std::vector<glm::vec3>& positions,
                                                            const std::vector<std::uint32_t>& indices) {
