@@ -192,6 +192,29 @@ void drawTurntables(const Scene& scene, std::vector<MeshReport>& reports, const 
 
 // ---- what is said -------------------------------------------------------------------------------
 
+struct EndText {
+    const char* name;
+    const char* reason;
+};
+
+EndText endText(const Pyramid& pyramid) {
+    switch (pyramid.end) {
+        case PyramidEnd::leastTriangles:
+            return {"leastTriangles", "this is as small as levels get"};
+        case PyramidEnd::smallSaving:
+            return {"smallSaving", "it would save less than a quarter of the triangles"};
+        case PyramidEnd::topology:
+            return {"topology", "handles, cuts and borders need the triangles that are left"};
+        case PyramidEnd::largestParts:
+            return {"largestParts", "it would be at the cost of the largest parts"};
+        case PyramidEnd::noSurface:
+            return {"noSurface", "no triangle has corners apart from each other"};
+        case PyramidEnd::mostLevels:
+            return {"mostLevels", "there are as many as a pyramid may have"};
+    }
+    fail("unknown end of a pyramid");
+}
+
 Json distancesJson(const Distances& distances) {
     return {{"mean", distances.mean}, {"percentile99", distances.percentile99}, {"maximum", distances.maximum}};
 }
@@ -220,6 +243,7 @@ Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std
                      {"buildSeconds", report.seconds},
                      {"diagonal", glm::length(report.pyramid.bounds.size())},
                      {"repairedFaces", report.pyramid.repairedFaces},
+                     {"end", endText(report.pyramid).name},
                      {"levels", Json::array()}};
         if (!report.turntable.empty()) mesh["turntable"] = report.turntable.string();
         for (std::size_t l = 0; l < report.levels.size(); ++l)
@@ -264,6 +288,7 @@ void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
             fmt::print("; {} face{} repaired", grouped(pyramid.repairedFaces), pyramid.repairedFaces == 1 ? "" : "s");
         fmt::print("\n");
         if (report.levels.size() > 1) printLevels(report);
+        fmt::print("  no further level: {}\n", endText(pyramid).reason);
     }
 }
 

@@ -267,6 +267,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     }
     if (mesh.triangleCount() >= fewestToGiveBack) giveBackFreedMemory();
     pyramid.repairedFaces = simplification.repairedFaces;
+    pyramid.end = simplification.end;
 
     // Twins are vertices like others from here on; no corner of level 0 uses them.
     const std::size_t ownCount = vertices.count();

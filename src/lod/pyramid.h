@@ -13,6 +13,7 @@
 
 #include "core/progress.h"
 #include "lod/clusters.h"
+#include "lod/pyramid_end.h"
 #include "scene/mesh.h"
 
 namespace defocus {
@@ -52,6 +53,7 @@ struct Pyramid {
     std::vector<Bounds> jointBounds;     // object units; of what each joint moves, at any level; empty without joints
     std::vector<Bounds> morphBounds;     // object units; of each morph target's displacements and 0
     std::uint32_t repairedFaces = 0;     // faces that half-edges can't hold as they are; see manifold.h
+    PyramidEnd end = PyramidEnd::mostLevels;
 };
 
 struct PyramidOptions {

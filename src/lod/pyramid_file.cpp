@@ -13,7 +13,7 @@ namespace defocus {
 // member, which the key or the file would lack.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
-static_assert(sizeof(PyramidFileHeader) == 112 && sizeof(PyramidFileLevel) == 40 && sizeof(Cluster) == 48,
+static_assert(sizeof(PyramidFileHeader) == 120 && sizeof(PyramidFileLevel) == 40 && sizeof(Cluster) == 48,
               "no padding, so that all is written");
 
 namespace {
@@ -59,7 +59,7 @@ void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
 }
 
 PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
-    const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, repairedFaces] = pyramid;
+    const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, repairedFaces, end] = pyramid;
     const auto& [leastTriangles, mostLevels] = key.options;
     PyramidFileHeader header;
     header.mesh = key.mesh;
@@ -71,6 +71,7 @@ PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const Pyram
     header.vertexCount = static_cast<std::uint32_t>(vertices.count());
     header.triangleCount = levels.front().triangleCount;
     header.repairedFaces = repairedFaces;
+    header.end = static_cast<std::uint32_t>(end);
     for (int axis = 0; axis < 3; ++axis) {
         header.minimum[axis] = bounds.minimum[axis];
         header.maximum[axis] = bounds.maximum[axis];
@@ -120,7 +121,7 @@ bool matches(const PyramidFileHeader& header, const Mesh& mesh, const PyramidKey
     return header.version == PyramidFileHeader::expectedVersion && header.mesh == key.mesh &&
            header.leastTriangles == key.options.leastTriangles && header.mostLevels == key.options.mostLevels &&
            header.primitiveCount == mesh.primitives.size() && header.triangleCount == mesh.triangleCount() &&
-           header.levelCount >= 1;
+           header.levelCount >= 1 && header.end <= static_cast<std::uint32_t>(lastPyramidEnd);
 }
 
 // The clusters' ranges follow each other over each primitive's.
@@ -299,6 +300,7 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
         pyramid.bounds.maximum[axis] = header->maximum[axis];
     }
     pyramid.repairedFaces = header->repairedFaces;
+    pyramid.end = static_cast<PyramidEnd>(header->end);
     measureDeformations(pyramid, mesh);
     return pyramid;
 }

@@ -31,7 +31,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
     // Of the format. What buildPyramid makes of a mesh is in the key: see pyramidKey.
-    static constexpr std::uint32_t expectedVersion = 2;
+    static constexpr std::uint32_t expectedVersion = 3;
 
     std::uint64_t magic = expectedMagic;
     std::uint64_t checksum = 0;  // hashBytes of all that follows this field
@@ -45,6 +45,8 @@ struct PyramidFileHeader {
     std::uint32_t vertexCount = 0;
     std::uint32_t triangleCount = 0;  // of level 0
     std::uint32_t repairedFaces = 0;
+    std::uint32_t end = 0;  // PyramidEnd
+    std::uint32_t unused = 0;
     double minimum[3] = {};  // bounds
     double maximum[3] = {};
 };

@@ -333,6 +333,18 @@ void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
     collapseTo(s, enough, target, leastKeptShare);
 }
 
+// Why no level is tried from so many faces.
+PyramidEnd endAt(std::size_t faces, const LevelTriangles& mesh, const SimplifyOptions& options) {
+    if (faces == 0 && !mesh.indices.empty()) return PyramidEnd::noSurface;
+    return faces <= options.leastTriangles ? PyramidEnd::leastTriangles : PyramidEnd::smallSaving;
+}
+
+bool canCollapse(const Simplifier& s) {
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
+        if (s.isAlive(v) && s.candidates[v].possible()) return true;
+    return false;
+}
+
 }  // namespace
 
 Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
@@ -348,7 +360,10 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, std::
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
         const std::size_t target = nextTarget(s, options.leastTriangles);
         const auto most = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
-        if (target > most || s.liveFaces == 0) break;
+        if (target > most || s.liveFaces == 0) {
+            result.end = endAt(s.liveFaces, triangles, options);
+            break;
+        }
         if (s.liveFaces <= mostFacesToFollow && !isConnected(s)) findComponents(s, triangles);
         if (collapseFloor(s, target, leastKeptShare) > most) {
             findComponents(s, triangles);
@@ -362,7 +377,10 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, std::
             s.grows = true;
         }
         if (tooMany) removeComponents(s, target);
-        if (s.liveFaces > most) break;
+        if (s.liveFaces > most) {
+            result.end = s.components.size() > 1 && canCollapse(s) ? PyramidEnd::largestParts : PyramidEnd::topology;
+            break;
+        }
         compact(s);
         const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
         tasks.add([origin = s.origin, picture, take, l = result.levelCount++] {

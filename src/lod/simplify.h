@@ -22,6 +22,7 @@
 #include "core/parallel.h"
 #include "lod/level_fit.h"
 #include "lod/level_order.h"
+#include "lod/pyramid_end.h"
 #include "lod/weld.h"
 #include "scene/mesh.h"
 
@@ -64,6 +65,7 @@ struct Simplification {
     std::vector<std::uint32_t> twins;
     std::uint32_t levelCount = 0;  // coarser and coarser, the mesh itself not among them; may be 0
     std::uint32_t repairedFaces = 0;
+    PyramidEnd end = PyramidEnd::mostLevels;
 };
 
 // Each level halves the triangles; the levels end where less than a quarter can be saved. Each is given to

@@ -55,6 +55,7 @@ TEST(PyramidCommand, JsonHoldsTheLevelsAndWhatWasMeasured) {
     const nlohmann::json& mesh = json["meshes"][0];
     ASSERT_EQ(mesh["levels"].size(), expected.levels.size());
     EXPECT_GT(mesh["buildSeconds"], 0);
+    EXPECT_EQ(mesh["end"], "leastTriangles");
     for (std::size_t l = 0; l < expected.levels.size(); ++l) {
         const nlohmann::json& level = mesh["levels"][l];
         EXPECT_EQ(level["triangles"], expected.levels[l].triangleCount);
@@ -117,6 +118,15 @@ TEST(PyramidCommand, TextHasALineALevel) {
     EXPECT_NE(text.find(fmt::format("{} levels", expected.levels.size())), std::string::npos) << text;
     EXPECT_NE(text.find("measured distance"), std::string::npos) << text;
     EXPECT_NE(text.find(std::to_string(expected.levels.back().triangleCount)), std::string::npos) << text;
+}
+
+TEST(PyramidCommand, SaysWhyThereIsNoFurtherLevel) {
+    const ScratchFolder folder;
+    writeGlb(folder / "slab.glb", slab(20, 3));
+    const std::string file = (folder / "slab.glb").string();
+    EXPECT_NE(pyramid({file, "--no-measure"}).find("no further level: handles"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(pyramid({file, "--no-measure", "--json"}))["meshes"][0]["end"], "topology");
+    EXPECT_NE(pyramid(withFish({"--no-measure"})).find("no further level: this is as small"), std::string::npos);
 }
 
 TEST(PyramidCommand, UnknownMeshAndFolderThatCannotBeWrittenAreErrors) {

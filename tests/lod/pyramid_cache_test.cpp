@@ -43,6 +43,7 @@ void expectEqual(const Pyramid& a, const Pyramid& b) {
     EXPECT_TRUE(sameBits(a.jointBounds, b.jointBounds));
     EXPECT_TRUE(sameBits(a.morphBounds, b.morphBounds));
     EXPECT_EQ(a.repairedFaces, b.repairedFaces);
+    EXPECT_EQ(a.end, b.end);
     ASSERT_EQ(a.levels.size(), b.levels.size());
     for (std::size_t l = 0; l < a.levels.size(); ++l) {
         SCOPED_TRACE(l);
@@ -372,6 +373,9 @@ TEST(PyramidFile, indicesOutOfRangeUnderARightChecksumAreMisses) {
                 EXPECT_FALSE(decodeWith(file, offset, 0xffffffffu));
                 EXPECT_TRUE(decodeWith(file, offset, level.vertexCount - 1));
             }
+    const auto lastEnd = static_cast<std::uint32_t>(lastPyramidEnd);
+    EXPECT_TRUE(decodeWith(file, offsetof(PyramidFileHeader, end), lastEnd));
+    EXPECT_FALSE(decodeWith(file, offsetof(PyramidFileHeader, end), lastEnd + 1));
     for (const double value : {-1.0, std::nan("")}) {
         const std::size_t record = sizeof(PyramidFileHeader) + sizeof(PyramidFileLevel);
         EXPECT_FALSE(decodeWith(file, record + offsetof(PyramidFileLevel, meanEdge), value));

@@ -91,6 +91,48 @@ inline Mesh flatGrid(std::uint32_t cells) {
     });
 }
 
+// A slab of edge 1 along x with so many square holes through it, closed: of genus `holes`. The edge of a hole has
+// `cells` quads.
+inline Mesh slab(std::uint32_t holes, int cells) {
+    const int columns = 2 * static_cast<int>(holes) + 1;
+    const auto solid = [&](int i, int j) {
+        return i >= 0 && j >= 0 && i < cells * columns && j < 3 * cells && !(i / cells % 2 == 1 && j / cells == 1);
+    };
+    Vertices vertices;
+    std::vector<std::uint32_t> indices;
+    const auto addQuad = [&](const glm::ivec3& at, const glm::ivec3& u, const glm::ivec3& v) {
+        const auto first = static_cast<std::uint32_t>(vertices.positions.size());
+        for (const glm::ivec3& corner : {at, at + u, at + u + v, at + v})
+            vertices.positions.push_back(glm::vec3(corner) / static_cast<float>(cells * columns));
+        for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) indices.push_back(first + corner);
+    };
+    const glm::ivec3 x(1, 0, 0);
+    const glm::ivec3 y(0, 1, 0);
+    const glm::ivec3 z(0, 0, 1);
+    for (int i = 0; i < cells * columns; ++i)
+        for (int j = 0; j < 3 * cells; ++j) {
+            if (!solid(i, j)) continue;
+            addQuad({i, j, cells}, x, y);
+            addQuad({i, j, 0}, y, x);
+            for (int k = 0; k < cells; ++k) {
+                if (!solid(i - 1, j)) addQuad({i, j, k}, z, y);
+                if (!solid(i + 1, j)) addQuad({i + 1, j, k}, y, z);
+                if (!solid(i, j - 1)) addQuad({i, j, k}, x, z);
+                if (!solid(i, j + 1)) addQuad({i, j + 1, k}, z, x);
+            }
+        }
+    return singlePrimitive(std::move(vertices), std::move(indices));
+}
+
+inline void addPart(Mesh& mesh, const Mesh& part, float scale, const glm::vec3& place) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.count());
+    for (const glm::vec3& p : part.vertices.positions) mesh.vertices.positions.push_back(place + scale * p);
+    const auto& normals = part.vertices.normals;
+    mesh.vertices.normals.insert(mesh.vertices.normals.end(), normals.begin(), normals.end());
+    if (mesh.primitives.empty()) mesh.primitives.push_back({-1, {}});
+    for (const std::uint32_t v : part.primitives[0].indices) mesh.primitives[0].indices.push_back(first + v);
+}
+
 inline std::vector<std::uint32_t> levelIndices(const Pyramid& pyramid, std::size_t level) {
     std::vector<std::uint32_t> indices;
     for (const IndexRange& range : pyramid.levels[level].primitives) {
