@@ -38,8 +38,10 @@ void setCandidate(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
     s.candidates[v] = candidate;
     if (s.components.empty() || candidate.harmless() == before) return;
     Component& component = s.components[s.componentOf[v]];
-    component.harmless += before ? std::size_t{0} - 1 : 1;
-    if (component.harmless == 0) spend(s, v);
+    if (!before)
+        ++component.harmless;
+    else if (--component.harmless == 0)
+        spend(s, v);
 }
 
 // What the vertex waits for, in the queue once there is one.
