@@ -55,8 +55,9 @@ protected:
         const std::filesystem::path out = root_ / "stdout";
         const std::filesystem::path err = root_ / "stderr";
         // A copy of this process does: it need not load hundreds of shared libraries anew, which takes longer than most
-        // of the tests. But threads aren't copied: where there are any, a GL driver's for example, it begins anew.
-        const bool copy = threadCount() == 1;
+        // of the tests. But threads aren't copied: where the test has made any, a GL driver's for example, it begins
+        // anew.
+        const bool copy = threadCount() == threadsAtStart;
         std::fflush(nullptr);  // or the child would write it once more
         const pid_t child = ::fork();
         if (child == 0) runChild(arguments, out, err, mostFileBytes, copy);
@@ -87,7 +88,11 @@ private:
         pointers.reserve(words.size() + 1);
         for (std::string& word : words) pointers.push_back(word.data());
         pointers.push_back(nullptr);
-        if (copy) std::exit(runProgram(static_cast<int>(words.size()), pointers.data()));
+        if (copy) {
+            const int code = runProgram(static_cast<int>(words.size()), pointers.data());
+            std::fflush(nullptr);
+            ::_exit(code);  // without destructors, which would wait for threads that weren't copied
+        }
         ::execv(DEFOCUS_PROGRAM, pointers.data());
         ::_exit(98);
     }
@@ -97,6 +102,7 @@ private:
         return static_cast<std::size_t>(std::distance(Files("/proc/self/task"), Files()));
     }
 
+    static inline const std::size_t threadsAtStart = threadCount();  // libraries begin some as they are loaded
     std::filesystem::path root_;
 };
 
