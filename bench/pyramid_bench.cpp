@@ -416,9 +416,13 @@ int run(int argc, char** argv) {
         "\nmean distance over meshoptimizer's, of each mesh that has levels\n{:<44} {:>9} {:>6} {:>6} {:>6} {:>6}\n",
         "mesh", "triangles", "levels", "mean", "worst", "<= 1.1");
     DistanceRatios all;
+    std::vector<std::vector<glm::vec3>> seen;  // a mesh that a scene has more than once counts once
     for (const auto& [name, scene] : scenes)
-        for (const Mesh& mesh : scene.meshes)
+        for (const Mesh& mesh : scene.meshes) {
+            if (std::find(seen.begin(), seen.end(), mesh.vertices.positions) != seen.end()) continue;
+            seen.push_back(mesh.vertices.positions);
             distanceRow(scene.meshes.size() > 1 ? name + '/' + mesh.name : name, mesh, all);
+        }
     printRatios("all", 0, all, 0);
 
     const auto context = createHeadlessContext();
