@@ -253,6 +253,7 @@ void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {
     stage.world.lights = lightsOrDefault(stage.scene, stage.world.pose, placed);
     stage.world.environment = environmentOrDefault(stage.scene);
     stage.view.worldFromCamera = placed.worldFromCamera;
+    stage.view.nearPlane = placed.camera.znear;
     stage.depth = glm::distance(glm::dvec3(placed.worldFromCamera[3]), mesh.bounds().centre());
     stage.view.lens.focusDistance = 1e6;
 }

@@ -184,7 +184,7 @@ def pyramids():
     fitted = [(values[3] - values[4], values[3] - values[5]) for _, values in values_of(normals, 9)]
     command = "`defocus_pyramid_bench MODEL…`"
     return [("pyramid levels against meshoptimizer's at the same triangles, under the blur that picks them: PSNR",
-             f"{mean_of(gains):.0f} dB better in the mean of {len(gains)} levels ({span(gains, 0)})",
+             f"{mean_of(gains):.0f} dB better in the mean of {len(gains)} levels ({span(gains, 1)})",
              f"{command} ({table_of('pyramids')})"),
             ("normals fitted to the mesh against averages over the level's faces, against the surviving vertices' own: PSNR",
              f"{mean_of(gain for gain, _ in fitted):.1f} and {mean_of(gain for _, gain in fitted):.1f} dB better in the mean of "
