@@ -58,8 +58,8 @@ PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress
 // What the scene's file has that is damaged, a line each on stderr, unless --quiet.
 void printDamage(const Scene& scene, const GlobalOptions& global);
 
-// On stderr, unless --quiet: damage, values of the camera that aren't used, pyramids that couldn't be stored; with --verbose,
-// how many came from the cache.
+// On stderr, unless --quiet: damage, values of the camera that aren't used, pyramids that couldn't be stored; with
+// --verbose, how many came from the cache.
 void printWarnings(const PreparedFrame& frame, const GlobalOptions& global);
 
 }  // namespace defocus
