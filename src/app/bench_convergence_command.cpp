@@ -231,6 +231,7 @@ std::vector<MethodUse> parseMethods(const std::string& text) {
             names.push_back(part);
     }
     std::vector<MethodUse> uses;
+    uses.reserve(names.size());
     for (const std::string& name : names) uses.push_back(parseMethodUse(name));
     return uses;
 }
