@@ -603,6 +603,7 @@ thead th {{ vertical-align: bottom; background: var(--band); }}
 th:first-child, .text {{ text-align: left; }}
 tbody th {{ font-weight: normal; }}
 tbody th, .scroll td {{ white-space: nowrap; }}
+.scroll td.text {{ white-space: normal; }}
 .facts th {{ color: var(--soft); }}
 pre {{ margin: 0 0 .3rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; }}
 """
@@ -660,7 +661,7 @@ def speedup_section(results):
     lines = []
     for row in results["rows"]:
         time = row["milliseconds"]
-        lines.append([MODES[row["lod"]][0], row["samples"], f"{row['fStop']:g}", f"{row['focusDistance']:g}",
+        lines.append([MODES[row["lod"]][0], row["samples"], f"{row['fStop']:g}", f"{row['focusDistance']:.3g}",
                       f"{time['median']:.1f}", spread_text(time), f"{row['speedUp']:.2f}", f"{row['triangles'] / 1e6:.2f}",
                       f"{row['gpuBytes'] / 2**20:.0f}", f"{row['setupMilliseconds']:.0f}", f"{row['pyramidMilliseconds']:.0f}"]
                      + [cell for key, _ in truths for cell in differences(row[key])] + reference_cells(row))
@@ -717,12 +718,14 @@ def scaling_section(results):
 def verdict(case):
     if case.get("leftOut"):
         return "left out: needs the ray tracer"
+    if case["limit"] is None:
+        return "for comparison"
     return "within" if case["passed"] else "<b>beyond</b>"
 
 
 def stability_section(results):
     cases = [[html.escape(case["area"]), html.escape(case["case"]), html.escape(case["errorOf"]), html.escape(case["against"]),
-              "for comparison" if case["limit"] is None else f"{case['limit']:.3g}",
+              "" if case["limit"] is None else f"{case['limit']:.3g}",
               "" if case.get("leftOut") else "∞" if case["error"] is None else f"{case['error']:.3g}", verdict(case)]
              for case in results["cases"]]
     honesty = [[html.escape(row["method"]), html.escape(row["varied"]), f"{row['expectedDiameter']:.2f}",

@@ -366,6 +366,8 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, std::
             result.end = endAt(s.liveFaces, triangles, options);
             break;
         }
+
+        // Where parts that can be no smaller leave too little to the others, whole ones go; then collapses.
         if (s.liveFaces <= mostFacesToFollow && !isConnected(s)) findComponents(s, triangles);
         if (collapseFloor(s, target, leastKeptShare) > most) {
             findComponents(s, triangles);
@@ -373,6 +375,8 @@ Simplification simplify(const Vertices& vertices, const Welded& positions, std::
             removeComponents(s, s.liveFaces - (collapseFloor(s, target, keptShare) - target));
         }
         if (collapseFloor(s, target, leastKeptShare) <= most) collapseToLevel(s, target, most);
+
+        // Where those came no further, whole parts go; where that isn't enough either, this is the end.
         const bool tooMany = s.liveFaces > most || isJustAbove(s.liveFaces, options.leastTriangles);
         if (tooMany || manyAreSmallest(s)) {
             findComponents(s, triangles);
