@@ -14,9 +14,9 @@
 #include <limits>
 
 #include "core/parallel.h"
-#include "lod/pyramid_cache.h"
-#include "lod/pyramid_file.h"
-#include "scene/fish_school.h"
+#include "lod/pyramid/cache.h"
+#include "lod/pyramid/file.h"
+#include "school/fish_school.h"
 
 namespace {
 

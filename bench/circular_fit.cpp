@@ -1,5 +1,5 @@
-// Fits the separable complex kernels of src/render/circular_kernel.h to the disk, by least squares over the square of
-// the taps, and prints them as the table of circular_kernel.cpp and beside the published kernels.
+// Fits the separable complex kernels of src/render/circular/circular_kernel.h to the disk, by least squares over the
+// square of the taps, and prints them as the table of circular_kernel.cpp and beside the published kernels.
 //
 // Variable projection (Golub and Pereyra 1973): for given decays and frequencies the weights A and B are a linear least
 // squares problem with one linear constraint, ∫K = ∫D, so that only 2n unknowns remain for Levenberg (1944) and
@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "render/circular_kernel.h"
+#include "render/circular/circular_kernel.h"
 #include "run_bench.h"
 
 namespace {

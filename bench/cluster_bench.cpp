@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "app/prepared_frame.h"
+#include "frame/prepared_frame.h"
 #include "gl/context.h"
 #include "render/methods.h"
 #include "run_bench.h"

@@ -17,7 +17,7 @@
 #include "render/methods.h"
 #include "run_bench.h"
 #include "scene/defaults.h"
-#include "scene/fish_school.h"
+#include "school/fish_school.h"
 
 namespace {
 
@@ -34,7 +34,7 @@ struct Fish {
 
 void prepare(Fish& fish) {
     fish.scene = fishSchool({.fishCount = 20, .trianglesPerFish = 20'000});
-    fish.world.scene = &fish.scene;
+    fish.world.scene = borrowed(fish.scene);
     fish.world.pose = poseAt(fish.scene, 0);
     fish.view.width = 512;
     fish.view.height = 384;

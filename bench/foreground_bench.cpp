@@ -16,10 +16,10 @@
 #include <limits>
 #include <vector>
 
-#include "app/prepared_frame.h"
+#include "frame/prepared_frame.h"
 #include "gl/context.h"
+#include "render/aov/work.h"
 #include "render/methods.h"
-#include "render/work.h"
 #include "run_bench.h"
 
 namespace {

@@ -9,9 +9,9 @@
 
 #include "image/metrics.h"
 #include "lens/lens_samples.h"
-#include "lod/level_selection.h"
+#include "lod/pyramid/level_selection.h"
 #include "plan/frame_plan.h"
-#include "scene/fish_school.h"
+#include "school/fish_school.h"
 
 namespace defocus {
 namespace {
@@ -57,7 +57,7 @@ BENCHMARK(levelOfDetailOfObject)->ArgName("error")->Arg(0)->Arg(1);
 void planOfFrame(benchmark::State& state) {
     const Scene scene = smallSchool(static_cast<int>(state.range(0)));
     World world;
-    world.scene = &scene;
+    world.scene = borrowed(scene);
     world.pose = poseAt(scene, 0, -1);
     world.environment = environmentOrDefault(scene);
     world.pyramids = buildPyramids(scene.meshes);

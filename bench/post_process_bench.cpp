@@ -13,14 +13,14 @@
 #include <numbers>
 #include <vector>
 
-#include "app/prepared_frame.h"
 #include "core/error.h"
 #include "eval/spread.h"
+#include "frame/prepared_frame.h"
 #include "gl/context.h"
 #include "gl/read_back.h"
 #include "image/metrics.h"
-#include "render/circular_kernel.h"
-#include "render/complex_blur.h"
+#include "render/circular/circular_kernel.h"
+#include "render/circular/complex_blur.h"
 #include "render/methods.h"
 #include "run_bench.h"
 

@@ -43,14 +43,14 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "image/metrics.h"
-#include "lod/level_selection.h"
-#include "lod/surface_distance.h"
-#include "lod/weld.h"
+#include "lod/pyramid/level_selection.h"
+#include "lod/pyramid/surface_distance.h"
+#include "lod/simplify/weld.h"
 #include "render/methods.h"
 #include "run_bench.h"
 #include "scene/defaults.h"
-#include "scene/fish_school.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
+#include "school/fish_school.h"
 
 namespace {
 
@@ -245,7 +245,7 @@ void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {
     node.mesh = 0;
     stage.scene.nodes = {node};
     stage.scene.roots = {0};
-    stage.world.scene = &stage.scene;
+    stage.world.scene = borrowed(stage.scene);
     stage.world.pose = poseAt(stage.scene, 0);
     stage.view.width = 512;
     stage.view.height = 384;

@@ -22,9 +22,9 @@
 #include <numbers>
 #include <vector>
 
-#include "app/prepared_frame.h"
 #include "core/error.h"
-#include "eval/reference_image.h"
+#include "frame/prepared_frame.h"
+#include "frame/reference_image.h"
 #include "gl/context.h"
 #include "image/metrics.h"
 #include "render/methods.h"

@@ -47,7 +47,7 @@ int run() {
     const auto context = createHeadlessContext();
     Scene scene;
     World world;
-    world.scene = &scene;
+    world.scene = borrowed(scene);
     View view;
     RenderSettings settings;
     settings.keepAll = true;  // nothing is blurred: the lens would be left out

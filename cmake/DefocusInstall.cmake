@@ -5,15 +5,15 @@ include(CMakePackageConfigHelpers)
 
 add_library(defocus INTERFACE)
 add_library(defocus::defocus ALIAS defocus)
-target_link_libraries(defocus INTERFACE defocus_capture)
+target_link_libraries(defocus INTERFACE defocus_frame)
 
-get_property(MODULES GLOBAL PROPERTY DEFOCUS_MODULES)
+set(MODULES core image scene school lens simplify pyramid plan gl render frame)
 get_property(ABSENT GLOBAL PROPERTY DEFOCUS_ABSENT)
 list(TRANSFORM ABSENT REPLACE "(.+)" "PATTERN;\\1.h;EXCLUDE" OUTPUT_VARIABLE ABSENT_PATTERNS)
 list(TRANSFORM MODULES PREPEND defocus_ OUTPUT_VARIABLE MODULE_TARGETS)
 install(TARGETS defocus ${MODULE_TARGETS} EXPORT defocusTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS defocus_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-foreach(MODULE IN LISTS MODULES)
+foreach(MODULE IN ITEMS core image scene lens lod plan gl render frame)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/${MODULE}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/defocus"
             FILES_MATCHING PATTERN "*.h" ${ABSENT_PATTERNS})
 endforeach()

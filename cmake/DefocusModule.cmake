@@ -1,5 +1,5 @@
-# defocus_module(NAME [WITHOUT file] LINK ...): the folder src/NAME as one static library defocus_NAME, exported as
-# defocus::NAME. WITHOUT: the .cpp and .h that are left out, by their common name.
+# defocus_module(NAME [FOLDER folder] [WITHOUT file] LINK ...): the folder src/NAME (or src/FOLDER), with the folders in
+# it, as one static library defocus_NAME. WITHOUT: the .cpp that is left out, by its name.
 # A module links only the modules above it in the layout, so that an include against the order fails to build.
 
 include(CheckIPOSupported)
@@ -20,10 +20,13 @@ if(DEFOCUS_SANITIZE)
 endif()
 
 function(defocus_module NAME)
-    cmake_parse_arguments(ARG "" "WITHOUT" "LINK;PRIVATE_LINK" ${ARGN})
-    file(GLOB SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/*.cpp")
+    cmake_parse_arguments(ARG "" "WITHOUT;FOLDER" "LINK;PRIVATE_LINK" ${ARGN})
+    if(NOT ARG_FOLDER)
+        set(ARG_FOLDER ${NAME})
+    endif()
+    file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER}/*.cpp")
     if(ARG_WITHOUT)
-        list(REMOVE_ITEM SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${NAME}/${ARG_WITHOUT}.cpp")
+        list(REMOVE_ITEM SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER}/${ARG_WITHOUT}.cpp")
     endif()
     add_library(defocus_${NAME} STATIC ${SOURCES})
     add_library(defocus::${NAME} ALIAS defocus_${NAME})

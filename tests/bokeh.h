@@ -82,7 +82,7 @@ inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& area
 // The world of a scene whose nodes are all roots without children. `scene` must outlive it; there are no pyramids yet.
 inline World flatWorld(const Scene& scene, const Environment& environment) {
     World world;
-    world.scene = &scene;
+    world.scene = borrowed(scene);
     world.environment = environment;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const glm::dmat4 matrix = scene.nodes[i].matrix.value_or(glm::dmat4(1.0));

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "lod/pyramid.h"
+#include "lod/pyramid/pyramid.h"
 #include "plan/view.h"
 #include "scene/defaults.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/posed_mesh.h"
 #include "small_world.h"
 

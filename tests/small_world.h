@@ -7,14 +7,14 @@
 #include <memory>
 #include <numbers>
 
-#include "lod/pyramid.h"
+#include "lod/pyramid/pyramid.h"
 #include "plan/view.h"
 
 namespace defocus {
 
 // World keeps a pointer to the scene: not to be copied or moved.
 struct SmallWorld {
-    SmallWorld() { world.scene = &scene; }
+    SmallWorld() { world.scene = borrowed(scene); }
     SmallWorld(const SmallWorld&) = delete;
     SmallWorld& operator=(const SmallWorld&) = delete;
 

@@ -14,8 +14,8 @@
 #include "image/image.h"
 #include "plan/frame_plan.h"
 #include "render/renderer.h"
-#include "scene/fish_school.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
+#include "school/fish_school.h"
 
 namespace defocus {
 
@@ -59,7 +59,7 @@ inline void setLens(TruthScene& truth, const Camera& camera, double blur) {
 inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height) {
     auto truth = std::make_unique<TruthScene>();
     truth->scene = bakedUnlit(std::move(scene));
-    truth->world.scene = &truth->scene;
+    truth->world.scene = borrowed(truth->scene);
     truth->world.pose = poseAt(truth->scene, 0, -1);
     truth->world.environment = environmentOrDefault(truth->scene);
     for (const Mesh& mesh : truth->scene.meshes) truth->world.pyramids.push_back(fullDetail(mesh));

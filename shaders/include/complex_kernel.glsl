@@ -1,5 +1,5 @@
 // Taps of the complex separable kernels: F(x) = e^(−a·x²)·(cos b·x² + i·sin b·x²), x = tap / radius (Niemitalo 2010; Garcia 2018).
-// src/render/circular_kernel.h holds the mathematics. Needs KERNEL_SIZE; TAPS_EXACT: a tap a pixel, else at steps of a pixel's
+// src/render/circular/circular_kernel.h holds the mathematics. Needs KERNEL_SIZE; TAPS_EXACT: a tap a pixel, else at steps of a pixel's
 // fraction between them.
 
 layout(location = 0) uniform vec4 kernel[KERNEL_SIZE];   // a, b, A, B

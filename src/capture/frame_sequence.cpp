@@ -182,7 +182,7 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     SequenceFrame result;
     result.frame = frame;
     result.time = timeAt(shot.animation, *base.scene, clip, frame / shot.frameRate);
-    const double middle = exposureMiddle(base.exposure);
+    const double middle = shutterMiddle(base.shutter);
     result.pose = poseAt(*base.scene, timeAt(shot.animation, *base.scene, clip, frame / shot.frameRate + middle), clip);
     result.lights = result.pose.lights.empty() ? base.lights : result.pose.lights;
     result.view = movedView(shot, base, result.pose, frame + middle * shot.frameRate);
@@ -198,7 +198,7 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
         moment.worldFromCamera = movedView(shot, base, moment.pose, seconds * shot.frameRate).worldFromCamera;
         return moment;
     };
-    openShutter(base.exposure, result.settings, momentAt, result.shutter, result.view);
+    openShutter(base.shutter, result.settings, momentAt, result.shutter, result.view);
     return result;
 } catch (const Error& error) {
     fail("{}: frame {}: {}", shot.file.string(), frame, error.what());

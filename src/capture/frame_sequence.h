@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "capture/shot.h"
-#include "plan/exposure.h"
+#include "plan/shutter.h"
 
 namespace defocus {
 
 // What a shot starts from: the scene with the camera and the settings that the shot's fixed values give.
 struct SequenceBase {
-    const Scene* scene = nullptr;
+    std::shared_ptr<const Scene> scene;
     View view;
     RenderSettings settings;
     std::vector<PlacedLight> lights;               // where the scene has none of its own
@@ -21,7 +21,7 @@ struct SequenceBase {
     bool cameraStands = false;                     // at view's place, wherever the scene's own goes
     std::set<std::string, std::less<>> fixedLens;  // fields that don't follow the camera's own values
     glm::dvec3 centre{0.0};                        // the middle of the scene at its start, around which turntables turn
-    Exposure exposure;  // of each frame; the shot's camera moves while the shutter is open, too
+    ShutterSettings shutter;  // of each frame; the shot's camera moves while the shutter is open, too
 };
 
 struct SequenceFrame {

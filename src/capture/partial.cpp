@@ -7,7 +7,7 @@
 #include "capture/frame_files.h"
 #include "core/error.h"
 #include "plan/sample_range.h"
-#include "render/block_merge.h"
+#include "render/accumulation/block_merge.h"
 #include "render/frame_uniforms.h"
 
 namespace defocus {

@@ -2,9 +2,9 @@
 // Parts of a frame's lens samples, rendered on several machines and added up afterwards.
 //
 // The frame's sum adds finished blocks of 64 samples one after the other, each as its value and its compensation
-// (render/layer_sum.h). A compensated sum isn't associative to the last bit, so a part keeps each of its blocks by
-// itself: a layer for the value and one for the compensation, 32-bit float, ZIP. Alpha is left out where the background
-// is opaque: it is the number of samples.
+// (render/accumulation/layer_sum.h). A compensated sum isn't associative to the last bit, so a part keeps each of its
+// blocks by itself: a layer for the value and one for the compensation, 32-bit float, ZIP. Alpha is left out where the
+// background is opaque: it is the number of samples.
 
 #include <cstdint>
 #include <filesystem>

@@ -15,8 +15,8 @@
 #include "capture/keyframes.h"
 #include "image/tone_map.h"
 #include "lens/sequences.h"
-#include "lod/level_selection.h"
-#include "plan/exposure.h"
+#include "lod/pyramid/level_selection.h"
+#include "plan/shutter.h"
 #include "render/layer_format.h"
 
 namespace defocus {
@@ -97,7 +97,7 @@ struct Shot {
     double frameRate = 24;  // 1/s
     FrameRange range{0, 0};
     ShotAnimation animation;
-    std::optional<Exposure> shutter;
+    std::optional<ShutterSettings> shutter;
     std::optional<double>
         shutterAngle;  // degrees, in place of the shutter's seconds; 360: the time from frame to frame
     ShotCamera camera;

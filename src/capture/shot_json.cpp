@@ -223,16 +223,16 @@ void readShutter(const JsonReader& reader, Shot& shot) {
     reader.requireObject({"angle", "seconds", "position", "segments", "exact"});
     if (reader.has("angle") == reader.has("seconds")) reader.failWith("give either 'angle' or 'seconds'");
     if (const auto angle = reader.find("angle")) shot.shutterAngle = angle->number(0, 3600);
-    Exposure exposure;
-    if (const auto seconds = reader.find("seconds")) exposure.seconds = seconds->number(0, 1e6);
+    ShutterSettings shutter;
+    if (const auto seconds = reader.find("seconds")) shutter.seconds = seconds->number(0, 1e6);
     if (const auto position = reader.find("position")) {
         const ShutterPosition positions[] = {ShutterPosition::start, ShutterPosition::centre, ShutterPosition::end};
-        exposure.position = positions[position->choice({"start", "centre", "end"})];
+        shutter.position = positions[position->choice({"start", "centre", "end"})];
     }
     if (const auto segments = reader.find("segments"))
-        exposure.motionSegments = static_cast<std::uint32_t>(segments->whole(1, 64));
-    if (const auto exact = reader.find("exact")) exposure.exactMotion = exact->truth();
-    shot.shutter = exposure;
+        shutter.motionSegments = static_cast<std::uint32_t>(segments->whole(1, 64));
+    if (const auto exact = reader.find("exact")) shutter.exactMotion = exact->truth();
+    shot.shutter = shutter;
 }
 
 void readScene(const JsonReader& reader, Shot& shot) {

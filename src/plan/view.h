@@ -3,12 +3,13 @@
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "lens/lens.h"
 #include "lens/sequences.h"
-#include "lod/level_selection.h"
+#include "lod/pyramid/level_selection.h"
 #include "scene/defaults.h"
 #include "scene/pose.h"
 #include "scene/scene.h"
@@ -49,12 +50,17 @@ struct Shutter {
 
 // A scene ready to be planned: posed, lit, with one pyramid a mesh.
 struct World {
-    const Scene* scene = nullptr;
+    std::shared_ptr<const Scene> scene;
     Pose pose;        // in the middle of the exposure
     Shutter shutter;  // lights and sky stay as they are in its middle
     std::vector<PlacedLight> lights;
     Environment environment;
     std::vector<Pyramid> pyramids;  // one a mesh of the scene
 };
+
+// A scene that its caller keeps alive for as long as the world.
+inline std::shared_ptr<const Scene> borrowed(const Scene& scene) {
+    return {std::shared_ptr<const void>(), &scene};
+}
 
 }  // namespace defocus

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "render/accumulation.h"
-#include "render/circular.h"
-#include "render/scheuermann.h"
+#include "render/accumulation/accumulation.h"
+#include "render/circular/circular.h"
+#include "render/scheuermann/scheuermann.h"
 
 namespace defocus {
 

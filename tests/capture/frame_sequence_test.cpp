@@ -36,7 +36,7 @@ protected:
         climb.times = {0, 2};
         climb.values = {0, 0, -2, 0, 2, -2};
         scene_.clips.push_back({"Climb", {climb}, 2});
-        base_.scene = &scene_;
+        base_.scene = borrowed(scene_);
         base_.fixedLens = {"focalLength"};
     }
 
@@ -102,7 +102,7 @@ TEST_F(FrameSequence, turntableComesBackToItsOwnPlace) {
 
 // Half a frame of a dolly that goes 0.3 m a frame, and of a node that climbs 0.1 m a frame.
 TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
-    base_.exposure.seconds = 0.05;
+    base_.shutter.seconds = 0.05;
     const char* shot = R"({"frameRate": 10, "range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20],
                         "interpolation": "linear"}}})";
     const SequenceFrame moving = frame(shot, 15);
@@ -116,7 +116,7 @@ TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
     EXPECT_NEAR(moving.shutter.poses[1].worldFromNode[1][3].y, 1.525, 1e-6);
     EXPECT_TRUE(frame(shot, 40).view.shutterCameras.empty());  // the dolly has arrived
 
-    base_.exposure.position = ShutterPosition::start;
+    base_.shutter.position = ShutterPosition::start;
     EXPECT_NEAR(frame(shot, 15).pose.worldFromNode[1][3].y, 1.525, 1e-6);
     EXPECT_NEAR(frame(shot, 15).shutter.poses[0].worldFromNode[1][3].y, 1.5, 1e-6);
 }

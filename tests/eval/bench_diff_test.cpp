@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "eval/convergence_text.h"
-#include "eval/popping_text.h"
-#include "eval/scaling_text.h"
-#include "eval/speedup_text.h"
-#include "eval/stability_text.h"
+#include "eval/convergence/text.h"
+#include "eval/popping/text.h"
+#include "eval/scaling/text.h"
+#include "eval/speedup/text.h"
+#include "eval/stability/text.h"
 #include "image/scratch_folder.h"
 
 namespace defocus {

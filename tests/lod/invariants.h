@@ -9,9 +9,9 @@
 #include <glm/vector_relational.hpp>
 #include <map>
 
-#include "lod/level_selection.h"
-#include "lod/surface_distance.h"
-#include "shapes.h"
+#include "lod/pyramid/level_selection.h"
+#include "lod/pyramid/surface_distance.h"
+#include "lod/shapes.h"
 
 namespace defocus {
 

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "lod/pyramid.h"
+#include "lod/pyramid/pyramid.h"
 
 namespace defocus {
 

@@ -9,7 +9,7 @@
 #include "gl/context.h"
 #include "image/metrics.h"
 #include "lens/circle_of_confusion.h"
-#include "render/aov.h"
+#include "render/aov/aov.h"
 #include "render/methods.h"
 #include "small_world.h"
 

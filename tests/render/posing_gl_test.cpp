@@ -6,7 +6,7 @@
 #include "image/metrics.h"
 #include "models.h"
 #include "posed_world.h"
-#include "render/aov.h"
+#include "render/aov/aov.h"
 #include "render/methods.h"
 
 namespace defocus {

@@ -10,7 +10,7 @@
 #include "image/metrics.h"
 #include "image/tone_map.h"
 #include "likeness.h"
-#include "render/display_pass.h"
+#include "render/display/display_pass.h"
 #include "render/progressive_image.h"
 #include "small_world.h"
 

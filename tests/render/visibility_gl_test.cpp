@@ -5,8 +5,8 @@
 #include "gl/context.h"
 #include "models.h"
 #include "posed_world.h"
+#include "render/aov/work.h"
 #include "render/methods.h"
-#include "render/work.h"
 #include "small_world.h"
 
 namespace defocus {

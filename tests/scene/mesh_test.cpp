@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "models.h"
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/tangents.h"
 
 namespace defocus {

@@ -1,0 +1,161 @@
+// defocus bench: how fast and how right, measured on the machine at hand.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "cli/bench_commands.h"
+#include "cli/bench_report.h"
+#include "cli/command.h"
+#include "cli/scene_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "eval/speedup/text.h"
+#include "frame/prepared_frame.h"
+#include "frame/program_facts.h"
+#include "gl/context.h"
+
+namespace defocus {
+
+namespace {
+
+struct SpeedupArguments {
+    SceneOptions scene;
+    SpeedupOptions speedup;
+    std::filesystem::path folder;  // empty: only the table
+    std::filesystem::path report;  // empty: none
+};
+
+void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) {
+    const std::filesystem::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
+    Progress progress = terminalProgress(global);
+    SceneOptions scene = arguments.scene;
+    scene.noCache = true;  // the time that pyramids take is part of the result
+    PreparedFrame frame = placeFrame(scene, progress);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    addPyramids(frame, progress);
+
+    SpeedupOptions options = arguments.speedup;
+    options.metric = arguments.scene.metric;
+    options.sequence = arguments.scene.sequence;
+    options.renderer.layerFormat = arguments.scene.layerFormat;
+    options.renderer.wave = arguments.scene.wave;
+    options.renderer.shaderFolder = global.shaderDir;
+    options.pyramidMilliseconds = frame.pyramidMilliseconds;
+    const BenchSubject subject = benchSubject(*context, frame, options.runs);
+    fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
+               subject.runs, subject.device, speedupHeader());
+
+    // Each row is kept as it comes: a run that is cut off loses nothing.
+    std::vector<SpeedupRow> rows;
+    measureSpeedup(
+        frame.world, frame.view, options,
+        [&](const SpeedupRow& row) {
+            rows.push_back(row);
+            fmt::print("{}", speedupLine(row));
+            std::fflush(stdout);
+            if (folder.empty()) return;
+            writeFile(folder / "speedup.csv", speedupCsv(rows));
+            writeFile(folder / "speedup.json", speedupJson(rows, subject));
+        },
+        progress);
+    drawReport(arguments.report, arguments.report);
+}
+
+void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<SpeedupArguments>();
+    CLI::App* command = bench.add_subcommand(
+        "speedup", "A fixed camera: frame time and image of full detail, nearest and fractional levels");
+    const char* group = "Measurement";
+    SpeedupOptions& options = arguments->speedup;
+    command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 65'536))
+        ->type_name("N,N,…")
+        ->default_str("16,32,64,128,256,512")
+        ->group(group);
+    command->add_option("--fstops", options.fStops, "Further f-numbers, at 64 samples")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->type_name("N,N,…")
+        ->group(group);
+    command->add_option("--focus-distances", options.focusDistances, "Further focus distances, at 64 samples")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->type_name("M,M,…")
+        ->group(group);
+    command->add_option("--runs", options.runs, "Runs of each mode; the median counts")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N")
+        ->default_str("3")
+        ->group(group);
+    command
+        ->add_option("--reference-samples", options.referenceSamples,
+                     "Lens samples of the converged reference that each lens is compared with; without it, eight times "
+                     "the most that are measured with the lens; 0: no reference")
+        ->check(CLI::Range(0, 65'536))
+        ->type_name("N")
+        ->group(group);
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->folder, "Folder for speedup.csv and speedup.json")
+            ->type_name("FOLDER")
+            ->group("Output");
+    addReport(*command, output, arguments->report);
+    addSceneOptions(*command, arguments->scene);
+    command->footer(
+        "Examples:\n"
+        "  defocus bench speedup --counts 16,64 -o bench-fish\n"
+        "  defocus bench speedup scene.glb --fstops 1.4,2.8,5.6 --reference-samples 1024");
+    command->callback([arguments, &global] { runSpeedup(*arguments, global); });
+}
+
+}  // namespace
+
+void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files) {
+    if (folder.empty()) return;
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+    for (const char* name : files) checkWritable(folder / name);
+}
+
+BenchSubject benchSubject(const GlContext& context) {
+    BenchSubject subject;
+    subject.program = "defocus " + programVersion();
+    subject.commit = programCommit();
+    subject.commands = {commandLine()};
+    subject.machine = thisMachine();
+    subject.device = context.device();
+    subject.driver = context.driver();
+    subject.software = context.software();
+    return subject;
+}
+
+BenchSubject benchSubject(const GlContext& context, const PreparedFrame& frame, int runs) {
+    BenchSubject subject = benchSubject(context);
+    subject.scene = frame.sceneName;
+    subject.camera = frame.cameraName;
+    subject.lens = frame.view.lens;
+    subject.width = frame.view.width;
+    subject.height = frame.view.height;
+    subject.runs = runs;
+    subject.pyramidMilliseconds = frame.pyramidMilliseconds;
+    return subject;
+}
+
+void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
+    CLI::App* bench = program.add_subcommand("bench", "Measure time and image error on this machine");
+    bench->require_subcommand(1);
+    addSpeedup(*bench, global);
+    addConvergenceCommand(*bench, global);
+    addStabilityCommand(*bench, global);
+    addBenchDiffCommand(*bench);
+    addPoppingCommand(*bench, global);
+    addScalingCommand(*bench, global);
+}
+
+}  // namespace defocus

@@ -1,0 +1,29 @@
+#pragma once
+// Sub-commands of defocus bench that have files of their own.
+
+#include <filesystem>
+#include <initializer_list>
+
+#include "cli/command.h"
+#include "eval/bench_subject.h"
+#include "frame/prepared_frame.h"
+#include "gl/context.h"
+
+namespace defocus {
+
+// Makes `folder` and checks that these files can be written there, before the long work; nothing for an empty path.
+// Throws Error.
+void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);
+
+// This program, command and machine, the device of `context`, and what is measured: one frame, or what the bench makes
+// by itself.
+BenchSubject benchSubject(const GlContext& context);
+BenchSubject benchSubject(const GlContext& context, const PreparedFrame& frame, int runs);
+
+void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global);
+void addBenchDiffCommand(CLI::App& bench);
+void addPoppingCommand(CLI::App& bench, const GlobalOptions& global);
+void addScalingCommand(CLI::App& bench, const GlobalOptions& global);
+void addStabilityCommand(CLI::App& bench, const GlobalOptions& global);
+
+}  // namespace defocus

@@ -1,0 +1,330 @@
+// defocus bench convergence: error against run time.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "cli/bench_commands.h"
+#include "cli/bench_report.h"
+#include "cli/option_text.h"
+#include "cli/scene_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "eval/convergence/text.h"
+#include "eval/convergence/unlit_scene.h"
+#include "frame/prepared_frame.h"
+#include "gl/context.h"
+#include "image/colour_map.h"
+#include "image/image_io.h"
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Ray tracers don't shade as the rasteriser does: where there are any, the scene has its light painted on.
+bool hasRayTracers() {
+    return std::ranges::any_of(methods(), [](const Method& method) { return !method.needsGl; });
+}
+
+struct ConvergenceArguments {
+    SceneOptions scene;
+    bool unlit = hasRayTracers();
+    ConvergenceOptions options;
+    std::uint32_t referenceSamples = 4096;
+    fs::path output;  // empty: as `report`, else "convergence"
+    fs::path report;  // empty: none
+    bool resume = false;
+    bool overwrite = false;
+};
+
+fs::path resultsFolder(const ConvergenceArguments& arguments) {
+    if (!arguments.output.empty()) return arguments.output;
+    return arguments.report.empty() ? "convergence" : arguments.report;
+}
+
+void makeFolders(const ConvergenceArguments& arguments) {
+    const fs::path results = resultsFolder(arguments);
+    makeOutputFolder(results, {"results.csv", "results.json", "runs.csv", "reference.exr"});
+    makeOutputFolder(results / "images", {"reference.png"});
+    makeOutputFolder(arguments.report, {"index.html", "results.csv", "results.json"});
+}
+
+std::string textIn(const fs::path& path) {
+    const std::vector<std::byte> bytes = readFile(path);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// What a journal's frames have in common: another scene, reference, device or program makes another subject.
+std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const ConvergenceOptions& options) {
+    const RenderSettings& plan = options.plan;
+    const std::string text =
+        fmt::format("{} {} {} {} {} {} {} {} {} {}", bench.program, bench.commit, bench.device, bench.driver,
+                    sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, plan.keepAll,
+                    static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
+    return hashBytes(std::as_bytes(std::span(text)), reference);
+}
+
+// The frames that are to be gone on from. Throws Error, before anything is touched, where the folder holds what this
+// run would destroy: frames or a reference that took long to make.
+std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, std::uint64_t reference,
+                                        std::uint64_t subject) {
+    if (arguments.overwrite) return {};
+    const fs::path folder = resultsFolder(arguments);
+    const fs::path journal = folder / "runs.csv";
+    std::vector<ConvergenceRun> runs;
+    if (fs::exists(journal)) runs = readRunsCsv(textIn(journal), subject, journal.string());
+    if (!runs.empty() && !arguments.resume)
+        fail("{}: holds {} frames of an earlier run: --resume goes on from them, --overwrite begins anew",
+             journal.string(), runs.size());
+    if (holdsOtherReference(folder, reference))
+        fail(
+            "{}: holds the reference of another scene, camera, size, number of samples or build of the program; choose "
+            "another folder, or begin anew with --overwrite",
+            folder.string());
+    return runs;
+}
+
+// Results in their folder: as frames come in, everything is written anew, so that a killed run loses none of them.
+class ResultsFolder {
+public:
+    ResultsFolder(fs::path folder, const ReferenceImage& reference, ConvergenceSubject subject, std::uint64_t hash)
+        : folder_(std::move(folder)), reference_(reference), subject_(std::move(subject)), hash_(hash) {}
+
+    // Goes on from the frames, and the commands, that an earlier run has left here.
+    void resume(std::vector<ConvergenceRun> runs) {
+        runs_ = std::move(runs);
+        const fs::path results = folder_ / "results.json";
+        if (!fs::exists(results)) return;
+        const nlohmann::json document = nlohmann::json::parse(textIn(results), nullptr, false);
+        if (!document.is_object() || !document.contains("commands") || !document["commands"].is_array()) return;
+        std::vector<std::string> commands;
+        for (const nlohmann::json& command : document["commands"])
+            if (command.is_string()) commands.push_back(command.get<std::string>());
+        commands.insert(commands.end(), subject_.bench.commands.begin(), subject_.bench.commands.end());
+        subject_.bench.commands = commands;
+    }
+
+    void add(const ConvergenceRun& run, const Image* image, const Image* flipMap) {
+        if (image != nullptr) writeImage(folder_ / imageName(run.method, run.setting, run.asked), *image);
+        if (flipMap != nullptr) {
+            Image shown = *flipMap;
+            for (float& value : shown.pixels) value /= errorMapFullScale;
+            writeImage(folder_ / errorMapName(run.method, run.setting, run.asked), colourMapped(shown));
+        }
+        runs_.push_back(run);
+        writeFile(folder_ / "runs.csv", runsCsv(runs_, hash_));
+        writeResults(folder_);
+    }
+
+    void leaveOut(const ConvergenceCase& wanted, const std::string& reason) {
+        subject_.leftOut.push_back({wanted.use.method->name, wanted.setting, reason});
+    }
+
+    void writeResults(const fs::path& folder) const {
+        const std::vector<ConvergenceRow> all = rows();
+        writeFile(folder / "results.csv", convergenceCsv(all));
+        writeFile(folder / "results.json", convergenceJson(all, reference_, subject_));
+    }
+
+    [[nodiscard]] std::vector<ConvergenceRow> rows() const { return convergenceRows(runs_, reference_.remaining); }
+
+private:
+    fs::path folder_;
+    const ReferenceImage& reference_;
+    ConvergenceSubject subject_;
+    std::uint64_t hash_;
+    std::vector<ConvergenceRun> runs_;
+};
+
+void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& global) {
+    // Faults first: scene, lens, device, folders.
+    Progress progress = terminalProgress(global);
+    ConvergenceOptions options = arguments.options;
+    SceneOptions scene = arguments.scene;
+    scene.noCache = true;  // the time that pyramids take is part of the result
+    const bool usesLevels = std::ranges::any_of(options.lods, [](LodMode mode) { return mode != LodMode::off; });
+    if (!usesLevels) scene.lod = LodMode::off;
+    PreparedFrame frame = placeFrame(scene, progress);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    makeFolders(arguments);
+    if (arguments.unlit) {
+        *frame.scene = unlitScene(std::move(*frame.scene));
+        frame.sceneName += ", unlit";
+    }
+    options.plan = frame.settings;
+    options.renderer.layerFormat = scene.layerFormat;
+    options.renderer.wave = scene.wave;
+    options.renderer.shaderFolder = global.shaderDir;
+    const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer};
+    const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
+    const std::uint64_t hash = subjectHash(referenced, benchSubject(*context), options);
+    const std::vector<ConvergenceRun> done = earlierRuns(arguments, referenced, hash);
+    const fs::path folder = resultsFolder(arguments);
+    if (arguments.overwrite) writeFile(folder / "runs.csv", runsCsv({}, hash));
+    addPyramids(frame, progress);
+
+    // The reference, and where to look.
+    const ReferenceImage reference = referenceImage(frame.world, frame.view, referenceOptions, folder, progress);
+    writeImage(folder / "images" / "reference.png", reference.image);
+    ConvergenceSubject subject;
+    subject.bench = benchSubject(*context, frame, options.runs);
+    const std::uint32_t fewest = *std::ranges::min_element(options.sampleCounts);
+    subject.crops = tellingCrops(frame.world, frame.view, reference, fewest, options.renderer);
+
+    // The frames.
+    ResultsFolder results(folder, reference, subject, hash);
+    if (arguments.resume) results.resume(done);
+    fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n", subject.bench.scene, subject.bench.width,
+               subject.bench.height, options.runs, subject.bench.device);
+    std::fflush(stdout);
+    const ConvergenceVisitor visitor = {
+        [&](const ConvergenceRun& run, const Image* image, const Image* flipMap) { results.add(run, image, flipMap); },
+        [&](const ConvergenceCase& wanted, const std::string& reason) {
+            results.leaveOut(wanted, reason);
+            if (!global.quiet) fmt::print(stderr, "warning: {} is left out: {}\n", wanted.use.text(), reason);
+        }};
+    measureConvergence(frame.world, frame.view, reference, options, frame.pyramidMilliseconds, done, visitor, progress);
+    progress = {};
+
+    // Results.
+    results.writeResults(folder);
+    const std::vector<ConvergenceRow> rows = results.rows();
+    fmt::print("{}", convergenceHeader());
+    for (const ConvergenceRow& row : rows) fmt::print("{}", convergenceLine(row));
+    fmt::print("{}", convergenceSummary(rows, reference));
+    if (!arguments.report.empty()) results.writeResults(arguments.report);
+    drawReport(resultsFolder(arguments), arguments.report);
+}
+
+// ---- options --------------------------------------------------------------------------------------------------------
+
+std::vector<std::string> partsOf(const std::string& text) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+// "a:x=1,y=2,b" is a with two settings, and b: what has a "=" and no name of its own belongs to the method before it.
+std::vector<MethodUse> parseMethods(const std::string& text) {
+    std::vector<std::string> names;
+    for (const std::string& part : partsOf(text)) {
+        const std::size_t equals = part.find('=');
+        const bool more = equals != std::string::npos && part.find(':') > equals;
+        if (more && !names.empty())
+            names.back() += "," + part;
+        else
+            names.push_back(part);
+    }
+    std::vector<MethodUse> uses;
+    uses.reserve(names.size());
+    for (const std::string& name : names) uses.push_back(parseMethodUse(name));
+    return uses;
+}
+
+template <typename Value, typename Parse>
+void addList(CLI::App& command, const std::string& name, const std::string& type, std::vector<Value>& target,
+             const std::string& standard, const std::string& description, Parse parse) {
+    addParsed(command, name, type, description,
+              [&target, parse](const std::string& text) {
+                  target.clear();
+                  for (const std::string& part : partsOf(text)) target.push_back(parse(part));
+              })
+        ->default_str(standard)
+        ->group("Measurement");
+}
+
+void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
+    const char* group = "Measurement";
+    ConvergenceOptions& options = arguments.options;
+    addParsed(
+        command, "--methods", "NAME,NAME,…",
+        "Methods, each with its settings, as in accumulation,circular:far-components=2; without it, all that this "
+        "program has. Accumulation at full detail is always there",
+        [&options](const std::string& text) { options.methods = parseMethods(text); })
+        ->group(group);
+    addList(command, "--counts", "N,N,…", options.sampleCounts, "8,16,32,64,128,256", "Numbers of lens samples",
+            [](const std::string& part) { return static_cast<std::uint32_t>(parseWhole(part, 1, 65'536)); });
+    addList(command, "--lod", "off,nearest,fractional,continuous", options.lods, "off,fractional",
+            "Levels of detail, of methods that draw levels", [](const std::string& part) {
+                constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional, LodMode::continuous};
+                return modes[parseChoice(part, {"off", "nearest", "fractional", "continuous"})];
+            });
+    addList(command, "--metrics", "size,error", options.metrics, "size", "What levels are chosen by",
+            [](const std::string& part) {
+                constexpr std::array metrics = {LodMetric::size, LodMetric::error};
+                return metrics[parseChoice(part, {"size", "error"})];
+            });
+    addList(command, "--threshold-factors", "F,F,…", options.thresholdFactors, "0.5,1,2",
+            "Times the standard thresholds for each number of samples", [](const std::string& part) {
+                return parseNumber(part, {0, 1000});
+            });
+    addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
+                    "The scene's own light, or a fixed one painted on its meshes, which ray tracers show alike; "
+                    "unlit where this program has ray tracers")
+        ->group(group);
+    addWhole(command, "--runs", options.runs, 1, 1000, "Frames of each; the median counts")->group(group);
+    addWhole(command, "--reference-samples", arguments.referenceSamples, 2, 65'536,
+             "Lens samples of the reference, which is kept beside the results and used again")
+        ->group(group);
+}
+
+void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
+    const char* group = "Output";
+    command
+        .add_option("-o,--output", arguments.output,
+                    "Folder for results.csv, results.json, runs.csv, reference.exr and images; without it, that of the "
+                    "report, else convergence")
+        ->type_name("FOLDER")
+        ->group(group);
+    CLI::Option* resume =
+        command.add_flag("--resume", arguments.resume, "Measure only what the folder's runs.csv doesn't have yet")
+            ->group(group);
+    command
+        .add_flag("--overwrite", arguments.overwrite,
+                  "Begin anew in a folder that holds frames or the reference of another run; they are lost")
+        ->excludes(resume)
+        ->group(group);
+    command
+        .add_option("--report", arguments.report,
+                    "Folder for index.html: plots, tables and pictures in one file (needs python3-matplotlib)")
+        ->type_name("FOLDER")
+        ->group(group);
+}
+
+}  // namespace
+
+void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<ConvergenceArguments>();
+    CLI::App* command =
+        bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
+    addSceneOptions(*command, arguments->scene);
+    // What the bench goes through by itself.
+    for (const char* name : {"--samples", "--lod", "--lod-metric", "--blur-threshold", "--size-threshold", "--method",
+                             "--cache-dir", "--no-cache"})
+        command->remove_option(command->get_option(name));
+    addMeasurement(*command, *arguments);
+    addOutput(*command, *arguments);
+    command->footer(
+        "Examples:\n"
+        "  defocus bench convergence scene.glb --report report\n"
+        "  defocus bench convergence --size 512x384 --reference-samples 1024 --counts 8,32,128 -o fish\n"
+        "  defocus bench convergence --size 512x384 --reference-samples 1024 --counts 8,32,128 -o fish --resume");
+    command->callback([arguments, &global] { runConvergence(*arguments, global); });
+}
+
+}  // namespace defocus

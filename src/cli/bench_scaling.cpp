@@ -1,0 +1,112 @@
+// defocus bench scaling: how a frame's time and memory grow.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "cli/bench_commands.h"
+#include "cli/bench_report.h"
+#include "cli/option_text.h"
+#include "cli/scene_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "eval/scaling/text.h"
+#include "gl/context.h"
+#include "lod/pyramid/cache.h"
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScalingArguments {
+    ScalingOptions options;
+    fs::path cacheFolder;  // empty: the default
+    fs::path folder;       // empty: only the table
+    fs::path report;       // empty: none
+};
+
+void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
+    const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    makeOutputFolder(folder, {"scaling.csv", "scaling.json"});
+    const Progress progress = terminalProgress(global);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    ScalingOptions options = arguments.options;
+    options.cacheFolder = arguments.cacheFolder.empty() ? defaultCacheFolder() : arguments.cacheFolder;
+    options.renderer.shaderFolder = global.shaderDir;
+    BenchSubject subject = benchSubject(*context);
+    subject.runs = options.runs;
+    fmt::print("{} runs of each, on {}\n\n{}", subject.runs, subject.device, scalingHeader());
+    std::fflush(stdout);
+
+    // Each row is kept as it comes: a run that is cut off loses nothing.
+    std::vector<ScalingRow> rows;
+    std::vector<ScalingLeftOut> leftOut;
+    const auto write = [&] {
+        std::fflush(stdout);
+        if (folder.empty()) return;
+        writeFile(folder / "scaling.csv", scalingCsv(rows));
+        writeFile(folder / "scaling.json", scalingJson(rows, leftOut, subject));
+    };
+    const ScalingVisitor visitor = {[&](const ScalingRow& row) {
+                                        rows.push_back(row);
+                                        fmt::print("{}", scalingLine(row));
+                                        write();
+                                    },
+                                    [&](const ScalingPoint& point, const std::string& reason) {
+                                        leftOut.push_back({point, reason});
+                                        fmt::print("{}", scalingLine(leftOut.back()));
+                                        write();
+                                    }};
+    measureScaling(options, visitor, progress);
+    fmt::print("{}", scalingSummary(rows));
+    drawReport(arguments.report, arguments.report);
+}
+
+}  // namespace
+
+void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<ScalingArguments>();
+    CLI::App* command = bench.add_subcommand(
+        "scaling", "Time and memory against triangles, instances, samples, pixels and blur, with fitted exponents");
+    const char* group = "Measurement";
+    ScalingOptions& options = arguments->options;
+    addParsed(*command, "--axes", "AXIS,AXIS,…", "What grows: triangles, instances, samples, pixels, blur",
+              [&options](const std::string& text) {
+                  options.axes.clear();
+                  for (std::size_t begin = 0; begin <= text.size();) {
+                      const std::size_t end = std::min(text.find(',', begin), text.size());
+                      const std::vector<ScalingAxis> all = ScalingOptions().axes;
+                      std::vector<std::string> names;
+                      names.reserve(all.size());
+                      for (const ScalingAxis axis : all) names.emplace_back(scalingAxisName(axis));
+                      options.axes.push_back(all[parseChoice(text.substr(begin, end - begin), names)]);
+                      begin = end + 1;
+                  }
+              })
+        ->default_str("triangles,instances,samples,pixels,blur")
+        ->group(group);
+    command
+        ->add_flag("--large", options.large,
+                   "Triangles up to 50 million instead of 10, as far as memory allows; their pyramids take minutes")
+        ->group(group);
+    addWhole(*command, "--runs", options.runs, 1, 1000, "Runs of each frame; the median counts")->group(group);
+    addCacheFolder(*command, arguments->cacheFolder)->group(group);
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->folder, "Folder for scaling.csv and scaling.json")
+            ->type_name("FOLDER")
+            ->group("Output");
+    addReport(*command, output, arguments->report);
+    command->footer(
+        "Examples:\n"
+        "  defocus bench scaling -o scaling\n"
+        "  defocus bench scaling --axes triangles --large");
+    command->callback([arguments, &global] { runScaling(*arguments, global); });
+}
+
+}  // namespace defocus

@@ -1,0 +1,327 @@
+// defocus capture: a shot to frames and film.
+
+#include "capture/capture.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/film_settings.h"
+#include "capture/frame_files.h"
+#include "capture/shot_json.h"
+#include "capture/shot_options.h"
+#include "capture/video.h"
+#include "cli/command.h"
+#include "cli/option_text.h"
+#include "cli/scene_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "frame/prepared_frame.h"
+#include "frame/render_report.h"
+#include "gl/context.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Shard {
+    int index = 0;
+    int count = 1;
+};
+
+struct CaptureArguments {
+    std::vector<ShotOverride> overrides;
+    Shot shot;
+    SceneOptions scene;
+    std::optional<FrameRange> range;
+    Shard shard;
+    std::optional<SampleRange> samples;
+    std::vector<std::string> outputs;  // empty: the shot's
+    bool resume = false;
+    bool dryRun = false;
+};
+
+// ---- Ctrl-C
+// ----------------------------------------------------------------------------------------------------------
+
+volatile std::sig_atomic_t stopAsked = 0;
+
+// The first signal ends the work after the current frame, a second one at once.
+void stopAfterThisFrame() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { stopAsked = 1; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+// ---- the work
+// --------------------------------------------------------------------------------------------------------
+
+// Faults of outputs and of options that don't go together, before anything long.
+void checkArguments(const CaptureArguments& arguments) {
+    for (const std::string& pattern : arguments.shot.outputs) {
+        checkFramePattern(pattern);
+        const fs::path folder = fs::path(pattern).parent_path();
+        std::error_code fault;
+        if (!folder.empty() && !arguments.dryRun) fs::create_directories(folder, fault);
+        if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+        if (!arguments.dryRun) checkWritable(framePath(pattern, 0));
+    }
+    const bool part = arguments.shard.count > 1 || arguments.samples;
+    if (!arguments.shot.video.empty()) {
+        if (part)
+            fail(
+                "--video needs all frames: run the shards first, then the command without --shard and with --resume "
+                "--video {}",
+                arguments.shot.video.string());
+        checkVideo(arguments.shot.video);
+    }
+    if (!arguments.samples) return;
+    checkSampleRange(*arguments.samples, arguments.scene.samples);
+    if (arguments.shot.outputs.size() != 1 || fs::path(arguments.shot.outputs.front()).extension() != ".exr")
+        fail("--sample-range writes the sums of samples to one EXR pattern, such as -o frames/####.exr");
+}
+
+FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& settings) {
+    const Shot& shot = arguments.shot;
+    FilmOptions options;
+    options.outputs = shot.outputs;
+    options.samples = arguments.samples;
+    options.toneMap = shot.toneMap;
+    options.exposure = shot.exposure;
+    options.settings = settings;
+    options.timings = timingsPath(shot.outputs.front(), arguments.shard.index, arguments.shard.count);
+    options.resume = arguments.resume;
+    return options;
+}
+
+void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
+               const std::vector<FilmFrame>& film) {
+    fmt::print("{}, camera '{}', {}x{}, {} samples, {:g} frames a second\n", prepared.sceneName, prepared.cameraName,
+               base.view.width, base.view.height, base.settings.sampleCount, arguments.shot.frameRate);
+    fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
+               "triangles", "file");
+    for (const FilmFrame& each : film) {
+        const SequenceFrame frame = frameAt(arguments.shot, base, each.frame);
+        prepared.world.pose = frame.pose;
+        prepared.world.shutter = frame.shutter;
+        const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
+        const Lens& lens = frame.view.lens;
+        fmt::print("{:>7} {:>9.3f} {:>10.4g} {:>8.3g} {:>8.4g} {:>12}  {}{}\n", each.frame, frame.time,
+                   lens.focusDistance, lens.fStop, lens.focalLength, plan.trianglesDrawn, each.files.front().string(),
+                   each.finished ? " (is there)" : "");
+    }
+}
+
+// Metadata as of `render`, less what differs from run to run.
+FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method) {
+    return
+        [&arguments, &prepared, method](const SequenceFrame& frame, const FramePlan& plan, const RenderStats& stats) {
+            SceneOptions options = arguments.scene;
+            options.time = frame.time;
+            Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0});
+            metadata.erase("defocus:seconds");
+            metadata["capDate"] = std::string();  // else the library puts the time of writing there
+            metadata["defocus:frame"] = frame.frame;
+            metadata["defocus:frameRate"] = arguments.shot.frameRate;
+            return metadata;
+        };
+}
+
+void printFigures(const FilmFigures& figures, std::size_t frames) {
+    const double render = figures.renderMilliseconds / 1000;
+    const double total = figures.totalMilliseconds / 1000;
+    std::string text = fmt::format("{} frame{}", frames, frames == 1 ? "" : "s");
+    if (figures.finishedBefore > 0) text += fmt::format(", {} of them there before", figures.finishedBefore);
+    if (figures.rendered > 0)
+        text += fmt::format(
+            ": {} rendered in {:.1f} s, {:.2f} times the sum of their render times ({:.1f} s, {:.0f} ms "
+            "and {:.2f} M triangles a frame)",
+            figures.rendered, total, total / render, render, 1000 * render / figures.rendered,
+            static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
+    fmt::print(stderr, "{}\n", text);
+}
+
+FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
+                         const std::vector<FilmFrame>& film, const FilmOptions& options, const MethodUse& use,
+                         const GlobalOptions& global, const Progress& progress) try {
+    RendererOptions rendererOptions;
+    rendererOptions.layerFormat = arguments.scene.layerFormat;
+    rendererOptions.wave = arguments.scene.wave;
+    rendererOptions.shaderFolder = global.shaderDir;
+    rendererOptions.settings = use.settings;
+    const std::unique_ptr<Renderer> renderer = use.method->make(prepared.world, rendererOptions);
+    stopAfterThisFrame();
+    return renderFilm(
+        arguments.shot, base, prepared.world, *renderer, film, options, metadataOf(arguments, prepared, use.text()),
+        [] { return stopAsked != 0; }, progress);
+} catch (const Error& error) {
+    fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
+}
+
+void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
+    // Faults first: options, outputs, scene, every frame's camera and lens, device; only then the long work.
+    Shot& shot = arguments.shot;
+    settleShot(shot, arguments.scene, given);
+    if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
+    checkArguments(arguments);
+    const MethodUse use = chosenMethod(arguments.scene);
+    Progress progress = terminalProgress(global);
+    PreparedFrame prepared = placeFrame(arguments.scene, progress);
+    const SequenceBase base = sequenceBase(prepared, arguments.scene);
+    const FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.scene, use, global.shaderDir));
+    const std::vector<int> frames =
+        shardFrames(arguments.range.value_or(shot.range), arguments.shard.index, arguments.shard.count);
+    const std::vector<FilmFrame> film = filmFrames(shot, base, frames, options, progress);
+    const bool allThere = std::ranges::all_of(film, &FilmFrame::finished);
+
+    // The frames.
+    std::unique_ptr<GlContext> context;
+    if (!allThere && use.method->needsGl && !arguments.dryRun) context = createHeadlessContext();
+    if (!allThere || arguments.dryRun) addPyramids(prepared, progress);
+    printFrameWarnings(prepared, global);
+    if (arguments.dryRun) {
+        progress = {};
+        return printPlan(arguments, prepared, base, film);
+    }
+    FilmFigures figures;
+    figures.finishedBefore = static_cast<int>(film.size());
+    if (!allThere) figures = renderFrames(arguments, prepared, base, film, options, use, global, progress);
+    if (figures.stoppedBefore)
+        fail("stopped before frame {}: {} of {} frames are finished; the same command with --resume goes on",
+             *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());
+
+    // The film.
+    std::vector<VideoFrame> pictures;
+    for (const FilmFrame& frame : film) pictures.push_back({frame.files.front(), frame.write});
+    if (!shot.video.empty()) writeVideo(shot.video, pictures, shot.frameRate, progress);
+    progress = {};
+    if (!global.quiet) printFigures(figures, film.size());
+}
+
+// ---- options
+// ---------------------------------------------------------------------------------------------------------
+
+void parseShard(const std::string& text, Shard& shard) {
+    const std::size_t slash = text.find('/');
+    try {
+        if (slash == std::string::npos) throw Error("");
+        shard.count = static_cast<int>(parseWhole(text.substr(slash + 1), 1, 1'000'000));
+        shard.index = static_cast<int>(parseWhole(text.substr(0, slash), 0, 999'999));
+    } catch (const Error&) {
+        fail("'{}' is not I/N, such as 0/4: part I, from 0 to N-1, of N", text);
+    }
+    if (shard.index >= shard.count)
+        fail("'{}': the parts of {} are 0 to {} (of a Slurm job: --array=0-{})", text, shard.count, shard.count - 1,
+             shard.count - 1);
+}
+
+// The shot is read when its option is, before those that replace parts of it: CLI11 calls options in the order in which
+// they were added.
+void addShot(CLI::App& command, CaptureArguments& arguments) {
+    const char* group = "Shot";
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--set",
+            [&arguments](const std::vector<std::string>& texts) {
+                try {
+                    for (const std::string& text : texts) arguments.overrides.push_back(parseShotOverride(text));
+                } catch (const Error& error) {
+                    throw CLI::ValidationError(error.what());  // a fault of the command line
+                }
+            },
+            "Replaces a value of the shot, by its place: --set /lens/fStop=1.4. Can be given several times")
+        ->allow_extra_args(false)
+        ->type_name("/PLACE=VALUE")
+        ->group(group);
+    command
+        .add_option_function<std::string>(
+            "SHOT",
+            [&arguments](const std::string& path) {
+                arguments.shot = loadShot(path, arguments.overrides);
+                applyShot(arguments.shot, arguments.scene);
+            },
+            "Shot file (JSON; docs/shot.schema.json)")
+        ->required()
+        ->type_name("FILE");
+    addParsed(command, "--range", "FIRST:LAST", "Frames to render, or one; movements keep the shot's range",
+              [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
+        ->group(group);
+    addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frames a second")->group(group);
+    addNumber(command, "--speed", arguments.shot.animation.speed, {-1e3, 1e3}, "R", "Of the scene's animation")
+        ->group(group);
+    command
+        .add_flag("--animate-seed", arguments.shot.animateSeed,
+                  "Other sample positions in each frame, so that the noise moves like film grain")
+        ->group(group);
+}
+
+void addOutputs(CLI::App& command, CaptureArguments& arguments) {
+    const char* group = "Output";
+    command
+        .add_option("-o,--output", arguments.outputs,
+                    "Pattern of the frames, #### being the number: .exr, .png or .jpg. Can be given several times. "
+                    "Without it, the shot's, else frames/####.exr")
+        ->allow_extra_args(false)
+        ->type_name("PATTERN")
+        ->group(group);
+    command
+        .add_option("--video", arguments.shot.video, "Also make a film with ffmpeg: .mp4, .mov, .mkv, .webm or .gif")
+        ->type_name("FILE")
+        ->group(group);
+    addNumber(command, "--exposure", arguments.shot.exposure, {-60, 60}, "EV",
+              "Of .png, .jpg and film; without it, the shot's, or what exposure time, ISO and f-number make")
+        ->group(group);
+    addChoice<ToneMap>(command, "--tonemap", arguments.shot.toneMap,
+                       {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
+                       "Film curve of .png, .jpg and film")
+        ->group(group);
+    command.add_flag("--resume", arguments.resume, "Keep frames that are finished and of the same settings")
+        ->group(group);
+    addParsed(command, "--shard", "I/N", "Render part I (0 to N-1) of the frames; N machines share a film",
+              [&arguments](const std::string& text) { parseShard(text, arguments.shard); })
+        ->group(group);
+    addParsed(command, "--sample-range", "FIRST:END",
+              "Of each frame, sum up only these samples (multiples of 64) to #.partFIRST-END.exr, for 'defocus merge'",
+              [&arguments](const std::string& text) { arguments.samples = parseSampleRange(text); })
+        ->group(group);
+    command.add_flag("--dry-run", arguments.dryRun, "Print what each frame would be, and render nothing")->group(group);
+}
+
+}  // namespace
+
+void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<CaptureArguments>();
+    CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and film");
+    addShot(*command, *arguments);
+    addOutputs(*command, *arguments);
+    addSceneOptions(*command, arguments->scene);
+    excludeExposure(*command);
+    command->remove_option(command->get_option("SCENE"));
+    command->add_option("--scene", arguments->scene.path, "glTF file, instead of the shot's")
+        ->type_name("FILE")
+        ->group("Scene");
+    addMethodSettings(*command, arguments->scene);
+    command->footer(
+        "Options replace what the shot says.\n\n"
+        "Examples:\n"
+        "  defocus capture shots/fish-pull.json --video fish.mp4\n"
+        "  defocus capture shot.json --range 0:48 --samples 16 --size 320x240 -o preview/####.png\n"
+        "  defocus capture shot.json --shard 2/8 --resume");
+    command->callback([arguments, command, &global] {
+        const auto given = [command](const char* name) { return command->get_option(name)->count() > 0; };
+        runCapture(*arguments, {given("--camera"), given("--shutter")}, global);
+    });
+}
+
+}  // namespace defocus

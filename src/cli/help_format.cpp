@@ -1,0 +1,72 @@
+#include "cli/help_format.h"
+
+#include <sstream>
+
+namespace defocus {
+
+namespace {
+
+constexpr std::size_t lineWidth = 100;
+
+// `left` in its column, then `text` word by word; on lines of its own where `left` is too wide.
+std::string inColumns(const std::string& left, const std::string& text, std::size_t column) {
+    std::string lines = "  " + left;
+    std::size_t at = lines.size();
+    const auto startColumn = [&] {
+        lines.append(column - at, ' ');
+        at = column;
+    };
+    const auto breakLine = [&] {
+        lines += '\n';
+        at = 0;
+        startColumn();
+    };
+    if (at + 2 > column)
+        breakLine();
+    else
+        startColumn();
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (at > column && at + 1 + word.size() > lineWidth)
+            breakLine();
+        else if (at > column)
+            word.insert(word.begin(), ' ');
+        lines += word;
+        at += word.size();
+    }
+    return lines + '\n';
+}
+
+}  // namespace
+
+std::string HelpFormat::make_option(const CLI::Option* option, bool isPositional) const {
+    return inColumns(make_option_name(option, isPositional) + make_option_opts(option), make_option_desc(option),
+                     get_column_width());
+}
+
+// A flag that can be given both ways: "--dof,--no-dof".
+std::string HelpFormat::make_option_name(const CLI::Option* option, bool isPositional) const {
+    std::string name = CLI::Formatter::make_option_name(option, isPositional);
+    const std::string mark = "{false}";
+    if (const std::size_t at = name.find(mark); at != std::string::npos) name.erase(at, mark.size());
+    return name;
+}
+
+std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
+    const bool takesValue = option->get_type_size() != 0 && !option->get_positional();
+    const std::string type = option->get_type_name();
+    // What follows a colon are the names of checks, which only repeat the description.
+    return takesValue && !type.empty() ? " " + type.substr(0, type.find(':')) : "";
+}
+
+std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
+    const std::string standard = option->get_default_str();
+    const std::string& text = option->get_description();
+    return standard.empty() ? text : text + " (default " + standard + ")";
+}
+
+std::string HelpFormat::make_subcommand(const CLI::App* command) const {
+    return inColumns(command->get_name(), command->get_description(), get_column_width());
+}
+
+}  // namespace defocus

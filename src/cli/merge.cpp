@@ -1,0 +1,80 @@
+// defocus merge: parts of a frame's samples to the frame.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "capture/partial.h"
+#include "cli/command.h"
+#include "cli/option_text.h"
+#include "core/file.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+
+namespace defocus {
+
+namespace {
+
+struct MergeArguments {
+    std::vector<std::filesystem::path> parts;
+    std::vector<std::filesystem::path> outputs = {"out.exr"};
+    ToneMap toneMap = ToneMap::none;
+    std::optional<double> exposure;  // EV; none: the parts'
+};
+
+// That of the lens, where it has one.
+double ownExposure(const Metadata& metadata) {
+    const auto found = metadata.find("defocus:exposure");
+    const double* value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    return value != nullptr ? *value : 0;
+}
+
+void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
+    for (const std::filesystem::path& path : arguments.outputs) {
+        checkImageExtension(path);
+        checkWritable(path);
+    }
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    const MergedFrame merged = mergeParts(arguments.parts);
+    const WriteOptions write{arguments.toneMap, arguments.exposure.value_or(ownExposure(merged.metadata))};
+    std::string names;
+    for (const std::filesystem::path& path : arguments.outputs) {
+        writeImage(path, merged.image, merged.metadata, write);
+        names += (names.empty() ? "" : ", ") + path.string();
+    }
+    if (!global.quiet)
+        fmt::print(stderr, "{}: {}x{}, {} parts\n", names, merged.image.width, merged.image.height,
+                   arguments.parts.size());
+}
+
+}  // namespace
+
+void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<MergeArguments>();
+    CLI::App* command =
+        program.add_subcommand("merge", "Add up parts of a frame's samples (render or capture with --sample-range)");
+    command->add_option("PART", arguments->parts, "The parts of one frame, in any order")
+        ->required()
+        ->type_name("FILE…");
+    command->add_option("-o,--output", arguments->outputs, "Image to write: .exr, .png or .jpg; several times")
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->default_str("out.exr");
+    addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
+              "Of .png and .jpg; without it, what the lens's exposure time makes, else 0");
+    addChoice<ToneMap>(*command, "--tonemap", arguments->toneMap,
+                       {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
+                       "Film curve of .png and .jpg");
+    command->footer(
+        "The result has the same bits as a single run on a machine of the same kind.\n\n"
+        "Example:\n"
+        "  defocus render scene.glb --samples 256 --sample-range 0:128 -o a.exr\n"
+        "  defocus render scene.glb --samples 256 --sample-range 128:256 -o b.exr\n"
+        "  defocus merge a.exr b.exr -o out.exr");
+    command->callback([arguments, &global] { runMerge(*arguments, global); });
+}
+
+}  // namespace defocus

@@ -1,0 +1,19 @@
+// `defocus view` of a build without its window.
+
+#include "cli/command.h"
+#include "core/error.h"
+
+namespace defocus {
+
+void addViewCommand(CLI::App& program, const GlobalOptions&) {
+    CLI::App* command = program.add_subcommand("view", "A window: not in this build");
+    command->fallthrough(false)->allow_extras();
+    command->callback([] {
+        fail(
+            "view: this program was built without its window; configure with -DDEFOCUS_VIEWER=ON (GLFW, Dear ImGui), "
+            "or "
+            "use render");
+    });
+}
+
+}  // namespace defocus

@@ -1,0 +1,55 @@
+#pragma once
+// Options that are read by our own rules, so that a wrong value gives one clear line: "--samples: '0' is not a whole
+// number from 1 to 65536".
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/parse.h"
+
+namespace defocus {
+
+// Adds an option whose text goes to `parse`; an Error that it throws becomes a fault of the command line.
+CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
+                       const std::string& description, std::function<void(const std::string&)> parse);
+
+// An option for a number that may be left empty. `target` must outlive the parse.
+CLI::Option* addNumber(CLI::App& command, const std::string& names, std::optional<double>& target, const Range& range,
+                       const std::string& type, const std::string& description);
+CLI::Option* addNumber(CLI::App& command, const std::string& names, double& target, const Range& range,
+                       const std::string& type, const std::string& description);
+
+template <typename Whole>
+CLI::Option* addWhole(CLI::App& command, const std::string& names, Whole& target, std::uint64_t least,
+                      std::uint64_t most, const std::string& description) {
+    return addParsed(command, names, "N", description,
+                     [&target, least, most](const std::string& text) {
+                         target = static_cast<Whole>(parseWhole(text, least, most));
+                     })
+        ->default_str(std::to_string(target));
+}
+
+template <typename Value>
+CLI::Option* addChoice(CLI::App& command, const std::string& name, Value& target,
+                       const std::vector<std::pair<std::string, Value>>& choices, const std::string& description) {
+    std::vector<std::string> names;
+    std::string type;
+    std::string current;
+    for (const auto& [choice, value] : choices) {
+        names.push_back(choice);
+        type += (type.empty() ? "" : "|") + choice;
+        if (value == target) current = choice;
+    }
+    return addParsed(command, name, type, description,
+                     [&target, choices, names](const std::string& text) {
+                         target = choices[parseChoice(text, names)].second;
+                     })
+        ->default_str(current);
+}
+
+}  // namespace defocus

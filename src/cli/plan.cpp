@@ -1,0 +1,42 @@
+// defocus plan: what a render would draw, without drawing it.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/scene_options.h"
+#include "frame/prepared_frame.h"
+#include "plan/frame_plan.h"
+#include "plan/plan_text.h"
+
+namespace defocus {
+
+namespace {
+
+struct PlanArguments {
+    SceneOptions scene;
+    bool json = false;
+};
+
+void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
+    const PreparedFrame frame = prepareFrame(arguments.scene, terminalProgress(global));
+    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
+    printFrameWarnings(frame, global);
+}
+
+}  // namespace
+
+void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<PlanArguments>();
+    CLI::App* command = program.add_subcommand(
+        "plan", "Print what a render would draw: blur, level and samples of each object, and what is left out");
+    command->add_flag("--json", arguments->json, "JSON for programs instead of a table")->group("Output");
+    addSceneOptions(*command, arguments->scene);
+    command->footer("Example:\n  defocus plan scene.glb --fstop 1.4 --focus-node Bottle --json");
+    command->callback([arguments, &global] { runPlan(*arguments, global); });
+}
+
+}  // namespace defocus

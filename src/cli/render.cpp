@@ -1,0 +1,192 @@
+// defocus render: a scene to images.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capture/film_settings.h"
+#include "capture/partial.h"
+#include "cli/command.h"
+#include "cli/render_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "frame/prepared_frame.h"
+#include "frame/render_report.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+#include "image/tone_map.h"
+#include "lens/photographic_exposure.h"
+#include "render/aov/aov.h"
+#include "render/aov/work.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// out.exr and "depth.exr" → out.depth.exr
+std::filesystem::path derivedPath(const std::filesystem::path& output, const std::string& ending) {
+    std::filesystem::path path = output;
+    path.replace_extension(ending);
+    return path;
+}
+
+std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
+    std::vector<std::filesystem::path> paths;
+    const std::filesystem::path& output = arguments.outputs.front();
+    if (arguments.aovs.depth) paths.push_back(derivedPath(output, "depth.exr"));
+    if (arguments.aovs.coc) paths.push_back(derivedPath(output, "coc.exr"));
+    if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.exr"));
+    if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.png"));
+    if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.exr"));
+    if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.png"));
+    return paths;
+}
+
+void checkOutputs(const RenderArguments& arguments) {
+    for (const std::filesystem::path& path : arguments.outputs) {
+        checkImageExtension(path);
+        checkWritable(path);
+    }
+    for (const std::filesystem::path& path : aovPaths(arguments)) checkWritable(path);
+    if (!arguments.stats.empty()) checkWritable(arguments.stats);
+    if (!arguments.samples) return;
+    checkSampleRange(*arguments.samples, arguments.scene.samples);
+    if (arguments.outputs.size() != 1 || arguments.outputs.front().extension() != ".exr" || arguments.aovs.any())
+        fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
+}
+
+Image renderImage(Renderer& renderer, const FramePlan& plan, const Progress& progress) {
+    renderer.start(plan);
+    do {
+        report(progress, "samples", renderer.samples(), renderer.sampleTotal());
+    } while (renderer.advance());
+    return renderer.image();
+}
+
+// Part of the samples: their sums, block by block, to one file.
+void writeSums(const RenderArguments& arguments, FramePart part, const PreparedFrame& frame, const MethodUse& use,
+               const std::filesystem::path& shaderFolder, const Metadata& metadata) {
+    SequenceFrame single;
+    single.time = arguments.scene.time;
+    single.pose = frame.world.pose;
+    single.shutter = frame.world.shutter;
+    single.lights = frame.world.lights;
+    single.view = frame.view;
+    single.settings = frame.settings;
+    part.settings = frameSettings(filmSettings(frame, arguments.scene, use, shaderFolder), single);
+    part.metadata = metadata;
+    part.metadata["defocus:samples"] = static_cast<int>(part.frameSamples);
+    writePart(arguments.outputs.front(), part);
+}
+
+void writeAovs(const RenderArguments& arguments, const AovImages& images, const Metadata& metadata) {
+    const std::filesystem::path& output = arguments.outputs.front();
+    if (arguments.aovs.depth) writeImage(derivedPath(output, "depth.exr"), images.depth, metadata);
+    if (arguments.aovs.coc) writeImage(derivedPath(output, "coc.exr"), images.coc, metadata);
+    if (!arguments.aovs.level) return;
+    writeImage(derivedPath(output, "level.exr"), images.level, metadata);
+    writeImage(derivedPath(output, "level.png"), levelColourMap(images.level));
+}
+
+void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Image& work, const Metadata& metadata,
+               bool quiet) {
+    const std::filesystem::path& output = arguments.outputs.front();
+    const auto samples = static_cast<std::uint32_t>(plan.samples.size());
+    writeImage(derivedPath(output, "work.exr"), work, metadata);
+    writeImage(derivedPath(output, "work.png"), workColourMap(work, samples));
+    const WorkSummary summary = workSummary(work, samples);
+    if (!quiet)
+        fmt::print(stderr, "work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean,
+                   summary.most);
+}
+
+void printSummary(const RenderArguments& arguments, const RenderReport& report) {
+    std::string names;
+    for (const std::filesystem::path& path : arguments.outputs) names += (names.empty() ? "" : ", ") + path.string();
+    for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
+    fmt::print(stderr, "{}: {}\n", names, summary(report));
+}
+
+void printChoices(const GlContext* context, const FramePlan& plan, const RenderReport& report) {
+    if (context != nullptr)
+        for (const std::string& line : context->log()) fmt::print(stderr, "{}\n", line);
+    fmt::print(stderr, "{} layers of {} at once\n", report.stats.wave, report.stats.layerFormat);
+    for (const LeftOut& entry : plan.leftOut) fmt::print(stderr, "left out: {}: {}\n", entry.what, entry.reason);
+    fmt::print(stderr, "load {:.0f} ms, pyramids {:.0f} ms, set-up {:.0f} ms, render {:.0f} ms\n",
+               report.frame.loadMilliseconds, report.frame.pyramidMilliseconds, report.stats.setupMilliseconds,
+               report.stats.renderMilliseconds);
+}
+
+void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
+    // Faults first: method, outputs, scene, lens, device; only then the long work.
+    const Clock::time_point start = Clock::now();
+    const MethodUse use = chosenMethod(arguments.scene);
+    const Method& method = *use.method;
+    checkOutputs(arguments);
+    Progress progress = terminalProgress(global);
+    PreparedFrame frame = placeFrame(arguments.scene, progress);
+    std::unique_ptr<GlContext> context;
+    if (method.needsGl || arguments.aovs.any()) context = createHeadlessContext();
+    addPyramids(frame, progress);
+
+    // Plan and render.
+    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    RendererOptions options;
+    options.layerFormat = arguments.scene.layerFormat;
+    options.wave = arguments.scene.wave;
+    options.shaderFolder = global.shaderDir;
+    options.settings = use.settings;
+    const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
+    Image image;
+    FramePart part;
+    if (arguments.samples)
+        part = renderPart(*renderer, plan, *arguments.samples,
+                          [&] { report(progress, "samples", renderer->samples(), renderer->sampleTotal()); });
+    else
+        image = renderImage(*renderer, plan, progress);
+    progress = {};
+
+    // Write.
+    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    const bool software = context == nullptr || context->software();
+    const RenderReport report{arguments.scene, use.text(), frame, plan, renderer->stats(), software, milliseconds};
+    const double exposure = arguments.exposure.value_or(photographicExposure(frame.view.lens));
+    const Metadata metadata = renderMetadata(report);
+    if (arguments.samples)
+        writeSums(arguments, std::move(part), frame, use, global.shaderDir, metadata);
+    else
+        for (const std::filesystem::path& path : arguments.outputs)
+            writeImage(path, image, metadata, {arguments.toneMap, exposure});
+    if (arguments.aovs.surfaces()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
+    if (arguments.aovs.work)
+        writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
+    if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
+    printFrameWarnings(frame, global);
+    if (global.verbose) printChoices(context.get(), plan, report);
+    if (!global.quiet) printSummary(arguments, report);
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<RenderArguments>();
+    CLI::App* command = program.add_subcommand("render", "Render a glTF scene with the depth of field of a real lens");
+    addRenderOptions(*command, *arguments);
+    command->footer(
+        "Examples:\n"
+        "  defocus render -o fish.exr -o fish.png\n"
+        "  defocus render scene.glb -o out.exr --fstop 1.4 --focus-distance 2.5 --samples 256\n"
+        "  defocus render scene.glb -o out.png --tonemap agx --focus-pixel 512,384 --blades 7 --aov depth,coc\n"
+        "  defocus render scene.glb -o out.png --method circular --far-components 5");
+    command->callback([arguments, &global] { runRender(*arguments, global); });
+}
+
+}  // namespace defocus

@@ -1,0 +1,36 @@
+#pragma once
+// What `defocus render` is asked for.
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "capture/partial.h"
+#include "cli/scene_options.h"
+#include "image/tone_map.h"
+
+namespace defocus {
+
+struct AovRequest {
+    bool depth = false;
+    bool coc = false;
+    bool level = false;
+    bool work = false;
+    [[nodiscard]] bool surfaces() const { return depth || coc || level; }
+    [[nodiscard]] bool any() const { return surfaces() || work; }
+};
+
+struct RenderArguments {
+    SceneOptions scene;
+    std::vector<std::filesystem::path> outputs;
+    std::filesystem::path stats;
+    AovRequest aovs;
+    ToneMap toneMap = ToneMap::none;
+    std::optional<double> exposure;      // EV, of .png and .jpg; none: the lens's
+    std::optional<SampleRange> samples;  // only these, for `merge`
+};
+
+// All options of the command. `arguments` must outlive the parse.
+void addRenderOptions(CLI::App& command, RenderArguments& arguments);
+
+}  // namespace defocus

@@ -1,0 +1,164 @@
+#include "cli/run_program.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/help_format.h"
+#include "core/error.h"
+#include "core/suggestion.h"
+#include "frame/program_facts.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr int failed = 1;
+constexpr int wrongCommandLine = 2;
+
+int printFault(int code, std::string message) {
+    for (char& letter : message)
+        if (letter == '\n') letter = ' ';
+    fmt::print(stderr, "defocus: {}\n", message);
+    return code;
+}
+
+void addGlobalOptions(CLI::App& program, GlobalOptions& global) {
+    program.set_version_flag("--version", "defocus " + programVersion());
+    program.add_flag("--quiet", global.quiet, "No progress and no summary; errors only");
+    program.add_flag("--verbose", global.verbose, "Say what was chosen: device, levels, times");
+    program
+        .add_option("--shader-dir", global.shaderDir,
+                    "Read shaders from this folder instead of those built in, for live editing")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
+}
+
+std::vector<std::string> namesOf(const CLI::App& program) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : program.get_subcommands(nullptr)) names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> optionsOf(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+// The command that was given (the innermost, of "bench speedup"), or the program itself.
+const CLI::App& chosenCommand(const CLI::App& program) {
+    const std::vector<CLI::App*> chosen = program.get_subcommands();
+    return chosen.empty() ? program : chosenCommand(*chosen.front());
+}
+
+std::string helpHint(const CLI::App& program) {
+    std::string names;
+    for (const CLI::App* app = &chosenCommand(program); app != &program; app = app->get_parent())
+        names.insert(0, ' ' + app->get_name());
+    return fmt::format("see defocus{} --help", names);
+}
+
+// A line for words that nothing expected: an option or command that isn't there, or one word too many.
+std::string unexpected(const CLI::App& program, const std::vector<std::string>& words) {
+    const CLI::App& command = chosenCommand(program);
+    const auto isOption = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
+    const auto option = std::find_if(words.begin(), words.end(), isOption);
+    const std::string word = option != words.end() ? *option : words.front();
+
+    std::vector<std::string> known = namesOf(command);
+    std::string what = "command";
+    if (option != words.end()) {
+        what = "option";
+        known = optionsOf(program);
+        const std::vector<std::string> own = optionsOf(command);
+        known.insert(known.end(), own.begin(), own.end());
+    } else if (known.empty()) {
+        return fmt::format("unexpected argument '{}'; {}", word, helpHint(program));
+    }
+    const std::string nearest = nearestWord(word.substr(0, word.find('=')), known);
+    if (!nearest.empty()) return fmt::format("there is no {} '{}'; did you mean '{}'?", what, word, nearest);
+    if (what == "command") return fmt::format("there is no command '{}'; there are: {}", word, fmt::join(known, ", "));
+    return fmt::format("there is no option '{}'; {}", word, helpHint(program));
+}
+
+// The option that stands there more often than once; none where that isn't the fault.
+const CLI::Option* repeatedOption(const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options())
+        if (option->get_items_expected_max() == 1 && option->count() > 1) return option;
+    return nullptr;
+}
+
+std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
+    const CLI::App& command = chosenCommand(program);
+    const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a command must follow
+    const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
+    const std::vector<std::string> words = program.remaining(true);
+    if (strange && !words.empty()) return unexpected(program, words);
+    if (const CLI::Option* option = repeatedOption(command))
+        return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());
+    if (unfinished && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+        return fmt::format("which command? There are: {}; {}", fmt::join(namesOf(command), ", "), helpHint(program));
+    return fmt::format("{}; {}", error.what(), helpHint(program));
+}
+
+int run(int argc, char** argv) {
+    CLI::App program("Depth of field of a real lens, by accumulation over lens samples with fractional level of detail",
+                     "defocus");
+    GlobalOptions global;
+    program.fallthrough();
+    program.require_subcommand(1);
+    program.formatter(std::make_shared<HelpFormat>());
+    addGlobalOptions(program, global);
+    addRenderCommand(program, global);
+    addCaptureCommand(program, global);
+    addMergeCommand(program, global);
+    addViewCommand(program, global);
+    addPlanCommand(program, global);
+    addInfoCommand(program, global);
+    addPyramidCommand(program, global);
+    addCompareCommand(program, global);
+    addBenchCommand(program, global);
+    addCacheCommand(program);
+    program.footer(
+        "defocus COMMAND --help explains a command.\n\nExample:\n"
+        "  defocus render scene.glb -o out.exr -o out.png --fstop 1.4 --focus-distance 2.5");
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& shown) {  // --help, --version
+        return program.exit(shown);
+    } catch (const CLI::ParseError& error) {
+        return printFault(wrongCommandLine, parseFault(program, error));
+    } catch (const UsageError& error) {
+        return printFault(wrongCommandLine, fmt::format("{}; {}", error.what(), helpHint(program)));
+    }
+    return 0;
+}
+
+}  // namespace
+
+int runProgram(int argc, char** argv) {
+    // A file that grows beyond its limit is a failed write, which the writer reports and cleans up after.
+    std::signal(SIGXFSZ, SIG_IGN);
+    try {
+        const int code = run(argc, argv);
+        if (std::fflush(stdout) != 0 && code == 0) return printFault(failed, "the output cannot be written to stdout");
+        return code;
+    } catch (const std::bad_alloc&) {
+        return printFault(failed, "out of memory; try a smaller --size, fewer layers (--wave) or triangles");
+    } catch (const std::exception& error) {
+        return printFault(failed, error.what());
+    }
+}
+
+}  // namespace defocus

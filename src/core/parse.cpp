@@ -1,0 +1,92 @@
+#include "core/parse.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/suggestion.h"
+
+namespace defocus {
+
+namespace {
+
+// The rule in words: "a number above 0 and at most 100", "a number from 0 to 100".
+std::string inWords(const Range& range) {
+    if (range.aboveLeast) return fmt::format("a number above {:g} and at most {:g}", range.least, range.most);
+    return fmt::format("a number from {:g} to {:g}", range.least, range.most);
+}
+
+template <typename Number>
+std::optional<Number> wholeText(std::string_view text) {
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    Number number{};
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
+}
+
+bool inside(double number, const Range& range) {
+    const bool low = range.aboveLeast ? number > range.least : number >= range.least;
+    return std::isfinite(number) && low && number <= range.most;
+}
+
+std::vector<std::string> splitAt(const std::string& text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char letter : text) {
+        if (letter == separator)
+            parts.emplace_back();
+        else
+            parts.back() += letter;
+    }
+    return parts;
+}
+
+}  // namespace
+
+double parseNumber(const std::string& text, const Range& range) {
+    const std::optional<double> number = wholeText<double>(text);
+    if (!number || !inside(*number, range)) fail("'{}' is not {}", text, inWords(range));
+    return *number;
+}
+
+double parseSeconds(const std::string& text) {
+    constexpr double longest = 1e6;
+    const std::size_t slash = text.find('/');
+    if (slash == std::string::npos) return parseNumber(text, {0, longest});
+    return parseNumber(text.substr(0, slash), {0, longest}) / parseNumber(text.substr(slash + 1), {1e-6, longest});
+}
+
+std::uint64_t parseWhole(const std::string& text, std::uint64_t least, std::uint64_t most) {
+    const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(text);
+    if (!number || *number < least || *number > most)
+        fail("'{}' is not a whole number from {} to {}", text, least, most);
+    return *number;
+}
+
+std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range) {
+    std::vector<double> numbers;
+    for (const std::string& part : splitAt(text, ',')) {
+        const std::optional<double> number = wholeText<double>(part);
+        if (!number || !inside(*number, range)) break;
+        numbers.push_back(*number);
+    }
+    if (numbers.size() != count || splitAt(text, ',').size() != count)
+        fail("'{}' is not {} numbers parted by commas, each {}", text, count, inWords(range));
+    return numbers;
+}
+
+std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices) {
+    for (std::size_t i = 0; i < choices.size(); ++i)
+        if (choices[i] == text) return i;
+    const std::string nearest = nearestWord(text, choices);
+    fail("'{}' is none of {}{}", text, fmt::join(choices, ", "),
+         nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+}
+
+}  // namespace defocus

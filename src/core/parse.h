@@ -1,0 +1,26 @@
+#pragma once
+// Text to values, by one set of rules: a wrong value gives one clear line, "'0' is not a whole number from 1 to 65536".
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace defocus {
+
+struct Range {
+    double least = 0;
+    double most = 0;
+    bool aboveLeast = false;  // `least` itself is not allowed
+};
+
+// The whole text as a finite number in `range`. Throws Error saying what is allowed.
+double parseNumber(const std::string& text, const Range& range);
+std::uint64_t parseWhole(const std::string& text, std::uint64_t least, std::uint64_t most);
+// Seconds, as 0.02 or as photographers have them: 1/48.
+double parseSeconds(const std::string& text);
+// Exactly `count` finite numbers in `range`, parted by commas.
+std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range);
+// The place of `text` in `choices`. Throws Error listing them.
+std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices);
+
+}  // namespace defocus

@@ -1,0 +1,302 @@
+#include "eval/convergence/convergence.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/stopwatch.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr const char* baselineMethod = "accumulation";
+constexpr std::array alwaysThere = {"embree", "embree-shared"};
+
+// ---- cases ----------------------------------------------------------------------------------------------------------
+
+MethodUse standardUse(const Method& method) {
+    return {&method, completeSettings(method.name, method.settings, {})};
+}
+
+std::vector<MethodUse> chosenMethods(const ConvergenceOptions& options) {
+    std::vector<MethodUse> uses = options.methods;
+    const auto has = [&](const std::string& name) {
+        return std::ranges::any_of(uses, [&](const MethodUse& use) { return use.method->name == name; });
+    };
+    const bool all = uses.empty();
+    for (const Method& method : methods())
+        if (all || (std::ranges::count(alwaysThere, method.name) > 0 && !has(method.name)))
+            uses.push_back(standardUse(method));
+    return uses;
+}
+
+// Ray tracers have the meshes as they were read, and post-process methods draw pinholes, for which blur is no excuse.
+bool drawsLevels(const Method& method) {
+    return method.needsGl && method.usesLensSamples;
+}
+
+const char* metricName(LodMetric metric) {
+    return metric == LodMetric::size ? "size" : "error";
+}
+
+std::string settingOf(const MethodUse& use, const std::string& levels) {
+    std::string text = settingsText(use.method->settings, use.settings);
+    std::ranges::replace(text, ',', ' ');
+    if (!text.empty() && !levels.empty()) text += ' ';
+    text += levels;
+    return text.empty() ? "standard" : text;
+}
+
+ConvergenceCase fullDetailCase(const MethodUse& use, std::uint32_t samples, const RenderSettings& plan) {
+    ConvergenceCase result{use, settingOf(use, drawsLevels(*use.method) ? "lod=off" : ""), samples, plan};
+    result.plan.lod = LodMode::off;
+    if (samples > 0) result.plan.sampleCount = samples;
+    return result;
+}
+
+std::vector<ConvergenceCase> casesOf(const MethodUse& use, std::uint32_t samples, const ConvergenceOptions& options) {
+    if (!drawsLevels(*use.method)) return {fullDetailCase(use, samples, options.plan)};
+    std::vector<ConvergenceCase> cases;
+    for (const LodMode mode : options.lods) {
+        if (mode == LodMode::off) {
+            cases.push_back(fullDetailCase(use, samples, options.plan));
+            continue;
+        }
+        for (const LodMetric metric : options.metrics)
+            for (const double factor : options.thresholdFactors) {
+                LodThresholds thresholds = defaultThresholds(metric, samples);
+                thresholds.blur *= factor;
+                thresholds.size *= factor;
+                ConvergenceCase levels = fullDetailCase(use, samples, options.plan);
+                levels.setting = settingOf(use, fmt::format("lod={} metric={} thresholds={:g}", lodModeName(mode),
+                                                            metricName(metric), factor));
+                levels.plan.lod = mode;
+                levels.plan.metric = metric;
+                levels.plan.thresholds = thresholds;
+                cases.push_back(std::move(levels));
+            }
+    }
+    return cases;
+}
+
+// ---- one frame ------------------------------------------------------------------------------------------------------
+
+struct Frame {
+    ConvergenceRun run;
+    Image image;
+};
+
+bool allFinite(const Image& image) {
+    return std::ranges::all_of(image.pixels, [](float value) { return std::isfinite(value); });
+}
+
+// Is the image what it claims to be?
+std::string faultOf(const Image& image, const FramePlan& plan, const RenderStats& stats, const Method& method,
+                    std::uint32_t sampleTotal) {
+    if (image.width != plan.view.width || image.height != plan.view.height)
+        return fmt::format("{} x {} px instead of {} x {}", image.width, image.height, plan.view.width,
+                           plan.view.height);
+    if (!allFinite(image)) return "pixels that are no numbers";
+    if (stats.samples != sampleTotal) return fmt::format("{} of {} samples", stats.samples, sampleTotal);
+    const bool asPlanned = stats.samples == plan.samples.size() || stats.samples == plan.settings.sampleCount;
+    if (method.usesLensSamples && !asPlanned)
+        return fmt::format("{} lens samples instead of {}", stats.samples, plan.samples.size());
+    if (method.name == baselineMethod && stats.trianglesDrawn != plan.trianglesDrawn)
+        return fmt::format("{} triangles instead of {}", stats.trianglesDrawn, plan.trianglesDrawn);
+    return {};
+}
+
+// Not unlit and opaque. glTF's default material is lit.
+bool needsShading(const Scene& scene, const Primitive& primitive) {
+    if (primitive.material < 0) return true;
+    const Material& material = scene.materials[static_cast<std::size_t>(primitive.material)];
+    return !material.unlit || material.alphaMode != AlphaMode::opaque;
+}
+
+bool needsShading(const Scene& scene) {
+    return std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+        return std::ranges::any_of(mesh.primitives, [&](const Primitive& p) { return needsShading(scene, p); });
+    });
+}
+
+// Throws Error where the method's image could only be another than the reference's, however good the method is.
+void checkComparable(const Method& method, const World& world, const FramePlan& plan) {
+    if (!method.shadesAsLit && needsShading(*world.scene))
+        fail("it shades otherwise than the reference; compare it with --shading unlit");
+    if (!method.drawsMotion && !plan.moments.empty())
+        fail("it draws no motion, which the scene has while the shutter is open");
+}
+
+Frame frameOf(const World& world, const View& view, const ConvergenceCase& wanted, const RendererOptions& options) {
+    const FramePlan plan = planFrame(world, view, wanted.plan);
+    checkComparable(*wanted.use.method, world, plan);
+    RendererOptions own = options;
+    own.settings = wanted.use.settings;
+
+    // Set-up, and a first wave that doesn't count.
+    const Clock::time_point begin = Clock::now();
+    const std::unique_ptr<Renderer> renderer = wanted.use.method->make(world, own);
+    renderer->start(plan);
+    Frame frame;
+    frame.run.setupMilliseconds = millisecondsSince(begin);
+    renderer->advance();
+
+    // The frame.
+    renderer->start(plan);
+    while (renderer->advance()) {
+    }
+    frame.image = renderer->image();
+    const RenderStats stats = renderer->stats();
+    frame.run.method = wanted.use.method->name;
+    frame.run.setting = wanted.setting;
+    frame.run.asked = wanted.samples;
+    frame.run.samples = stats.samples;
+    frame.run.milliseconds = stats.renderMilliseconds;
+    frame.run.gpuMilliseconds = stats.gpuMilliseconds;
+    frame.run.triangles = stats.trianglesDrawn;
+    frame.run.peakBytes = stats.peakBytes;
+    frame.run.imageHash = hashBytes(std::as_bytes(std::span(frame.image.pixels)));
+    frame.run.fault = faultOf(frame.image, plan, stats, *wanted.use.method, renderer->sampleTotal());
+    return frame;
+}
+
+ImageError errorOf(const Difference& difference) {
+    return {difference.rmse * difference.rmse, difference.ssim, difference.flip};
+}
+
+// ---- all of them ----------------------------------------------------------------------------------------------------
+
+class Measurement {
+public:
+    Measurement(const World& world, const View& view, const ReferenceImage& reference, const RendererOptions& renderer,
+                double pyramidMilliseconds, std::span<const ConvergenceRun> done)
+        : world_(world),
+          view_(view),
+          reference_(reference),
+          renderer_(renderer),
+          pyramidMilliseconds_(pyramidMilliseconds),
+          runs_(done.begin(), done.end()) {}
+
+    [[nodiscard]] bool has(const ConvergenceCase& wanted, int run) const {
+        return std::ranges::any_of(runs_, [&](const ConvergenceRun& r) { return r.run == run && sameCase(r, wanted); });
+    }
+
+    // Throws Error where the method can't draw it. `flipMap` stays empty unless this is the first frame of the case.
+    Frame measure(const ConvergenceCase& wanted, int number, Image& flipMap) {
+        Frame frame = frameOf(world_, view_, wanted, renderer_);
+        ConvergenceRun& run = frame.run;
+        run.run = number;
+        run.pyramidMilliseconds = wanted.usesLevels() ? pyramidMilliseconds_ : 0;
+        if (wanted.use.method->name == baselineMethod && !wanted.usesLevels()) keepFullDetail(wanted, frame.image);
+        measureError(frame, wanted, flipMap);
+        runs_.push_back(run);
+        return frame;
+    }
+
+private:
+    // The same image has the same error.
+    void measureError(Frame& frame, const ConvergenceCase& wanted, Image& flipMap) {
+        ConvergenceRun& run = frame.run;
+        const auto known = std::ranges::find_if(runs_, [&](const ConvergenceRun& r) { return sameCase(r, wanted); });
+        if (known != runs_.end() && known->imageHash == run.imageHash) {
+            run.error = known->error;
+            run.bias = known->bias;
+            return;
+        }
+        if (frame.image.width != view_.width || frame.image.height != view_.height) return;  // a fault, and no error
+        CompareOptions options;
+        if (known == runs_.end()) options.flipMap = &flipMap;
+        run.error = errorOf(compareImages(reference_.image, frame.image, options));
+        if (wanted.usesLevels()) run.bias = errorOf(compareImages(fullDetailFor(wanted), frame.image));
+    }
+
+    void keepFullDetail(const ConvergenceCase& wanted, const Image& image) {
+        fullDetailSamples_ = wanted.samples;
+        fullDetail_ = image;
+    }
+
+    // At the same lens samples; usually what was drawn just before.
+    const Image& fullDetailFor(const ConvergenceCase& wanted) {
+        if (fullDetailSamples_ != wanted.samples) {
+            const ConvergenceCase full =
+                fullDetailCase(standardUse(methodNamed(baselineMethod)), wanted.samples, wanted.plan);
+            keepFullDetail(full, frameOf(world_, view_, full, renderer_).image);
+        }
+        return fullDetail_;
+    }
+
+    const World& world_;
+    const View& view_;
+    const ReferenceImage& reference_;
+    const RendererOptions& renderer_;
+    double pyramidMilliseconds_;
+    std::vector<ConvergenceRun> runs_;
+    std::uint32_t fullDetailSamples_ = 0;
+    Image fullDetail_;
+};
+
+}  // namespace
+
+double ImageError::psnr() const {
+    return -10 * std::log10(mse);
+}
+
+bool sameCase(const ConvergenceRun& run, const ConvergenceCase& wanted) {
+    return run.method == wanted.use.method->name && run.setting == wanted.setting && run.asked == wanted.samples;
+}
+
+std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options) {
+    const std::vector<MethodUse> uses = chosenMethods(options);
+    const std::set<std::uint32_t> counts(options.sampleCounts.begin(), options.sampleCounts.end());
+    std::vector<ConvergenceCase> cases;
+    std::set<std::tuple<std::string, std::string, std::uint32_t>> seen;
+    const auto add = [&](ConvergenceCase wanted) {
+        if (seen.emplace(wanted.use.method->name, wanted.setting, wanted.samples).second)
+            cases.push_back(std::move(wanted));
+    };
+    for (const std::uint32_t count : counts) {
+        add(fullDetailCase(standardUse(methodNamed(baselineMethod)), count, options.plan));
+        for (const MethodUse& use : uses)
+            for (ConvergenceCase& wanted : casesOf(use, use.method->usesLensSamples ? count : 0, options))
+                add(std::move(wanted));
+    }
+    return cases;
+}
+
+void measureConvergence(const World& world, const View& view, const ReferenceImage& reference,
+                        const ConvergenceOptions& options, double pyramidMilliseconds,
+                        std::span<const ConvergenceRun> done, const ConvergenceVisitor& visitor,
+                        const Progress& progress) {
+    const std::vector<ConvergenceCase> cases = convergenceCases(options);
+    const std::uint64_t total = cases.size() * static_cast<std::size_t>(options.runs);
+    std::uint64_t count = 0;
+    Measurement measurement(world, view, reference, options.renderer, pyramidMilliseconds, done);
+    std::set<std::string> leftOut;  // methods with their settings
+
+    for (int run = 0; run < options.runs; ++run)
+        for (const ConvergenceCase& wanted : cases) {
+            report(progress, "runs", count++, total);
+            const std::string name = wanted.use.method->name + ' ' + wanted.setting;
+            if (measurement.has(wanted, run) || leftOut.contains(name)) continue;
+            Image flipMap;
+            Frame frame;
+            try {
+                frame = measurement.measure(wanted, run, flipMap);
+            } catch (const Error& error) {
+                if (wanted.use.method->name == baselineMethod) throw;
+                leftOut.insert(name);
+                visitor.leftOut(wanted, error.what());
+                continue;
+            }
+            const bool first = !flipMap.empty();
+            visitor.run(frame.run, first ? &frame.image : nullptr, first ? &flipMap : nullptr);
+        }
+}
+
+}  // namespace defocus

@@ -1,0 +1,125 @@
+#include "eval/convergence/rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace defocus {
+
+namespace {
+
+// Frames of one case whose MSE differs by more than this share are not one image.
+constexpr double mostDifference = 0.01;
+
+bool sameRow(const ConvergenceRow& row, const ConvergenceRun& run) {
+    return row.method == run.method && row.setting == run.setting && row.asked == run.asked;
+}
+
+std::string faultOf(const std::vector<const ConvergenceRun*>& runs) {
+    for (const ConvergenceRun* run : runs)
+        if (!run->fault.empty()) return run->fault;
+    const auto [least, most] = std::ranges::minmax(runs, {}, [](const ConvergenceRun* run) { return run->error.mse; });
+    if (most->error.mse - least->error.mse > mostDifference * least->error.mse)
+        return fmt::format("not one image: MSE {:.3g} to {:.3g}", least->error.mse, most->error.mse);
+    return {};
+}
+
+void complete(ConvergenceRow& row, std::span<const ConvergenceRun> all) {
+    std::vector<const ConvergenceRun*> runs;
+    std::vector<double> milliseconds;
+    std::vector<double> setup;
+    std::vector<double> gpu;
+    for (const ConvergenceRun& run : all) {
+        if (!sameRow(row, run)) continue;
+        runs.push_back(&run);
+        milliseconds.push_back(run.milliseconds);
+        setup.push_back(run.setupMilliseconds);
+        gpu.push_back(run.gpuMilliseconds);
+        row.peakBytes = std::max(row.peakBytes, run.peakBytes);
+    }
+    const ConvergenceRun& first = *runs.front();
+    row.samples = first.samples;
+    row.runs = static_cast<int>(runs.size());
+    row.milliseconds = spreadOf(milliseconds);
+    row.setupMilliseconds = spreadOf(setup);
+    row.pyramidMilliseconds = first.pyramidMilliseconds;
+    row.gpuMilliseconds = spreadOf(gpu).median;
+    row.error = first.error;
+    row.bias = first.bias;
+    row.triangles = first.triangles;
+    row.fault = faultOf(runs);
+}
+
+template <typename Chosen, typename ErrorOf>
+void mark(std::vector<ConvergenceRow>& rows, bool ConvergenceRow::*flag, const Chosen& chosen, const ErrorOf& errorOf) {
+    std::vector<ConvergenceRow*> members;
+    std::vector<Trial> trials;
+    for (ConvergenceRow& row : rows) {
+        if (!row.fault.empty() || !chosen(row)) continue;
+        members.push_back(&row);
+        trials.push_back({row.milliseconds.median, errorOf(row)});
+    }
+    const std::vector<bool> front = paretoFront(trials);
+    for (std::size_t i = 0; i < members.size(); ++i) members[i]->*flag = front[i];
+}
+
+void markFronts(std::vector<ConvergenceRow>& rows) {
+    const auto any = [](const ConvergenceRow&) { return true; };
+    const auto mse = [](const ConvergenceRow& row) { return row.error.mse; };
+    mark(rows, &ConvergenceRow::front, any, mse);
+    mark(rows, &ConvergenceRow::frontByFlip, any, [](const ConvergenceRow& row) { return row.error.flip; });
+    std::set<std::string> methods;
+    for (const ConvergenceRow& row : rows) methods.insert(row.method);
+    for (const std::string& method : methods)
+        mark(
+            rows, &ConvergenceRow::frontOfMethod, [&](const ConvergenceRow& row) { return row.method == method; }, mse);
+}
+
+bool beats(const Trial& a, const Trial& b) {
+    return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
+}
+
+}  // namespace
+
+std::vector<bool> paretoFront(std::span<const Trial> trials) {
+    std::vector<bool> front;
+    for (const Trial& trial : trials)
+        front.push_back(std::ranges::none_of(trials, [&](const Trial& other) { return beats(other, trial); }));
+    return front;
+}
+
+std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining) {
+    std::vector<ConvergenceRow> rows;
+    for (const ConvergenceRun& run : runs) {
+        if (std::ranges::any_of(rows, [&](const ConvergenceRow& row) { return sameRow(row, run); })) continue;
+        rows.emplace_back();
+        rows.back().method = run.method;
+        rows.back().setting = run.setting;
+        rows.back().asked = run.asked;
+    }
+    for (ConvergenceRow& row : rows) {
+        complete(row, runs);
+        row.mseBelowReference = row.error.mse < remaining.rmse * remaining.rmse;
+        row.flipBelowReference = row.error.flip < remaining.flip;
+    }
+    markFronts(rows);
+    return rows;
+}
+
+std::vector<BiasFloor> biasFloors(std::span<const ConvergenceRow> rows) {
+    std::vector<BiasFloor> floors;
+    for (const ConvergenceRow& row : rows) {
+        if (!row.bias) continue;
+        const auto known = std::ranges::find_if(
+            floors, [&](const BiasFloor& f) { return f.method == row.method && f.setting == row.setting; });
+        const BiasFloor floor{row.method, row.setting, row.asked, *row.bias};
+        if (known == floors.end())
+            floors.push_back(floor);
+        else if (known->samples < row.asked)
+            *known = floor;
+    }
+    return floors;
+}
+
+}  // namespace defocus

@@ -1,0 +1,187 @@
+#include "eval/convergence/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "eval/convergence/equal_error.h"
+#include "eval/json_number.h"
+#include "eval/spread.h"
+
+namespace defocus {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// ---- for people -----------------------------------------------------------------------------------------------------
+
+std::string nameOf(const ConvergenceRow& row) {
+    return row.method + ", " + row.setting;
+}
+
+// Which fronts a row is on, in three letters' room.
+std::string frontsOf(const ConvergenceRow& row) {
+    return std::string(row.front ? "*" : row.frontOfMethod ? "+" : " ") + (row.frontByFlip ? "f" : " ");
+}
+
+// ---- JSON -----------------------------------------------------------------------------------------------------------
+
+ordered_json errorJson(const ImageError& error) {
+    return {{"mse", error.mse}, {"psnr", jsonNumber(error.psnr())}, {"ssim", error.ssim}, {"flip", error.flip}};
+}
+
+ordered_json rowJson(const ConvergenceRow& row) {
+    ordered_json json = {{"method", row.method},
+                         {"setting", row.setting},
+                         {"samples", row.samples},
+                         {"takesLensSamples", row.asked > 0},
+                         {"runs", row.runs},
+                         {"milliseconds", spreadJson(row.milliseconds)},
+                         {"setupMilliseconds", spreadJson(row.setupMilliseconds)},
+                         {"pyramidMilliseconds", row.pyramidMilliseconds},
+                         {"gpuMilliseconds", row.gpuMilliseconds}};
+    json.update(errorJson(row.error));
+    json["bias"] = row.bias ? errorJson(*row.bias) : ordered_json(nullptr);
+    json["triangles"] = row.triangles;
+    json["peakBytes"] = row.peakBytes;
+    json["front"] = row.front;
+    json["frontOfMethod"] = row.frontOfMethod;
+    json["frontByFlip"] = row.frontByFlip;
+    json["mseBelowReference"] = row.mseBelowReference;
+    json["flipBelowReference"] = row.flipBelowReference;
+    json["fault"] = row.fault;
+    json["image"] = imageName(row.method, row.setting, row.asked);
+    json["errorMap"] = errorMapName(row.method, row.setting, row.asked);
+    return json;
+}
+
+ordered_json referenceJson(const ReferenceImage& reference) {
+    const Difference& r = reference.remaining;
+    return {
+        {"file", "reference.exr"},
+        {"image", "images/reference.png"},
+        {"samples", reference.samples},
+        {"firstSample", referenceOffset},
+        {"hash", fmt::format("{:016x}", reference.hash)},
+        {"milliseconds", reference.milliseconds},
+        {"reused", reference.reused},
+        {"remaining", {{"mse", r.rmse * r.rmse}, {"psnr", jsonNumber(r.psnr)}, {"ssim", r.ssim}, {"flip", r.flip}}}};
+}
+
+ordered_json competitorJson(const Competitor& competitor) {
+    ordered_json times = ordered_json::array();
+    for (const Competitor::Time& time : competitor.times)
+        times.push_back({{"rmse", time.rmse},
+                         {"milliseconds", time.milliseconds ? ordered_json(*time.milliseconds) : ordered_json()},
+                         {"atMost", time.atMost}});
+    return {{"name", competitor.name}, {"times", std::move(times)}};
+}
+
+// "accumulation lod=off" → "accumulation-lod-off"
+std::string fileName(std::string_view method, std::string_view setting, std::uint32_t asked) {
+    std::string name = fmt::format("{} {}", method, setting);
+    if (asked > 0) name += fmt::format(" {}", asked);
+    for (char& letter : name)
+        if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '.') letter = '-';
+    return name;
+}
+
+}  // namespace
+
+std::string convergenceHeader() {
+    return fmt::format(
+        "{:<60} {:>7} {:>9} {:>17} {:>8} {:>8} {:>7} {:>6} {:>7} {:>7} {:>9} {:>7}\n{:<60} {:>7} {:>9} {:>17} {:>8} "
+        "{:>8} {:>7} {:>6} {:>7} {:>7} {:>9} {:>7}\n",
+        "", "lens", "frame", "10-90 %", "set-up", "pyramids", "", "", "", "bias", "triangles", "peak",
+        "   method, setting", "samples", "ms", "ms", "ms", "ms", "PSNR", "SSIM", "FLIP", "PSNR", "millions", "MiB");
+}
+
+std::string convergenceLine(const ConvergenceRow& row) {
+    std::string line = fmt::format(
+        "{} {:<57} {:>7} {:>9.1f} {:>17} {:>8.0f} {:>8.0f} {:>7.2f} {:>6.4f} {:>7.4f} {:>7} {:>9.2f} {:>7.0f}",
+        frontsOf(row), nameOf(row), row.samples, row.milliseconds.median,
+        fmt::format("{:.1f} to {:.1f}", row.milliseconds.low, row.milliseconds.high), row.setupMilliseconds.median,
+        row.pyramidMilliseconds, row.error.psnr(), row.error.ssim, row.error.flip,
+        row.bias ? fmt::format("{:.2f}", row.bias->psnr()) : "", static_cast<double>(row.triangles) / 1e6,
+        static_cast<double>(row.peakBytes) / (1 << 20));
+    line += belowReferenceText(row.mseBelowReference, row.flipBelowReference);
+    if (!row.fault.empty()) line += "  NOT WHAT IT CLAIMS: " + row.fault;
+    return line + '\n';
+}
+
+std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference) {
+    const Difference& remaining = reference.remaining;
+    std::string text = fmt::format(
+        "\nreference: {} lens samples at full detail, its own remaining error about PSNR {:.2f} dB, FLIP {:.4f}: no "
+        "figure says more than that\n* on no other row's account slower or farther off (MSE); + the same within its "
+        "method; f by FLIP\n",
+        reference.samples, remaining.psnr, remaining.flip);
+    for (const BiasFloor& floor : biasFloors(rows))
+        text += fmt::format(
+            "bias floor of {}, {}: PSNR {:.2f} dB, FLIP {:.4f} from full detail at the same {} lens samples; more "
+            "samples with these thresholds come no closer\n",
+            floor.method, floor.setting, floor.error.psnr(), floor.error.flip, floor.samples);
+    return text + equalErrorTable(timesToErrors(rows, comparedErrors));
+}
+
+std::string imageName(std::string_view method, std::string_view setting, std::uint32_t asked) {
+    return "images/" + fileName(method, setting, asked) + ".png";
+}
+
+std::string errorMapName(std::string_view method, std::string_view setting, std::uint32_t asked) {
+    return "images/" + fileName(method, setting, asked) + ".flip.png";
+}
+
+std::string convergenceCsv(std::span<const ConvergenceRow> rows) {
+    std::string text =
+        "method,setting,samples,runs,milliseconds,low,high,setupMilliseconds,pyramidMilliseconds,gpuMilliseconds,mse,"
+        "psnr,ssim,flip,biasMse,biasFlip,triangles,peakBytes,front,frontOfMethod,frontByFlip,mseBelowReference,"
+        "flipBelowReference,fault\n";
+    for (const ConvergenceRow& row : rows) {
+        const std::string bias = row.bias ? fmt::format("{:.6g},{:.6g}", row.bias->mse, row.bias->flip) : ",";
+        text += fmt::format(
+            "{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{:d},{:d},"
+            "{:d},{:d},{:d},{}\n",
+            row.method, row.setting, row.samples, row.runs, row.milliseconds.median, row.milliseconds.low,
+            row.milliseconds.high, row.setupMilliseconds.median, row.pyramidMilliseconds, row.gpuMilliseconds,
+            row.error.mse, row.error.psnr(), row.error.ssim, row.error.flip, bias, row.triangles, row.peakBytes,
+            row.front, row.frontOfMethod, row.frontByFlip, row.mseBelowReference, row.flipBelowReference, row.fault);
+    }
+    return text;
+}
+
+std::string convergenceJson(std::span<const ConvergenceRow> rows, const ReferenceImage& reference,
+                            const ConvergenceSubject& subject) {
+    ordered_json document = subjectJson("convergence", subject.bench);
+    document["heldEqual"] =
+        "scene, camera, lens, image size, reference, process; the methods take turns frame by frame, the first wave of "
+        "a frame is drawn once before it counts, nothing is pinned";
+    document["errorsMeasuredOn"] = "sRGB-encoded values in [0, 1] at EV 0, whole image; FLIP at 67 pixels per degree";
+    document["errorMapFullScale"] = errorMapFullScale;
+    document["reference"] = referenceJson(reference);
+    document["rows"] = ordered_json::array();
+    for (const ConvergenceRow& row : rows) document["rows"].push_back(rowJson(row));
+    document["biasFloors"] = ordered_json::array();
+    for (const BiasFloor& floor : biasFloors(rows)) {
+        ordered_json json = {{"method", floor.method}, {"setting", floor.setting}, {"samples", floor.samples}};
+        json.update(errorJson(floor.error));
+        document["biasFloors"].push_back(std::move(json));
+    }
+    document["timesToErrors"] = ordered_json::array();
+    for (const Competitor& competitor : timesToErrors(rows, comparedErrors))
+        document["timesToErrors"].push_back(competitorJson(competitor));
+    document["crops"] = ordered_json::array();
+    for (const Crop& crop : subject.crops)
+        document["crops"].push_back(
+            {{"title", crop.title}, {"x", crop.x}, {"y", crop.y}, {"width", crop.width}, {"height", crop.height}});
+    document["leftOut"] = ordered_json::array();
+    for (const ConvergenceSubject::LeftOut& entry : subject.leftOut)
+        document["leftOut"].push_back({{"method", entry.method}, {"setting", entry.setting}, {"reason", entry.reason}});
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace defocus

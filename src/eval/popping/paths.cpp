@@ -1,0 +1,142 @@
+#include "eval/popping/paths.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "core/error.h"
+#include "plan/camera_path.h"
+#include "plan/frame_plan.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double dollyLength = 0.5;  // of the focus distance
+
+struct Depths {
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = 0;
+};
+
+// Of whatever the view shows.
+Depths depthsOf(const World& world, const View& view) {
+    RenderSettings settings;
+    settings.sampleCount = 1;
+    settings.lod = LodMode::off;
+    Depths depths;
+    for (const ObjectPlan& object : planFrame(world, view, settings).objects) {
+        depths.nearest = std::min(depths.nearest, std::max(object.nearestDepth, view.nearPlane));
+        depths.farthest = std::max(depths.farthest, object.farthestDepth);
+    }
+    if (depths.farthest <= depths.nearest) fail("nothing lies in front of the camera: no movement shows any levels");
+    return depths;
+}
+
+View pulled(const View& view, const Depths& depths, double place) {
+    View result = view;
+    result.lens.focusDistance = focusBetween(depths.nearest, depths.farthest, place);
+    return result;
+}
+
+View dolliedToPlace(const View& view, double focusDistance, double place) {
+    const double forward = dollyLength * focusDistance * (place - 0.5);
+    View result = dollied(view, forward);
+    result.lens.focusDistance -= forward;
+    return result;
+}
+
+// By object.
+std::map<int, std::uint32_t> nearestLevels(const World& world, const View& view, RenderSettings settings) {
+    settings.lod = LodMode::nearest;
+    std::map<int, std::uint32_t> levels;
+    for (const ObjectPlan& object : planFrame(world, view, settings).objects) levels[object.object] = object.fine.level;
+    return levels;
+}
+
+}  // namespace
+
+const char* movementName(Movement movement) {
+    switch (movement) {
+        case Movement::focusPull:
+            return "focus-pull";
+        case Movement::dolly:
+            return "dolly";
+        case Movement::turntable:
+            return "turntable";
+        case Movement::clip:
+            return "clip";
+    }
+    return "";
+}
+
+std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames, int clip) {
+    if (frames < 2) fail("{} frames: a change needs 2 or more", frames);
+    const Scene& scene = *world.scene;
+    if (movement == Movement::clip && (clip < 0 || static_cast<std::size_t>(clip) >= scene.clips.size()))
+        fail("the scene has no animation clip {}", clip);
+    const Depths depths = depthsOf(world, view);
+    const glm::dvec3 centre = world.pose.bounds.centre();
+    const double focusDistance = std::min(view.lens.focusDistance, depths.farthest);  // it may be at infinity
+    std::vector<MovementFrame> result;
+    for (int i = 0; i < frames; ++i) {
+        const double place = static_cast<double>(i) / (frames - 1);
+        switch (movement) {
+            case Movement::focusPull:
+                result.push_back({pulled(view, depths, place), world.pose});
+                break;
+            case Movement::dolly:
+                result.push_back({dolliedToPlace(view, focusDistance, place), world.pose});
+                break;
+            case Movement::turntable:
+                result.push_back({carriedAround(view, centre, 2 * std::numbers::pi * (place - 0.5)), world.pose});
+                break;
+            case Movement::clip:
+                result.push_back(
+                    {view, poseAt(scene, place * scene.clips[static_cast<std::size_t>(clip)].duration, clip)});
+                break;
+        }
+    }
+    return result;
+}
+
+void poseWorld(World& world, const MovementFrame& frame) {
+    world.pose = frame.pose;
+    if (!frame.pose.lights.empty()) world.lights = frame.pose.lights;
+}
+
+std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
+                                          const RenderSettings& settings, int length) {
+    if (length < 1 || static_cast<std::size_t>(length) > frames.size())
+        fail("{} frames: the movement has {}", length, frames.size());
+
+    // Changes up to each frame.
+    std::vector<int> changes;
+    std::map<int, std::uint32_t> levels;
+    for (const MovementFrame& frame : frames) {
+        poseWorld(world, frame);
+        const std::map<int, std::uint32_t> before = std::exchange(levels, nearestLevels(world, frame.view, settings));
+        int changed = 0;
+        for (const auto& [object, level] : levels) {
+            const auto earlier = before.find(object);
+            changed += earlier != before.end() && earlier->second != level ? 1 : 0;
+        }
+        changes.push_back((changes.empty() ? 0 : changes.back()) + changed);
+    }
+
+    const auto count = static_cast<std::size_t>(length);
+    std::size_t best = 0;
+    int most = -1;
+    for (std::size_t first = 0; first + count <= frames.size(); ++first) {
+        const int within = changes[first + count - 1] - changes[first];
+        if (within <= most) continue;
+        most = within;
+        best = first;
+    }
+    const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(best);
+    return {begin, begin + length};
+}
+
+}  // namespace defocus

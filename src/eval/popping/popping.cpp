@@ -1,0 +1,326 @@
+// Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering, section on popping: here measured.
+
+#include "eval/popping/popping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "image/metrics.h"
+#include "image/tone_map.h"
+#include "render/aov/aov.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr float mostBlur = 256;  // px: blur that is grown around an object
+
+Image rendered(Renderer& renderer, const FramePlan& plan) {
+    renderer.start(plan);
+    while (renderer.advance()) {
+    }
+    return renderer.image();
+}
+
+RenderSettings settingsOf(const PoppingOptions& options, std::uint32_t samples, LodMode mode) {
+    RenderSettings settings = options.plan;
+    settings.sampleCount = samples;
+    settings.lod = mode;
+    settings.thresholds = defaultThresholds(settings.metric, samples);
+    return settings;
+}
+
+FramePlan planOf(const World& world, const View& view, const PoppingOptions& options, std::uint32_t samples,
+                 LodMode mode) {
+    return planFrame(world, view, settingsOf(options, samples, mode));
+}
+
+const ObjectPlan* objectOf(const FramePlan& plan, int object) {
+    const auto found = std::ranges::find(plan.objects, object, &ObjectPlan::object);
+    return found == plan.objects.end() ? nullptr : &*found;
+}
+
+void markUsed(FramePlan& plan) {
+    for (const ObjectPlan& object : plan.objects)
+        for (const LevelDraw& draw : {object.coarse, object.fine})
+            if (draw.sampleCount > 0) plan.levelsUsed[static_cast<std::size_t>(object.mesh)][draw.level] = true;
+}
+
+bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
+    return a.sampleCount == b.sampleCount &&
+           (a.sampleCount == 0 || (a.level == b.level && a.firstSample == b.firstSample));
+}
+
+// `plan` at the levels of the frame before, as far as that had its objects; none where nothing differs.
+std::optional<FramePlan> atLevelsOf(const FramePlan& plan, const FramePlan& before) {
+    if (plan.samples.size() != before.samples.size()) return {};
+    FramePlan held = plan;
+    bool differs = false;
+    for (ObjectPlan& object : held.objects) {
+        const ObjectPlan* earlier = objectOf(before, object.object);
+        if (earlier == nullptr) continue;
+        differs |= !sameDraw(object.coarse, earlier->coarse) || !sameDraw(object.fine, earlier->fine) ||
+                   object.boundaryShare != earlier->boundaryShare;
+        object.coarse = earlier->coarse;
+        object.fine = earlier->fine;
+        object.boundaryShare = earlier->boundaryShare;
+    }
+    if (!differs) return {};
+    markUsed(held);
+    return held;
+}
+
+double largestSpeed(const FramePlan& plan, const FramePlan& before) {
+    double largest = 0;
+    for (const ObjectPlan& object : plan.objects)
+        if (const ObjectPlan* earlier = objectOf(before, object.object))
+            largest = std::max(largest, std::abs(object.lambda - earlier->lambda));
+    return largest;
+}
+
+// ---- errors ---------------------------------------------------------------------------------------------------------
+
+// `difference`: 3 channels of display values.
+double rootMeanSquare(const Image& difference, const Image* mask) {
+    double sum = 0;
+    std::uint64_t values = 0;
+    for (std::size_t i = 0; i < difference.pixels.size(); ++i) {
+        if (mask != nullptr && !(mask->pixels[i / 3] > 0)) continue;
+        const auto value = static_cast<double>(difference.pixels[i]);
+        sum += value * value;
+        ++values;
+    }
+    return values > 0 ? std::sqrt(sum / static_cast<double>(values)) : 0;
+}
+
+double mean(const Image& map, const Image* mask) {
+    double sum = 0;
+    std::uint64_t values = 0;
+    for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+        if (mask != nullptr && !(mask->pixels[i] > 0)) continue;
+        sum += static_cast<double>(map.pixels[i]);
+        ++values;
+    }
+    return values > 0 ? sum / static_cast<double>(values) : 0;
+}
+
+// The display values that `image` should have had come to `expected`.
+Pop popBetween(const Image& expected, const Image& image, const Image& objects) {
+    Image difference = image;
+    for (std::size_t i = 0; i < difference.pixels.size(); ++i) difference.pixels[i] -= expected.pixels[i];
+    Image linear[2] = {expected, image};
+    for (Image& side : linear)
+        for (float& value : side.pixels) value = srgbDecode(value);
+    const Image flip = flipErrorMap(linear[0], linear[1]);
+    return {{rootMeanSquare(difference, nullptr), mean(flip, nullptr)},
+            {rootMeanSquare(difference, &objects), mean(flip, &objects)}};
+}
+
+Image displayColours(const Image& linear) {
+    const Image encoded = displayEncoded(linear);
+    Image colours(linear.width, linear.height, 3);
+    const auto channels = static_cast<std::size_t>(encoded.channels);
+    for (std::size_t i = 0; i < colours.pixels.size(); ++i)
+        colours.pixels[i] = encoded.pixels[i / 3 * channels + i % 3];
+    return colours;
+}
+
+// I_{t−1} + (R_t − R_{t−1})
+Image carriedOn(const Image& before, const Image& reference, const Image& referenceBefore) {
+    Image result = before;
+    for (std::size_t i = 0; i < result.pixels.size(); ++i)
+        result.pixels[i] += reference.pixels[i] - referenceBefore.pixels[i];
+    return result;
+}
+
+// ---- movements ------------------------------------------------------------------------------------------------------
+
+std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movement, const PoppingOptions& options) {
+    std::vector<Image> masks;
+    for (const MovementFrame& frame : movement) {
+        poseWorld(world, frame);
+        const AovImages aovs =
+            renderAovs(world, planOf(world, frame.view, options, 64, LodMode::off), options.renderer.shaderFolder);
+        masks.push_back(objectPixels(aovs.level, aovs.coc));
+    }
+    for (std::size_t i = masks.size() - 1; i > 0; --i)
+        for (std::size_t p = 0; p < masks[i].pixels.size(); ++p)
+            masks[i].pixels[p] = std::max(masks[i].pixels[p], masks[i - 1].pixels[p]);
+    return masks;
+}
+
+struct ModeState {
+    FramePlan plan;
+    Image image;  // display values
+};
+
+PoppingFrame frameOf(Renderer& renderer, const ModeState& before, const ModeState& now, const Image& expected,
+                     const Image& objects) {
+    PoppingFrame frame;
+    frame.speed = largestSpeed(now.plan, before.plan);
+    frame.change = popBetween(expected, now.image, objects);
+    if (const std::optional<FramePlan> held = atLevelsOf(now.plan, before.plan))
+        frame.step = popBetween(displayColours(rendered(renderer, *held)), now.image, objects);
+    return frame;
+}
+
+std::vector<PoppingFrame> measureMovement(World& world, Renderer& renderer, const std::vector<MovementFrame>& movement,
+                                          const std::vector<Image>& masks, const PoppingOptions& options,
+                                          std::uint32_t samples, const std::function<void()>& step) {
+    std::vector<PoppingFrame> frames;
+    std::array<ModeState, poppingModes.size()> before;
+    Image referenceBefore;
+    for (std::size_t t = 0; t < movement.size(); ++t) {
+        const View& view = movement[t].view;
+        poseWorld(world, movement[t]);
+        const Image reference = displayColours(rendered(renderer, planOf(world, view, options, samples, LodMode::off)));
+        for (std::size_t m = 0; m < poppingModes.size(); ++m) {
+            ModeState now;
+            now.plan = planOf(world, view, options, samples, poppingModes[m]);
+            now.image = displayColours(rendered(renderer, now.plan));
+            if (t > 0) {
+                const Image expected = carriedOn(before[m].image, reference, referenceBefore);
+                PoppingFrame frame = frameOf(renderer, before[m], now, expected, masks[t]);
+                frame.samples = samples;
+                frame.mode = poppingModes[m];
+                frame.frame = static_cast<int>(t);
+                frames.push_back(frame);
+            }
+            before[m] = std::move(now);
+        }
+        referenceBefore = reference;
+        step();
+    }
+    return frames;
+}
+
+// ---- one sample's step ----------------------------------------------------------------------------------------------
+
+// The object that is blurred most, of those with a coarser level to go to.
+ObjectPlan* mostBlurred(FramePlan& plan, const World& world) {
+    ObjectPlan* found = nullptr;
+    for (ObjectPlan& object : plan.objects) {
+        const std::size_t levels = world.pyramids[static_cast<std::size_t>(object.mesh)].levels.size();
+        if (object.lambda + 1 >= static_cast<double>(levels) || object.nearestDepth <= plan.view.nearPlane) continue;
+        if (found == nullptr || object.coc.smallest > found->coc.smallest) found = &object;
+    }
+    return found;
+}
+
+Image withSplit(Renderer& renderer, FramePlan& plan, ObjectPlan& object, const Pyramid& pyramid, std::uint32_t level,
+                std::uint32_t coarseCount) {
+    const auto samples = static_cast<std::uint32_t>(plan.samples.size());
+    object.coarse = {level + 1, 0, coarseCount, pyramid.levels[level + 1].triangleCount};
+    object.fine = {level, coarseCount, samples - coarseCount, pyramid.levels[level].triangleCount};
+    object.boundaryShare = 0;
+    markUsed(plan);
+    return rendered(renderer, plan);
+}
+
+double squaredDifference(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const double difference = static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]);
+        sum += difference * difference;
+    }
+    return sum;
+}
+
+std::optional<SampleStep> measureSampleStep(const World& world, Renderer& renderer, const View& view,
+                                            const PoppingOptions& options, std::uint32_t samples) {
+    FramePlan plan = planOf(world, view, options, samples, LodMode::fractional);
+    ObjectPlan* object = plan.usesLens ? mostBlurred(plan, world) : nullptr;
+    if (object == nullptr) return {};
+    const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object->mesh)];
+    SampleStep step;
+    step.samples = samples;
+    step.object = object->name;
+    step.level = static_cast<std::uint32_t>(object->lambda);
+    const double depth = 0.5 * (object->nearestDepth + object->farthestDepth);
+    step.coc = std::abs(circleOfConfusion(plan.coc, depth, view.width));
+    // Level 0 projects a mean edge to projectedEdge at the nearest depth.
+    step.edgeError = pyramid.levels[step.level + 1].error / pyramid.levels[0].meanEdge * object->projectedEdge *
+                     object->nearestDepth / depth;
+    step.expected = std::sqrt(std::max(step.coc / step.edgeError, 1.0)) / samples;
+
+    const Image fine = withSplit(renderer, plan, *object, pyramid, step.level, 0);
+    Image last = fine;
+    double sum = 0;
+    for (std::uint32_t n = 1; n <= samples; ++n) {
+        Image next = withSplit(renderer, plan, *object, pyramid, step.level, n);
+        sum += squaredDifference(next, last);
+        last = std::move(next);
+    }
+    const double pop = squaredDifference(last, fine);
+    if (!(pop > 0)) return {};
+    step.measured = std::sqrt(sum / samples / pop);
+    return step;
+}
+
+}  // namespace
+
+Image objectPixels(const Image& level, const Image& coc) {
+    // Each pixel marks the disk around it, row by row, as the beginning and the end of a run.
+    const int width = level.width;
+    std::vector<int> runs(static_cast<std::size_t>(width + 1) * static_cast<std::size_t>(level.height));
+    for (int y = 0; y < level.height; ++y)
+        for (int x = 0; x < width; ++x) {
+            if (*level.at(x, y) < 0) continue;
+            const float radius = 0.5f * std::min(std::abs(*coc.at(x, y)), mostBlur);
+            const int rows = static_cast<int>(radius);
+            for (int row = std::max(y - rows, 0); row <= std::min(y + rows, level.height - 1); ++row) {
+                const auto away = static_cast<float>(row - y);
+                const int half = static_cast<int>(std::sqrt(radius * radius - away * away));
+                int* run = runs.data() + static_cast<std::ptrdiff_t>(row) * (width + 1);
+                ++run[std::max(x - half, 0)];
+                --run[std::min(x + half + 1, width)];
+            }
+        }
+    Image mask(width, level.height, 1);
+    for (int y = 0; y < level.height; ++y) {
+        int open = 0;
+        for (int x = 0; x < width; ++x) {
+            open +=
+                runs[static_cast<std::size_t>(y) * static_cast<std::size_t>(width + 1) + static_cast<std::size_t>(x)];
+            *mask.at(x, y) = open > 0 ? 1.0f : 0.0f;
+        }
+    }
+    return mask;
+}
+
+void measurePopping(World& world, const View& view, const PoppingOptions& options, const PoppingVisitor& visitor,
+                    const Progress& progress) {
+    RendererOptions precise = options.renderer;
+    if (precise.layerFormat == LayerFormat::automatic) precise.layerFormat = LayerFormat::rgba32f;
+    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, precise);
+    const MovementFrame own{view, world.pose};
+    std::vector<std::vector<MovementFrame>> movements;  // first of all: they know what is impossible
+    for (const Movement movement : options.movements) {
+        movements.push_back(busiestStretch(
+            framesAlong(movement, world, view, options.pathFrames, options.clip), world,
+            settingsOf(options, std::ranges::max(options.sampleCounts), LodMode::nearest), options.frames));
+        poseWorld(world, own);
+    }
+    const std::uint64_t total =
+        options.movements.size() * options.sampleCounts.size() * static_cast<std::size_t>(options.frames);
+    std::uint64_t done = 0;
+
+    // Objects held still.
+    for (const std::uint32_t samples : options.sampleCounts)
+        if (const auto step = measureSampleStep(world, *renderer, view, options, samples)) visitor.sampleStep(*step);
+
+    // Movements.
+    for (std::size_t m = 0; m < movements.size(); ++m) {
+        const std::vector<Image> masks = masksOf(world, movements[m], options);
+        for (const std::uint32_t samples : options.sampleCounts) {
+            std::vector<PoppingFrame> frames = measureMovement(world, *renderer, movements[m], masks, options, samples,
+                                                               [&] { report(progress, "frames", ++done, total); });
+            for (PoppingFrame& frame : frames) frame.movement = options.movements[m];
+            visitor.frames(frames);
+        }
+    }
+    poseWorld(world, own);
+}
+
+}  // namespace defocus

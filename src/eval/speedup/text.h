@@ -1,0 +1,18 @@
+#pragma once
+// Rows of the speed-up benchmark as a table for people, as CSV and as JSON.
+
+#include <span>
+#include <string>
+
+#include "eval/bench_subject.h"
+#include "eval/speedup/speedup.h"
+
+namespace defocus {
+
+std::string speedupHeader();                     // two lines
+std::string speedupLine(const SpeedupRow& row);  // one line
+std::string speedupCsv(std::span<const SpeedupRow> rows);
+
+std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject);
+
+}  // namespace defocus

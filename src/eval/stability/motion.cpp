@@ -1,0 +1,118 @@
+// Motion that one straight line between the shutter's opening and closing does not follow.
+
+#include <cmath>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "eval/stability/board_scene.h"
+#include "eval/stability/stability.h"
+#include "lens/lens_samples.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::uint32_t movingSamples = 1024;
+constexpr double halfSide = 8;  // px, of a white square before black
+constexpr double way = 40;      // px, from one end to the other
+constexpr double squareDepth = 4;
+
+// A square and where it is during the exposure: its matrix from the one that it has in the image's middle, by time in
+// [0, 1].
+using Path = std::function<glm::dmat4(const glm::dmat4& middle, double time)>;
+
+Image movedSquare(const Path& path, int segments) {  // 0: a pose of its own for each sample
+    View view = boardView(128, 64);
+    view.lens.dofEnabled = false;
+    BoardScene square(view, {squareAt(view, squareDepth, 2 * halfSide, glm::vec3(1))});
+    square.settings.sampleCount = movingSamples;
+    std::vector<double> times;
+    if (segments == 0)
+        for (const LensSample& sample : lensSamples(view.lens, square.settings.sequence, 0, movingSamples, 0))
+            times.push_back(static_cast<double>(sample.time));
+    for (int i = 0; segments > 0 && i <= segments; ++i) times.push_back(static_cast<double>(i) / segments);
+    const glm::dmat4 middle = square.world.pose.objects[0].worldFromObject;
+    square.world.shutter.perSample = segments == 0;
+    square.world.shutter.poses.assign(times.size(), square.world.pose);
+    for (std::size_t i = 0; i < times.size(); ++i)
+        square.world.shutter.poses[i].objects[0].worldFromObject = path(middle, times[i]);
+    return rendered(square);
+}
+
+// To and fro `turns` times, at an even speed.
+Path toAndFro(int turns) {
+    return [turns](const glm::dmat4& middle, double time) {
+        const double phase = time * turns - std::floor(time * turns);
+        const View view = boardView(128, 64);
+        const double pixel = view.lens.horizontalAperture / view.lens.focalLength * squareDepth / view.width;  // m
+        const double place = way * (0.5 - std::abs(2 * phase - 1));
+        return glm::translate(glm::dmat4(1), glm::dvec3(pixel * place, 0, 0)) * middle;
+    };
+}
+
+// Each column is covered while |x − place| < halfSide, and every place between the ends takes as long: a trapezoid.
+double trapezoidError(const Image& image) {
+    double largest = 0;
+    for (int x = 0; x < image.width; ++x) {
+        const double column = x + 0.5 - 0.5 * image.width;
+        const double from = std::max((column - halfSide) / way + 0.5, 0.0);
+        const double to = std::min((column + halfSide) / way + 0.5, 1.0);
+        const double covered = static_cast<double>(image.at(x, image.height / 2)[0]);
+        largest = std::max(largest, std::abs(covered - std::max(to - from, 0.0)));
+    }
+    return largest;
+}
+
+// Many whole turns about its middle: a point at radius r is outside of each side for 2·acos(a/r) of a turn.
+double spinError() {
+    const Image image = movedSquare(
+        [](const glm::dmat4& middle, double time) {
+            return glm::rotate(middle, 20 * 2 * std::numbers::pi * time, glm::dvec3(0, 0, 1));
+        },
+        0);
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double r = std::hypot(x + 0.5 - 0.5 * image.width, y + 0.5 - 0.5 * image.height);
+            double covered = 1;
+            if (r > halfSide) covered = 1 - 4 / std::numbers::pi * std::acos(halfSide / r);
+            const double error = static_cast<double>(image.at(x, y)[0]) - std::max(covered, 0.0);
+            sum += error * error;
+        }
+    return std::sqrt(sum / (static_cast<double>(image.width) * image.height));
+}
+
+// Through the camera to behind it, and back: what is before the camera is finite, and no more than white.
+double throughCameraError() {
+    const Image image = movedSquare(
+        [](const glm::dmat4& middle, double time) {
+            const double ahead = 2 * squareDepth * (1 - std::abs(2 * time - 1));
+            return glm::translate(glm::dmat4(1), glm::dvec3(0, 0, ahead)) * middle;
+        },
+        2);
+    double wrong = 0;
+    for (const float value : image.pixels) wrong += !(value >= 0 && value <= 1.0001f);
+    return wrong;
+}
+
+}  // namespace
+
+void addMotionCases(std::vector<StabilityCase>& cases) {
+    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+                         std::function<double()> error) {
+        cases.push_back({"motion", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+    };
+    const auto addPath = [&](std::string name, int turns, int segments, double limit) {
+        add(std::move(name), "largest difference", "closed form", limit,
+            [turns, segments] { return trapezoidError(movedSquare(toAndFro(turns), segments)); });
+    };
+    addPath("there and back, 2 segments", 1, 2, 0.02);
+    addPath("there and back, a pose a sample", 1, 0, 0.02);
+    addPath("20 times there and back, a pose a sample", 20, 0, 0.05);
+    addPath("there and back, 1 segment sees no motion", 1, 1, infinite);
+    add("20 turns, a pose a sample", "RMSE", "closed form", 0.02, spinError);
+    add("through the camera and back", "pixels not within 0 to 1", "finite light", 0, throughCameraError);
+}
+
+}  // namespace defocus

@@ -1,0 +1,116 @@
+// Scenes at the limits of space: scales, distances, depth ratios and the camera plane.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "eval/stability/board_scene.h"
+#include "eval/stability/stability.h"
+#include "image/metrics.h"
+#include "image/moments.h"
+
+namespace defocus {
+
+namespace {
+
+// Everything `scale` times as large, the aperture too.
+double scaleError(double scale) {
+    const View view = boardView();
+    BoardScene boards(view, threeBoards(view, 1.2, 5), glm::vec3(0.4f));
+    const Image image = rendered(boards);
+    for (Object& object : boards.world.pose.objects)
+        object.worldFromObject = glm::scale(glm::dmat4(1), glm::dvec3(scale)) * object.worldFromObject;
+    boards.view.lens.focusDistance *= scale;
+    boards.view.lens.blurScale *= scale;
+    boards.view.nearPlane *= scale;
+    return compareImages(image, rendered(boards)).rmse;
+}
+
+// The same scene and camera far from the origin: how far a board's centre moves, px.
+double distanceError(double distance) {
+    const View view = boardView(192, 128);
+    BoardScene boards(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
+    boards.settings.sampleCount = 256;
+    const Moments moments = momentsOf(rendered(boards));
+    const glm::dmat4 moved = glm::translate(glm::dmat4(1), glm::dvec3(distance, -0.3 * distance, 0.7 * distance));
+    boards.view.worldFromCamera = moved * boards.view.worldFromCamera;
+    for (Object& object : boards.world.pose.objects) object.worldFromObject = moved * object.worldFromObject;
+    const Moments far = momentsOf(rendered(boards));
+    return std::hypot(far.mean.x - moments.mean.x, far.mean.y - moments.mean.y);
+}
+
+// A floor as one board that runs from behind the camera to 40 m, and the same floor from the near plane on.
+double cameraPlaneError() {
+    const View view = boardView();
+    const auto floorFrom = [&](double nearest) {
+        BoardScene boards(view, {{2, {0, 0}, {30, 1}, {0.7f, 0.5f, 0.2f}}}, glm::vec3(0.1f, 0.2f, 0.4f));
+        const double length = 40 - nearest;
+        glm::dmat4 lying = glm::translate(glm::dmat4(1), glm::dvec3(0, -0.4, -nearest - 0.5 * length));
+        lying = glm::rotate(lying, -std::acos(-1.0) / 2, glm::dvec3(1, 0, 0));
+        boards.world.pose.objects[0].worldFromObject = glm::scale(lying, glm::dvec3(30, 0.5 * length, 1));
+        return rendered(boards);
+    };
+    return largestError(floorFrom(-25), floorFrom(view.nearPlane));
+}
+
+// Boards at 0.02 m and at 2,000 km, and one just before the far one, all sharp: each hides what lies behind it.
+double depthRatioError() {
+    View view = boardView();
+    view.lens.dofEnabled = false;
+    const glm::vec3 near(0.9f, 0.1f, 0.1f);
+    const glm::vec3 middle(0.1f, 0.9f, 0.1f);
+    const glm::vec3 far(0.1f, 0.1f, 0.9f);
+    BoardScene boards(
+        view, {squareAt(view, 2e6, 90, far), squareAt(view, 1.99e6, 40, middle), squareAt(view, 0.02, 12, near)});
+    const Image image = rendered(boards);
+    double largest = 0;
+    const auto expect = [&](int x, const glm::vec3& color) {
+        for (int c = 0; c < 3; ++c) largest = std::max<double>(largest, std::abs(image.at(x, 32)[c] - color[c]));
+    };
+    expect(48, near);
+    expect(48 + 15, middle);
+    expect(48 + 35, far);
+    return largest;
+}
+
+// A light at 0.02 m and one at 2,000 km, both blurred: red alone shows the one, blue alone the other.
+BlurredLight lightAt(double depth) {
+    View view = boardView(192, 128);
+    view.lens.focusDistance = 0.035;
+    setBlur(view, 2e6, 24);
+    const glm::dvec2 nearPlace(-50.3, 30.7);
+    const glm::dvec2 farPlace(45.3, -20.7);
+    BoardScene boards(view,
+                      {squareAt(view, 0.02, 3, {8, 0, 0}, nearPlace), squareAt(view, 2e6, 3, {0, 0, 8}, farPlace)});
+    boards.settings.sampleCount = 1024;
+    const bool near = depth < 1;
+    const LightPlace light{.depth = depth, .offset = near ? nearPlace : farPlace, .channel = near ? 0 : 2};
+    return blurredLight(rendered(boards), view, light);
+}
+
+}  // namespace
+
+void addSpaceCases(std::vector<StabilityCase>& cases) {
+    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+                         std::function<double()> error) {
+        cases.push_back({"space", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+    };
+    for (const double scale : {1e-4, 1e-2, 1e3, 1e6})
+        add(fmt::format("everything {:g} times as large", scale), "RMSE", "the scene at scale 1", 1e-3,
+            [scale] { return scaleError(scale); });
+    for (const double distance : {1e4, 1e7})
+        add(fmt::format("scene and camera {:g} m from the origin", distance), "place, px", "the scene at the origin",
+            0.1, [distance] { return distanceError(distance); });
+    add("a floor through the camera plane (w to 0)", "largest difference", "cut at the near plane", 2e-3,
+        cameraPlaneError);
+    add("depths of 0.02 m, 1,990 km and 2,000 km", "largest error", "the nearest board", 1e-3, depthRatioError);
+    for (const double depth : {0.02, 2e6})
+        add(fmt::format("depths of 0.02 m and 2,000 km: the light at {:g} m", depth), "disk diameter, px",
+            "closed form", 0.5, [depth] { return lightAt(depth).diameterError; });
+    for (const double depth : {0.02, 2e6})
+        add(fmt::format("depths of 0.02 m and 2,000 km: the light at {:g} m", depth), "place, px", "closed form", 0.1,
+            [depth] { return lightAt(depth).placeError; });
+}
+
+}  // namespace defocus

@@ -1,0 +1,122 @@
+// λ at whole numbers, and where a sample changes its level: what moves is one sample at most, in the split and in the
+// image.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "eval/stability/board_scene.h"
+#include "eval/stability/stability.h"
+#include "lod/pyramid/level_selection.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double nudge = 1e-6;                 // of λ
+constexpr double oneSample = 1 + 1e-4;         // of an image in 32-bit floats
+constexpr std::uint32_t renderedSamples = 60;  // not a multiple of a wave
+
+// Samples drawn at another level when λ passes the whole number `level`.
+double splitError(double level, std::uint32_t samples) {
+    const auto levelsOf = [&](double lambda) {
+        const SampleSplit split = splitSamples(lambda, samples, LodMode::fractional);
+        std::vector<std::uint32_t> levels(samples, split.level);
+        std::fill_n(levels.begin(), split.coarseCount, split.level + 1);
+        return levels;
+    };
+    const std::vector<std::uint32_t> below = levelsOf(level - nudge);
+    const std::vector<std::uint32_t> above = levelsOf(level + nudge);
+    double moved = 0;
+    for (std::uint32_t i = 0; i < samples; ++i) moved += below[i] != above[i] ? 1 : 0;
+    return moved;
+}
+
+// ---- a ball ---------------------------------------------------------------------------------------------------------
+
+// Of radius 1, of rings of quads; its levels have other silhouettes.
+Mesh ballMesh() {
+    constexpr std::uint32_t rings = 20;
+    constexpr std::uint32_t sides = 40;
+    Mesh mesh;
+    for (std::uint32_t ring = 0; ring <= rings; ++ring)
+        for (std::uint32_t side = 0; side < sides; ++side) {
+            const double polar = std::numbers::pi * ring / rings;
+            const double azimuth = 2 * std::numbers::pi * side / sides;
+            mesh.vertices.positions.emplace_back(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                                                 -std::sin(polar) * std::sin(azimuth));
+        }
+    mesh.vertices.normals = mesh.vertices.positions;
+    Primitive primitive{.material = 0, .indices = {}};
+    for (std::uint32_t ring = 0; ring < rings; ++ring)
+        for (std::uint32_t side = 0; side < sides; ++side) {
+            const std::uint32_t a = ring * sides + side;
+            const std::uint32_t b = ring * sides + (side + 1) % sides;
+            primitive.indices.insert(primitive.indices.end(), {a, a + sides, b + sides, a, b + sides, b});
+        }
+    mesh.primitives.push_back(std::move(primitive));
+    return mesh;
+}
+
+// White before black: a pixel of a sample is 0 or 1.
+struct Ball : BoardScene {
+    Ball() : BoardScene(boardView(), {{5, {0, 0}, {1, 1}, glm::vec3(1)}}) {
+        scene.meshes[0] = ballMesh();
+        world.pyramids = buildPyramids(scene.meshes);
+        world.pose.objects[0].worldFromObject[2][2] = 1;
+        settings.sampleCount = renderedSamples;
+        setBlur(view, 5, 6);
+    }
+};
+
+// As the threshold on the edges' size asks for λ; NaN where that isn't what comes of it.
+Image imageAt(Ball& ball, double lambda, LodMode mode) {
+    const std::vector<PyramidLevel>& levels = ball.world.pyramids[0].levels;
+    const auto level = static_cast<std::size_t>(lambda);
+    const double fraction = lambda - static_cast<double>(level);
+    const double edge = std::pow(levels[level].meanEdge, 1 - fraction) * std::pow(levels[level + 1].meanEdge, fraction);
+    ball.settings.lod = mode;
+    const ObjectPlan object = planFrame(ball.world, ball.view, ball.settings).objects[0];
+    ball.settings.thresholds = {0, object.projectedEdge * edge / levels[0].meanEdge};
+    if (std::abs(planFrame(ball.world, ball.view, ball.settings).objects[0].lambda - lambda) > 0.01 * nudge) return {};
+    return rendered(ball, "accumulation",
+                    {.layerFormat = LayerFormat::rgba32f, .wave = 8, .shaderFolder = {}, .settings = {}});
+}
+
+// The largest change of a pixel when λ goes from one value to another, in samples: each may change it by 1/N.
+double movedSamples(double from, double to, LodMode mode) {
+    Ball ball;
+    const Image before = imageAt(ball, from, mode);
+    const Image after = imageAt(ball, to, mode);
+    return before.empty() || after.empty() ? infinite : largestError(before, after) * renderedSamples;
+}
+
+}  // namespace
+
+void addSplitCases(std::vector<StabilityCase>& cases) {
+    for (const double level : {1.0, 2.0, 5.0})
+        for (const std::uint32_t samples : {1u, 7u, 64u, 4096u})
+            cases.push_back({"levels", fmt::format("level {:g} by ±1e-6, {} samples", level, samples),
+                             "samples that change level", "at most one", 1,
+                             [level, samples] { return splitError(level, samples); }});
+
+    const auto add = [&](std::string name, double limit, double from, double to, LodMode mode) {
+        cases.push_back({"levels", std::move(name), "an image's change, samples", "at most one", limit,
+                         [=] { return movedSamples(from, to, mode); }});
+    };
+    for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
+        const char* name = lodModeName(mode);
+        // Where sample 21 becomes coarse, or begins to.
+        const double boundary = 1 + (mode == LodMode::fractional ? 20.5 : 20) / renderedSamples;
+        for (const double level : {1.0, 2.0})
+            add(fmt::format("rendered: level {:g} by ±1e-6, {}", level, name), oneSample, level - nudge, level + nudge,
+                mode);
+        add(fmt::format("rendered: between samples by ±1e-6, {}", name), oneSample, boundary - nudge, boundary + nudge,
+            mode);
+    }
+    add("rendered: from level 1 to 2 at once", infinite, 1, 2, LodMode::fractional);
+}
+
+}  // namespace defocus

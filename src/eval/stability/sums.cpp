@@ -1,0 +1,123 @@
+// Sums of many samples, and what layers round.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "eval/stability/board_scene.h"
+#include "eval/stability/stability.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double sumLimit = 1e-6;              // relative to a double sum of the same layers
+constexpr double halfLimit = 0x1p-11 * 1.001;  // a half float's rounding
+constexpr double comparison = std::numeric_limits<double>::infinity();
+
+const RendererOptions exactLayers = {
+    .layerFormat = LayerFormat::rgba32f, .wave = 0, .shaderFolder = {}, .settings = {}};
+
+// A wall of one radiance, in and out of focus alike, at 12 × 8 px.
+Image wall(const glm::vec3& radiance, std::uint32_t samples, const RendererOptions& options) {
+    BoardScene boards(boardView(12, 8), {{4, {0, 0}, {40, 40}, radiance}});
+    boards.settings.sampleCount = samples;
+    return rendered(boards, "accumulation", options);
+}
+
+double largestRelativeError(const Image& image, const glm::dvec3& truth) {
+    double largest = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const double error = std::abs(double(image.at(x, y)[c]) - truth[c]) / truth[c];
+                largest = std::isnan(error) ? comparison : std::max(largest, error);
+            }
+    return largest;
+}
+
+// As the renderer sums: 32-bit layers hold the radiance exactly, so that what is left is the sum's own error.
+double constantError(float value, std::uint32_t samples) {
+    return largestRelativeError(wall(glm::vec3(value), samples, exactLayers), glm::dvec3(value));
+}
+
+// The same sums without compensation: one after the other, and by waves of 8.
+double plainError(float value, std::uint32_t samples, std::uint32_t wave) {
+    float sum = 0;
+    for (std::uint32_t i = 0; i < samples; i += wave) {
+        float part = 0;
+        for (std::uint32_t k = 0; k < wave; ++k) part += value;
+        sum += part;
+    }
+    return std::abs(static_cast<double>(sum / static_cast<float>(samples)) / value - 1);
+}
+
+// A light of 10,000 whose blur passes over a ground of 0.0001: each pixel's samples, drawn one by one, are summed in
+// double.
+double mixedError() {
+    constexpr std::uint32_t samples = 300;
+    View view = boardView(24, 16);
+    setBlur(view, 6, 9);
+    BoardScene boards(view, {squareAt(view, 6, 2, glm::vec3(1e4f, 1, 1e-4f))}, glm::vec3(1e-4f));
+    const auto scene = [&](std::uint32_t first, std::uint32_t count) {
+        boards.settings.sampleCount = count;
+        boards.settings.firstSample = first;
+        return rendered(boards, "accumulation", exactLayers);
+    };
+    const Image image = scene(0, samples);
+    std::vector<double> sums(image.pixels.size());
+    for (std::uint32_t i = 0; i < samples; ++i) {
+        const Image layer = scene(i, 1);
+        for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += layer.pixels[p];
+    }
+    double largest = 0;
+    for (std::size_t p = 0; p < sums.size(); ++p)
+        largest = std::max(largest, std::abs(image.pixels[p] / (sums[p] / samples) - 1));
+    return largest;
+}
+
+}  // namespace
+
+void addSumCases(std::vector<StabilityCase>& cases) {
+    const auto add = [&](std::string name, std::string measured, std::string truth, double limit,
+                         std::function<double()> error) {
+        cases.push_back({"sums", std::move(name), std::move(measured), std::move(truth), limit, std::move(error)});
+    };
+    const char* relative = "relative error";
+    for (const std::uint32_t samples : {1u, 2u, 3u, 61u, 127u, 4096u, 65'536u})
+        add(fmt::format("{} samples of 0.1", samples), relative, "double sum", sumLimit,
+            [samples] { return constantError(0.1f, samples); });
+    for (const float value : {0.3f, 0.7f, 1.0f / 3, 1e4f, 1e-4f})
+        add(fmt::format("4,096 samples of {:.4g}", value), relative, "double sum", sumLimit,
+            [value] { return constantError(value, 4096); });
+    add("65,536 samples of 0.1, plain 32-bit sum", relative, "double sum", comparison,
+        [] { return plainError(0.1f, 65'536, 1); });
+    add("65,536 samples of 0.1, 32-bit sums of waves of 8", relative, "double sum", comparison,
+        [] { return plainError(0.1f, 65'536, 8); });
+    add("10,000 beside 0.0001 in a pixel's samples", relative, "double sum", sumLimit, mixedError);
+    for (const float value : {0.1f, 0.3f, 0.7f, 1.0f / 3})
+        add(fmt::format("half-float layers of {:.4g}", value), relative, "the value", halfLimit, [value] {
+            return largestRelativeError(
+                wall(glm::vec3(value), 64, {.layerFormat = LayerFormat::rgba16f, .shaderFolder = {}, .settings = {}}),
+                glm::dvec3(value));
+        });
+    add("radiance of 1,000,000 (above half floats)", relative, "the value", sumLimit,
+        [] { return largestRelativeError(wall(glm::vec3(1e6f), 64, {}), glm::dvec3(1e6)); });
+    for (const std::uint32_t wave : {1u, 7u, 64u})
+        add(fmt::format("100 samples, {} at once against 8", wave), "pixels that differ", "waves of 8", 0, [wave] {
+            BoardScene boards(
+                boardView(),
+                {{1.2, {-0.1, 0}, {0.1, 0.1}, {0.9f, 0.2f, 0.1f}}, {5, {0, 0}, {0.7, 0.5}, {0.1f, 0.5f, 0.9f}}},
+                glm::vec3(0.3f));
+            boards.settings.sampleCount = 100;
+            const Image one = rendered(boards, "accumulation", {.wave = 8, .shaderFolder = {}, .settings = {}});
+            const Image other = rendered(boards, "accumulation", {.wave = wave, .shaderFolder = {}, .settings = {}});
+            double differing = 0;
+            for (std::size_t i = 0; i < one.pixels.size(); ++i) differing += one.pixels[i] != other.pixels[i] ? 1 : 0;
+            return differing;
+        });
+}
+
+}  // namespace defocus

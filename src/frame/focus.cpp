@@ -1,0 +1,68 @@
+#include "frame/focus.h"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+#include "core/error.h"
+#include "plan/focus_depth.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double defaultFocusDistance = 2.5;  // m, where the scene lies beside or behind the camera
+
+double depthOfCentre(const Bounds& bounds, const View& view) {
+    const double depth = bounds.empty() ? 0 : -(glm::inverse(view.worldFromCamera) * glm::dvec4(bounds.centre(), 1)).z;
+    return depth > view.nearPlane && std::isfinite(depth) ? depth : defaultFocusDistance;
+}
+
+void focusAlong(const Scene& scene, const Pose& pose, const std::array<glm::ivec2, 3>& pixels, View& view) {
+    Lens flat = view.lens;
+    flat.focusDistance = std::numeric_limits<double>::infinity();
+    std::array<glm::dvec3, 3> points;
+    for (std::size_t i = 0; i < 3; ++i)
+        points[i] = surfaceAtPixel(scene, pose, view, flat, pixels[i], "--focus-points");
+    focusThrough(points, view.lens, "--focus-points");
+}
+
+}  // namespace
+
+// w + mx·X + my·Y = s for (X, Y, −w) in view space, mx = tan(swing), my = tan(tilt).
+void focusThrough(const std::array<glm::dvec3, 3>& points, Lens& lens, const std::string& what) {
+    const glm::dvec3 normal = glm::cross(points[1] - points[0], points[2] - points[0]);
+    const double extent = glm::length(points[1] - points[0]) * glm::length(points[2] - points[0]);
+    if (!(glm::length(normal) > 1e-6 * extent)) fail("{}: the three points lie on a line; choose others", what);
+    if (!(std::abs(normal.z) > 2e-3 * glm::length(normal)))
+        fail("{}: the plane through the three points holds the view axis; choose others", what);
+    const double distance = -glm::dot(normal, points[0]) / normal.z;
+    if (!(distance > 0))
+        fail("{}: the plane through the three points meets the view axis at or behind the camera; choose others", what);
+    // normal·(X, Y, −w) = normal·point; divided by −normal.z.
+    lens.focusSwing = std::atan(-normal.x / normal.z);
+    lens.focusTilt = std::atan(-normal.y / normal.z);
+    lens.focusDistance = distance;
+}
+
+void chooseFocus(const SceneOptions& options, const Camera& camera, const Scene& scene, const Pose& pose, View& view) {
+    Lens& lens = view.lens;
+    const auto distance = options.lens.find("focusDistance");
+    const std::optional<double> own = camera.lensValue("focusDistance");
+    if (distance != options.lens.end())
+        lens.focusDistance = distance->second;
+    else if (!options.focusNode.empty())
+        lens.focusDistance = depthOfNode(scene, pose, view, options.focusNode, "--focus-node");
+    else if (options.focusPixel)
+        lens.focusDistance = depthAtPixel(scene, pose, view, *options.focusPixel, "--focus-pixel");
+    else if (options.focusPoints)
+        focusAlong(scene, pose, *options.focusPoints, view);
+    else if (options.focusAuto)
+        lens.focusDistance = depthOfMiddle(scene, pose, view, "--focus-auto");
+    else
+        lens.focusDistance = own && *own > 0 ? *own : depthOfCentre(pose.bounds, view);
+}
+
+}  // namespace defocus

@@ -1,0 +1,64 @@
+#pragma once
+// From options to a world and a view that can be planned and rendered.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "frame/scene_options.h"
+#include "plan/view.h"
+
+namespace defocus {
+
+struct PreparedFrame {
+    std::shared_ptr<Scene> scene;
+    World world;
+    View view;
+    RenderSettings settings;
+    std::string sceneName;  // the file's name, or "fish school"
+    std::string cameraName;
+    Lens cameraLens;                             // as it would be without the options' values
+    std::vector<std::string> refusedLensValues;  // of the camera's extras, a line each
+    double loadMilliseconds = 0;
+    double pyramidMilliseconds = 0;
+    std::filesystem::path cacheFolder;  // of the pyramids; empty: none is used
+    std::size_t pyramidsLoaded = 0;     // from it
+    std::string cacheFailure;           // why a pyramid couldn't be stored there
+};
+
+// Loads the scene and places camera, lens and lights; the world has no pyramids yet. Throws Error for whatever the
+// options ask for and the scene doesn't have.
+PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress = {});
+
+// The part of it that options.camera and the lens options decide, again for another camera. The lights stay.
+void placeCamera(PreparedFrame& frame, const SceneOptions& options);
+
+// The surroundings that the options ask for. Throws Error for a map that can't be read or can't light a scene.
+Environment chosenEnvironment(const SceneOptions& options, const Scene& scene);
+
+// The image of an aperture. Throws Error for one that can't be read or lets no light pass.
+std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path);
+
+// What the settings of a frame are before its samples are known to be others than options.samples.
+RenderSettings chosenSettings(const SceneOptions& options);
+
+// The near plane (m) for cameras that go where no file has put them: that of the camera they started from, or nearer
+// where the scene is small.
+double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds);
+
+// Simplifies the meshes where the cache doesn't have them, or only brings them into the pyramids' form when the
+// settings use no other level.
+void addPyramids(PreparedFrame& frame, const Progress& progress = {});
+
+// Both.
+PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress = {});
+
+// A line for each kind of damage in the scene's file.
+std::vector<std::string> damageWarnings(const Scene& scene);
+
+// That, values of the camera that aren't used, a focus that no lens has, pyramids that couldn't be stored: a line each.
+std::vector<std::string> frameWarnings(const PreparedFrame& frame);
+
+}  // namespace defocus

@@ -1,0 +1,29 @@
+#pragma once
+// The `defocus render` command that makes the picture of a view, to paste into a shell.
+
+#include <string>
+
+#include "frame/prepared_frame.h"
+#include "image/image_io.h"
+
+namespace defocus {
+
+struct RenderCommandText {
+    const SceneOptions& options;  // scene, method, levels, samples
+    const PreparedFrame& frame;   // with the camera that options.camera names
+    const View& view;             // as it is now
+    double pivotDistance = 1;     // m, > 0: how far ahead the target lies
+    WriteOptions write;
+    std::string output = "out.png";
+};
+
+// Options that have their standard value are left out.
+std::string renderCommand(const RenderCommandText& text);
+
+// The command that films a shot which was recorded in a view: with what no shot file says.
+std::string captureCommand(const std::filesystem::path& shot, const SceneOptions& options);
+
+// A word as a shell reads it back: as it is, or in single quotes.
+std::string shellWord(const std::string& word);
+
+}  // namespace defocus

@@ -1,0 +1,150 @@
+// OpenEXR, "Standard Attributes": matrices lead from the world to a left-handed camera space that looks along +z, and
+// to an NDC space whose (0, 0) is the upper left corner of the image and (1, 1) the lower right one.
+
+#include "frame/render_report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include "frame/program_facts.h"
+#include "lens/lens_fields.h"
+#include "lens/photographic_exposure.h"
+
+namespace defocus {
+
+namespace {
+
+std::uint64_t peakMemory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+const char* metricName(LodMetric metric) {
+    return metric == LodMetric::size ? "size" : "error";
+}
+
+glm::dmat4 cameraFromWorld(const View& view) {
+    return glm::scale(glm::dmat4(1.0), glm::dvec3(1, 1, -1)) * glm::inverse(view.worldFromCamera);
+}
+
+glm::dmat4 ndcFromWorld(const FramePlan& plan) {
+    const double tanX = plan.tanHalfHorizontal;
+    const double tanY = tanX * plan.view.height / plan.view.width;
+    glm::dmat4 ndcFromCamera(0.0);
+    ndcFromCamera[0][0] = 0.5 / tanX;
+    ndcFromCamera[1][1] = -0.5 / tanY;
+    ndcFromCamera[2] = glm::dvec4(0.5, 0.5, 0, 1);
+    ndcFromCamera[3][2] = plan.view.nearPlane;  // reversed depth: 1 at the near plane, 0 at infinity
+    return ndcFromCamera * cameraFromWorld(plan.view);
+}
+
+std::string inMillions(std::uint64_t count) {
+    const double value = static_cast<double>(count);
+    return count < 1'000'000 ? fmt::format("{}", count) : fmt::format("{:.1f} M", value * 1e-6);
+}
+
+}  // namespace
+
+Metadata renderMetadata(const RenderReport& report) {
+    const View& view = report.plan.view;
+    const Lens& lens = view.lens;
+    const RenderSettings& settings = report.plan.settings;
+    Metadata metadata = {
+        {"software", "defocus " + programVersion()},
+        {"cameraLabel", report.frame.cameraName},
+        {"aperture", lens.fStop},
+        {"focus", lens.focusDistance},
+        {"nominalFocalLength", lens.focalLength},
+        {"worldToCamera", glm::mat4(cameraFromWorld(view))},
+        {"worldToNDC", glm::mat4(ndcFromWorld(report.plan))},
+        {"defocus:scene", report.frame.sceneName},
+        {"defocus:time", report.options.time},
+        {"defocus:shutter", report.options.shutter.seconds},
+        {"defocus:samples", static_cast<int>(report.stats.samples)},
+        {"defocus:sequence", std::string(sequenceName(settings.sequence))},
+        {"defocus:seed", static_cast<double>(settings.seed)},
+        {"defocus:seconds", report.stats.renderMilliseconds / 1000},
+        {"defocus:method", report.method},
+        {"defocus:lod", std::string(lodModeName(settings.lod))},
+        {"defocus:lodMetric", std::string(metricName(settings.metric))},
+        {"defocus:blurThreshold", settings.thresholds.blur},
+        {"defocus:sizeThreshold", settings.thresholds.size},
+        {"defocus:layerFormat", report.stats.layerFormat},
+        {"defocus:device", report.stats.device},
+    };
+    if (lens.exposureTime > 0) {
+        metadata["expTime"] = lens.exposureTime;
+        metadata["isoSpeed"] = lens.iso;
+        metadata["defocus:exposure"] = photographicExposure(lens);
+    }
+    for (const LensField& field : lensFields()) {
+        const double value = lensFieldValue(lens, field);
+        if (std::isfinite(value)) metadata[std::string("defocus:") + field.name] = value;
+    }
+    return metadata;
+}
+
+std::string statsJson(const RenderReport& report) {
+    const RenderStats& stats = report.stats;
+    const Lens& lens = report.plan.view.lens;
+    const RenderSettings& settings = report.plan.settings;
+    nlohmann::ordered_json json = {
+        {"version", programVersion()},
+        {"scene", report.frame.sceneName},
+        {"camera", report.frame.cameraName},
+        {"time", report.options.time},
+        {"shutter", report.options.shutter.seconds},
+        {"width", report.plan.view.width},
+        {"height", report.plan.view.height},
+        {"method", report.method},
+        {"samples", stats.samples},
+        {"sequence", sequenceName(settings.sequence)},
+        {"seed", settings.seed},
+        {"lod", lodModeName(settings.lod)},
+        {"lodMetric", metricName(settings.metric)},
+        {"blurThreshold", settings.thresholds.blur},
+        {"sizeThreshold", settings.thresholds.size},
+        {"lens",
+         {{"fStop", lens.fStop},
+          {"focalLength", lens.focalLength},
+          {"focusDistance", lens.focusDistance},
+          {"horizontalAperture", lens.horizontalAperture}}},
+        {"loadMilliseconds", report.frame.loadMilliseconds},
+        {"pyramidMilliseconds", report.frame.pyramidMilliseconds},
+        {"setupMilliseconds", stats.setupMilliseconds},
+        {"renderMilliseconds", stats.renderMilliseconds},
+        {"totalMilliseconds", report.totalMilliseconds},
+        {"gpuMilliseconds", stats.gpuMilliseconds},
+        {"gpuMillisecondsNote", report.softwareDriver
+                                    ? "timer queries of a software driver: vertex work is not covered, not for ratios"
+                                    : "timer queries around the waves of samples"},
+        {"trianglesDrawn", stats.trianglesDrawn},
+        {"trianglesFacingAway", report.plan.trianglesFacingAway},
+        {"trianglesOutside", report.plan.trianglesOutside},
+        {"trianglesAtFullDetail", report.plan.trianglesAtFullDetail},
+        {"peakBytes", peakMemory()},
+        {"gpuBytes", stats.peakBytes},
+        {"wave", stats.wave},
+        {"layerFormat", stats.layerFormat},
+        {"device", stats.device},
+        {"driver", stats.driver},
+    };
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string summary(const RenderReport& report) {
+    const RenderStats& stats = report.stats;
+    std::string triangles = inMillions(stats.trianglesDrawn) + " triangles";
+    if (report.plan.trianglesAtFullDetail > stats.trianglesDrawn)
+        triangles += fmt::format(" (full detail: {})", inMillions(report.plan.trianglesAtFullDetail));
+    return fmt::format("{}x{}, {} samples in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height,
+                       stats.samples, stats.renderMilliseconds / 1000, triangles, stats.device);
+}
+
+}  // namespace defocus

@@ -1,0 +1,33 @@
+#pragma once
+// What a render says about itself: metadata in its images, numbers in --stats, a line for people.
+
+#include <string>
+
+#include "frame/prepared_frame.h"
+#include "image/image_io.h"
+#include "plan/frame_plan.h"
+#include "render/renderer.h"
+
+namespace defocus {
+
+struct RenderReport {
+    const SceneOptions& options;
+    std::string method;  // MethodUse::text
+    const PreparedFrame& frame;
+    const FramePlan& plan;
+    RenderStats stats;
+    bool softwareDriver = false;
+    double totalMilliseconds = 0;  // of the whole command so far
+};
+
+// EXR's standard names where there are any: aperture (f-number), focus (m), nominalFocalLength (mm), worldToCamera,
+// worldToNDC, cameraLabel, software; the rest under "defocus:".
+Metadata renderMetadata(const RenderReport& report);
+
+// JSON; milliseconds and bytes as the keys say. peakBytes is the whole process's memory at its peak.
+std::string statsJson(const RenderReport& report);
+
+// "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …"
+std::string summary(const RenderReport& report);
+
+}  // namespace defocus

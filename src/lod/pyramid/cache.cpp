@@ -1,0 +1,179 @@
+#include "lod/pyramid/cache.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <mutex>
+#include <new>
+#include <numeric>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "core/mapped_file.h"
+#include "core/parallel.h"
+#include "lod/pyramid/file.h"
+
+namespace defocus {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view extension = ".pyramid";
+constexpr std::size_t keyDigits = 16;
+
+// The whole key is in the name, so that versions of the program and options don't take each other's files away.
+fs::path fileName(const PyramidKey& key) {
+    const std::uint64_t rest[3] = {PyramidFileHeader::expectedVersion, key.options.leastTriangles,
+                                   static_cast<std::uint64_t>(key.options.mostLevels)};
+    return fmt::format("{:0{}x}{}", hashBytes(std::as_bytes(std::span(rest)), key.mesh), keyDigits, extension);
+}
+
+enum class NameKind { other, complete, pending };
+
+bool consistsOf(std::string_view text, const char* letters) {
+    return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
+}
+
+// "KEY.pyramid", or what PendingFile makes of it while it is written: ".KEY.PROCESS-NUMBER.pyramid".
+NameKind kindOf(std::string_view name) {
+    const bool pending = name.starts_with('.');
+    if (pending) name.remove_prefix(1);
+    if (!name.ends_with(extension) || !consistsOf(name.substr(0, keyDigits), "0123456789abcdef"))
+        return NameKind::other;
+    name.remove_suffix(extension.size());
+    if (!pending) return name.size() == keyDigits ? NameKind::complete : NameKind::other;
+
+    if (name.size() <= keyDigits || name[keyDigits] != '.') return NameKind::other;
+    const std::string_view writer = name.substr(keyDigits + 1);
+    const std::size_t dash = writer.find('-');
+    const bool numbers = dash != std::string_view::npos && consistsOf(writer.substr(0, dash), "0123456789") &&
+                         consistsOf(writer.substr(dash + 1), "0123456789");
+    return numbers ? NameKind::pending : NameKind::other;
+}
+
+std::optional<CacheFile> cacheFile(const fs::directory_entry& entry) {
+    const NameKind kind = kindOf(entry.path().filename().string());
+    std::error_code status;
+    if (kind == NameKind::other || !fs::is_regular_file(entry.symlink_status(status))) return {};
+    const std::optional<MappedFile> file = MappedFile::open(entry.path());
+    const auto header = file ? pyramidHeader(file->bytes()) : std::nullopt;
+    if (!header) return {};
+    const fs::file_time_type written = entry.last_write_time(status);
+    return CacheFile{entry.path(), file->bytes().size(), written, header->triangleCount, kind == NameKind::pending};
+}
+
+std::optional<Pyramid> load(const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
+    const std::optional<MappedFile> file = MappedFile::open(folder / fileName(key));
+    return file ? decodePyramid(file->bytes(), mesh, key) : std::nullopt;
+}
+
+void store(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
+    std::error_code status;
+    fs::create_directories(folder, status);
+    if (status) fail("{}: cannot be created: {}", folder.string(), status.message());
+    writeFile(folder / fileName(key), encodePyramid(pyramid, mesh, key));
+}
+
+// Why it couldn't be stored; empty where it was.
+std::string tryToStore(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
+    try {
+        store(pyramid, mesh, folder, key);
+        return {};
+    } catch (const Error& error) {
+        return error.what();
+    } catch (const std::bad_alloc&) {
+        return "out of memory";
+    }
+}
+
+fs::path absolutePathIn(const char* variable) {
+    const char* value = std::getenv(variable);
+    const fs::path path = value == nullptr ? "" : value;
+    return path.is_absolute() ? path : fs::path();
+}
+
+}  // namespace
+
+fs::path defaultCacheFolder() {
+    if (const fs::path caches = absolutePathIn("XDG_CACHE_HOME"); !caches.empty()) return caches / "defocus";
+    const fs::path home = absolutePathIn("HOME");
+    return home.empty() ? fs::path() : home / ".cache" / "defocus";
+}
+
+std::optional<Pyramid> loadPyramid(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options) {
+    return load(mesh, folder, pyramidKey(mesh, options));
+}
+
+void storePyramid(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidOptions& options) {
+    store(pyramid, mesh, folder, pyramidKey(mesh, options));
+}
+
+CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& folder, const PyramidOptions& options,
+                              const Progress& progress) {
+    CachedPyramids result;
+    if (folder.empty()) {
+        result.pyramids = buildPyramids(meshes, options, progress);
+        return result;
+    }
+
+    // The largest first, so that no core is left with a large one at the end.
+    std::vector<std::size_t> order(meshes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return meshes[a].triangleCount() > meshes[b].triangleCount();
+    });
+
+    result.pyramids.resize(meshes.size());
+    std::mutex mutex;  // of `result` but for the pyramids, and of `done`
+    std::uint64_t done = 0;
+    const auto stillStoring = [&] {
+        const std::scoped_lock lock(mutex);
+        return result.failure.empty();
+    };
+    parallelFor(meshes.size(), [&](std::size_t i) {
+        const Mesh& mesh = meshes[order[i]];
+        Pyramid& pyramid = result.pyramids[order[i]];
+        const bool worthIt = mesh.triangleCount() > options.leastTriangles;
+        const PyramidKey key = worthIt ? pyramidKey(mesh, options) : PyramidKey{};
+        std::optional<Pyramid> loaded = worthIt ? load(mesh, folder, key) : std::nullopt;
+        const bool found = loaded.has_value();
+        pyramid = found ? std::move(*loaded) : buildPyramid(mesh, options, pyramidHelpers(mesh, meshes));
+        const std::string failure =
+            worthIt && !found && stillStoring() ? tryToStore(pyramid, mesh, folder, key) : std::string();
+
+        const std::scoped_lock lock(mutex);
+        if (found) ++result.loaded;
+        if (result.failure.empty()) result.failure = failure;
+        report(progress, "pyramids", ++done, meshes.size());
+    });
+    return result;
+}
+
+std::vector<CacheFile> cacheFiles(const fs::path& folder) {
+    std::vector<CacheFile> files;
+    std::error_code status;
+    if (!fs::exists(folder, status) && !status) return files;
+    for (fs::directory_iterator entries(folder, status), end; !status && entries != end; entries.increment(status))
+        if (std::optional<CacheFile> file = cacheFile(*entries)) files.push_back(std::move(*file));
+    if (status) fail("{}: cannot be read: {}", folder.string(), status.message());
+    std::sort(files.begin(), files.end(), [](const CacheFile& a, const CacheFile& b) {
+        return std::tie(b.written, a.path) < std::tie(a.written, b.path);
+    });
+    return files;
+}
+
+std::vector<CacheFile> clearCache(const fs::path& folder) {
+    std::vector<CacheFile> files = cacheFiles(folder);
+    for (const CacheFile& file : files) {
+        std::error_code status;
+        fs::remove(file.path, status);
+        if (status) fail("{}: cannot be removed: {}", file.path.string(), status.message());
+    }
+    return files;
+}
+
+}  // namespace defocus

@@ -1,0 +1,308 @@
+#include "lod/pyramid/file.h"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+#include "core/hash.h"
+#include "lod/simplify/gathered.h"
+
+namespace defocus {
+
+// Structs are taken apart by structured bindings, some of them unused: that stops compiling when a struct gets another
+// member, which the key or the file would lack.
+
+static_assert(std::has_unique_object_representations_v<IndexRange>);
+static_assert(sizeof(PyramidFileHeader) == 120 && sizeof(PyramidFileLevel) == 40 && sizeof(Cluster) == 48,
+              "no padding, so that all is written");
+
+namespace {
+
+constexpr std::size_t checkedFrom = offsetof(PyramidFileHeader, checksum) + sizeof(PyramidFileHeader::checksum);
+
+// ---- key ---------------------------------------------------------------------------------------
+
+template <typename T>
+void hashStream(std::uint64_t& hash, const std::vector<T>& stream) {
+    hash = hashBytes(std::as_bytes(std::span(stream)), hash);
+}
+
+void hashVertices(std::uint64_t& hash, const Vertices& vertices) {
+    const auto& [positions, normals, tangents, uv0, uv1, colors, joints, weights, cocScales, joints1, weights1] =
+        vertices;
+    hashStream(hash, positions);
+    hashStream(hash, normals);
+    hashStream(hash, tangents);
+    hashStream(hash, uv0);
+    hashStream(hash, uv1);
+    hashStream(hash, colors);
+    hashStream(hash, joints);
+    hashStream(hash, weights);
+    hashStream(hash, cocScales);
+    hashStream(hash, joints1);
+    hashStream(hash, weights1);
+}
+
+void hashMorphTarget(std::uint64_t& hash, const MorphTarget& target) {
+    const auto& [positions, normals, tangents] = target;
+    hashStream(hash, positions);
+    hashStream(hash, normals);
+    hashStream(hash, tangents);
+}
+
+// ---- writing -----------------------------------------------------------------------------------
+
+template <typename T>
+void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
+    const std::span<const std::byte> more = std::as_bytes(std::span(values));
+    bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
+    const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, repairedFaces, end] = pyramid;
+    const auto& [leastTriangles, mostLevels] = key.options;
+    PyramidFileHeader header;
+    header.mesh = key.mesh;
+    header.leastTriangles = leastTriangles;
+    header.mostLevels = mostLevels;
+    header.indexCount = indices.size();
+    header.levelCount = static_cast<std::uint32_t>(levels.size());
+    header.primitiveCount = static_cast<std::uint32_t>(mesh.primitives.size());
+    header.vertexCount = static_cast<std::uint32_t>(vertices.count());
+    header.triangleCount = levels.front().triangleCount;
+    header.repairedFaces = repairedFaces;
+    header.end = static_cast<std::uint32_t>(end);
+    for (int axis = 0; axis < 3; ++axis) {
+        header.minimum[axis] = bounds.minimum[axis];
+        header.maximum[axis] = bounds.maximum[axis];
+    }
+    return header;
+}
+
+std::size_t encodedSize(const Pyramid& pyramid, const Mesh& mesh) {
+    std::size_t size = sizeof(PyramidFileHeader) +
+                       pyramid.vertices.count() * (sizeof(std::uint32_t) + sizeof(glm::vec3)) +
+                       pyramid.indices.size() * sizeof(std::uint32_t);
+    for (const PyramidLevel& level : pyramid.levels)
+        size += sizeof(PyramidFileLevel) + level.clusters.size() * sizeof(Cluster) +
+                mesh.primitives.size() * sizeof(IndexRange) +
+                level.vertexCount * (2 * sizeof(glm::vec3) + sizeof(glm::u8vec4));
+    return size;
+}
+
+// ---- reading -----------------------------------------------------------------------------------
+
+// Takes one array after the other from the bytes. Nothing is allocated for what isn't there.
+class Reader {
+public:
+    explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+    template <typename T>
+    [[nodiscard]] bool read(std::vector<T>& values, std::size_t count) {
+        if (count > rest_.size() / sizeof(T)) return false;
+        values.resize(count);
+        if (count > 0) std::memcpy(values.data(), rest_.data(), count * sizeof(T));
+        rest_ = rest_.subspan(count * sizeof(T));
+        return true;
+    }
+    [[nodiscard]] bool finished() const { return rest_.empty(); }
+
+private:
+    std::span<const std::byte> rest_;
+};
+
+bool allBelow(std::span<const std::uint32_t> values, std::size_t limit) {
+    std::uint32_t largest = 0;
+    for (const std::uint32_t value : values) largest = std::max(largest, value);
+    return values.empty() || largest < limit;
+}
+
+bool matches(const PyramidFileHeader& header, const Mesh& mesh, const PyramidKey& key) {
+    return header.version == PyramidFileHeader::expectedVersion && header.mesh == key.mesh &&
+           header.leastTriangles == key.options.leastTriangles && header.mostLevels == key.options.mostLevels &&
+           header.primitiveCount == mesh.primitives.size() && header.triangleCount == mesh.triangleCount() &&
+           header.levelCount >= 1 && header.end <= static_cast<std::uint32_t>(lastPyramidEnd);
+}
+
+// The clusters' ranges follow each other over each primitive's.
+bool clustersFit(const PyramidLevel& level) {
+    auto cluster = level.clusters.begin();
+    for (const IndexRange& primitive : level.primitives) {
+        std::uint32_t next = primitive.first;
+        const std::uint32_t end = primitive.first + primitive.count;
+        for (; next < end; ++cluster) {
+            if (cluster == level.clusters.end()) return false;
+            const auto [first, count] = cluster->indices;
+            if (first != next || count == 0 || count % 3 != 0 || count > end - next) return false;
+            next += count;
+        }
+    }
+    return cluster == level.clusters.end();
+}
+
+// The record's numbers and ranges: the levels' ranges follow each other over all indices, which stay below the level's
+// number of vertices.
+bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<PyramidLevel>& levels,
+                std::vector<IndexRange>& ranges) {
+    std::vector<PyramidFileLevel> records;
+    if (!reader.read(records, header.levelCount)) return false;
+    if (!reader.read(ranges, std::size_t{header.levelCount} * header.primitiveCount)) return false;
+    if (records.front().triangleCount != header.triangleCount) return false;
+
+    std::uint64_t next = 0;
+    auto range = ranges.begin();
+    std::uint32_t mostVertices = header.vertexCount;
+    for (const PyramidFileLevel& record : records) {
+        PyramidLevel& level = levels.emplace_back();
+        level.primitives.assign(range, range + header.primitiveCount);
+        range += header.primitiveCount;
+        std::uint64_t count = 0;
+        for (const IndexRange& primitive : level.primitives) {
+            if (primitive.first != next || primitive.count % 3 != 0) return false;
+            next += primitive.count;
+            count += primitive.count;
+        }
+        if (count != 3 * std::uint64_t{record.triangleCount} || record.vertexCount > mostVertices) return false;
+        if (!(record.meanEdge >= 0) || !(record.longestEdge >= 0) || !(record.error >= 0)) return false;
+        mostVertices = record.vertexCount;
+        level.vertexCount = record.vertexCount;
+        level.triangleCount = record.triangleCount;
+        level.meanEdge = record.meanEdge;
+        level.longestEdge = record.longestEdge;
+        level.error = record.error;
+    }
+    if (next != header.indexCount) return false;
+    for (std::size_t l = 0; l < levels.size(); ++l)
+        if (!reader.read(levels[l].clusters, records[l].clusterCount) || !clustersFit(levels[l])) return false;
+    return true;
+}
+
+// Level 0 of a mesh has its first so many triangles a primitive.
+bool keepsEveryTriangle(const PyramidLevel& level, const Mesh& mesh) {
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p)
+        if (level.primitives[p].count != mesh.primitives[p].indices.size() / 3 * 3) return false;
+    return true;
+}
+
+bool indicesInRange(const Pyramid& pyramid) {
+    for (const PyramidLevel& level : pyramid.levels)
+        if (!level.primitives.empty() &&
+            !allBelow(std::span(pyramid.indices)
+                          .subspan(level.primitives.front().first, 3 * std::size_t{level.triangleCount}),
+                      level.vertexCount))
+            return false;
+    return true;
+}
+
+template <typename T>
+std::vector<T> prefix(const std::vector<T>& values, std::size_t count) {
+    return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(std::min(count, values.size()))};
+}
+
+bool readStreams(Reader& reader, Pyramid& pyramid) {
+    PyramidLevel& own = pyramid.levels.front();
+    own.positions = prefix(pyramid.vertices.positions, own.vertexCount);
+    own.normals = prefix(pyramid.vertices.normals, own.vertexCount);
+    own.colors = prefix(pyramid.vertices.colors, own.vertexCount);
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        PyramidLevel& level = pyramid.levels[l];
+        const std::size_t colorCount = pyramid.vertices.colors.empty() ? 0 : level.vertexCount;
+        if (!reader.read(level.positions, level.vertexCount) || !reader.read(level.normals, level.vertexCount) ||
+            !reader.read(level.colors, colorCount))
+            return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::uint64_t meshHash(const Mesh& mesh) {
+    const std::uint64_t parts[2] = {mesh.primitives.size(), mesh.morphTargets.size()};
+    std::uint64_t hash = hashBytes(std::as_bytes(std::span(parts)));
+    hashVertices(hash, mesh.vertices);
+    for (const Primitive& primitive : mesh.primitives) hashStream(hash, primitive.indices);
+    for (const MorphTarget& target : mesh.morphTargets) hashMorphTarget(hash, target);
+    return hash;
+}
+
+PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options) {
+    // The build's hash of this folder's sources: no file outlives a change of what buildPyramid does.
+    constexpr std::uint64_t sources[1] = {DEFOCUS_PYRAMID_SOURCES};
+    return {hashBytes(std::as_bytes(std::span(sources)), meshHash(mesh)), options};
+}
+
+std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
+    std::vector<std::byte> bytes(sizeof(PyramidFileHeader));
+    bytes.reserve(encodedSize(pyramid, mesh));
+
+    // The levels' table, then the arrays.
+    std::vector<PyramidFileLevel> records;
+    std::vector<IndexRange> ranges;
+    std::vector<Cluster> allClusters;
+    for (const auto& [primitives, vertexCount, triangleCount, clusters, positions, normals, colors, meanEdge,
+                      longestEdge, error] : pyramid.levels) {
+        records.push_back(
+            {vertexCount, triangleCount, static_cast<std::uint32_t>(clusters.size()), 0, meanEdge, longestEdge, error});
+        allClusters.insert(allClusters.end(), clusters.begin(), clusters.end());
+        ranges.insert(ranges.end(), primitives.begin(), primitives.end());
+    }
+    append(bytes, records);
+    append(bytes, ranges);
+    append(bytes, allClusters);
+    append(bytes, pyramid.source);
+    append(bytes, pyramid.indices);
+    if (mesh.vertices.normals.empty()) append(bytes, pyramid.vertices.normals);
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        append(bytes, pyramid.levels[l].positions);
+        append(bytes, pyramid.levels[l].normals);
+        append(bytes, pyramid.levels[l].colors);
+    }
+
+    // The header, with the checksum of all after it.
+    PyramidFileHeader header = headerOf(pyramid, mesh, key);
+    std::memcpy(bytes.data(), &header, sizeof header);
+    header.checksum = hashBytes(std::span(bytes).subspan(checkedFrom));
+    std::memcpy(bytes.data(), &header, sizeof header);
+    return bytes;
+}
+
+std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes) {
+    PyramidFileHeader header;
+    if (bytes.size() < sizeof header) return {};
+    std::memcpy(&header, bytes.data(), sizeof header);
+    if (header.magic != PyramidFileHeader::expectedMagic) return {};
+    return header;
+}
+
+std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mesh& mesh, const PyramidKey& key) {
+    // The right file, and whole?
+    const std::optional<PyramidFileHeader> header = pyramidHeader(bytes);
+    if (!header || !matches(*header, mesh, key)) return {};
+    if (hashBytes(bytes.subspan(checkedFrom)) != header->checksum) return {};
+
+    // Levels and indices.
+    Reader reader(bytes.subspan(sizeof *header));
+    Pyramid pyramid;
+    std::vector<IndexRange> ranges;
+    if (!readLevels(reader, *header, pyramid.levels, ranges)) return {};
+    if (!keepsEveryTriangle(pyramid.levels.front(), mesh)) return {};
+    if (!reader.read(pyramid.source, header->vertexCount) || !allBelow(pyramid.source, mesh.vertices.count()))
+        return {};
+    if (!reader.read(pyramid.indices, header->indexCount) || !indicesInRange(pyramid)) return {};
+
+    // Vertices: the mesh's, and those of the levels.
+    pyramid.vertices = gathered(mesh.vertices, pyramid.source);
+    if (mesh.vertices.normals.empty() && !reader.read(pyramid.vertices.normals, header->vertexCount)) return {};
+    if (!readStreams(reader, pyramid) || !reader.finished()) return {};
+
+    for (int axis = 0; axis < 3; ++axis) {
+        pyramid.bounds.minimum[axis] = header->minimum[axis];
+        pyramid.bounds.maximum[axis] = header->maximum[axis];
+    }
+    pyramid.repairedFaces = header->repairedFaces;
+    pyramid.end = static_cast<PyramidEnd>(header->end);
+    measureDeformations(pyramid, mesh);
+    return pyramid;
+}
+
+}  // namespace defocus

@@ -1,0 +1,85 @@
+// Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field Rendering: fractional levels from blur and projected size.
+
+#include "lod/pyramid/level_selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace defocus {
+
+namespace {
+
+constexpr double referenceSamples = 64;
+constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 samples
+constexpr LodThresholds referenceError{0.018, 0.18};  // px of deviation at 64 samples
+constexpr double sampleExponent = 2.0 / 3.0;
+constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
+
+double storedSize(const PyramidLevel& level, LodMetric metric) {
+    return metric == LodMetric::size ? level.meanEdge : level.error;
+}
+
+// Where `target` lies between the sizes of two levels, 0 to 1. `size` interpolates logarithms: halving the triangles
+// multiplies the edges. Errors start at 0 and are interpolated as they are.
+double between(double fine, double coarse, double target, LodMetric metric) {
+    const double fraction = metric == LodMetric::size && fine > 0 ? std::log(target / fine) / std::log(coarse / fine)
+                                                                  : (target - fine) / (coarse - fine);
+    return std::clamp(fraction, 0.0, 1.0);
+}
+
+}  // namespace
+
+const char* lodModeName(LodMode mode) {
+    switch (mode) {
+        case LodMode::fractional:
+            return "fractional";
+        case LodMode::continuous:
+            return "continuous";
+        case LodMode::nearest:
+            return "nearest";
+        case LodMode::off:
+            return "off";
+    }
+    return "";
+}
+
+LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
+    const LodThresholds& reference = metric == LodMetric::size ? referenceSize : referenceError;
+    const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
+    return {reference.blur * std::min(factor, largestFactor), reference.size * std::min(factor, 1.0)};
+}
+
+double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
+                     const LodThresholds& thresholds) {
+    if (!std::isfinite(query.pixelsPerUnit) || query.pixelsPerUnit < 0 || pyramid.levels.empty()) return 0;
+    const double coc = query.coc > 0 ? query.coc : 0;
+    const double target = std::max(thresholds.blur > 0 ? thresholds.blur * coc : 0, thresholds.size);
+    if (!(target > 0)) return 0;
+
+    // The first level that is coarser than the target; λ lies just before it.
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
+        const double coarse = storedSize(pyramid.levels[l], metric) * query.pixelsPerUnit;
+        if (coarse <= target) continue;
+        if (l == 0) return 0;
+        const double fine = storedSize(pyramid.levels[l - 1], metric) * query.pixelsPerUnit;
+        return static_cast<double>(l - 1) + between(fine, coarse, target, metric);
+    }
+    return static_cast<double>(pyramid.levels.size() - 1);
+}
+
+SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode) {
+    if (mode == LodMode::off || !(lambda > 0)) return {};
+    if (mode == LodMode::nearest) return {static_cast<std::uint32_t>(std::lround(lambda)), 0};
+    const double whole = std::floor(lambda);
+    const double coarse = (lambda - whole) * sampleCount;
+    SampleSplit split{static_cast<std::uint32_t>(whole), 0};
+    if (mode == LodMode::continuous) {
+        split.coarseCount = static_cast<std::uint32_t>(coarse);
+        split.boundaryShare = coarse - split.coarseCount;
+    } else {
+        split.coarseCount = static_cast<std::uint32_t>(std::lround(coarse));
+    }
+    return split;
+}
+
+}  // namespace defocus

@@ -1,0 +1,67 @@
+#pragma once
+// How coarse may an object be? A real-valued level λ, continuous in the camera, from its blur and its projected size
+// (Jeong, Kim and Lee 2011), and the split of N lens samples between the two levels around it.
+
+#include <cstdint>
+
+#include "lod/pyramid/pyramid.h"
+
+namespace defocus {
+
+enum class LodMode {
+    fractional,  // samples split between ⌊λ⌋ and ⌊λ⌋ + 1
+    continuous,  // the same, and the sample at the boundary is split over its pixels
+    nearest,     // every sample draws round(λ)
+    off,         // full detail
+};
+
+const char* lodModeName(LodMode mode);  // as the command line has it
+
+enum class LodMetric {
+    size,   // target edge length in px
+    error,  // target deviation in px
+};
+
+struct LodThresholds {
+    double blur = 0;  // kBlur: target px per px of CoC
+    double size = 0;  // kSize: least target in px
+};
+
+// Defaults that follow the number of samples N: (64/N)^(2/3) times the thresholds at N = 64, for `blur` at most twice
+// those (N ≤ 22), for `size` no more than those: few samples don't blur what is in focus. At N = 64 they are as coarse
+// as 42 dB from full detail allow on the built-in school at 1024 × 768. The levels' error grows as threshold^1.3, Sobol
+// points err as N^(−0.65): the levels' error is 0.9 to 1.6 times the sampling error up to N = 32, where trading samples
+// for finer levels gains nothing, 2.4 times at 64 and less and less beyond, and both vanish as N grows (school of fish,
+// 512 × 384: bench/results/llvmpipe-thresholds.txt).
+LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
+
+struct LevelQuery {
+    double pixelsPerUnit =
+        0;           // projected px per object unit at the nearest depth: largestScale · W / (2 tan(θx/2) · z)
+    double coc = 0;  // CoC diameter the object may rely on, px, ≥ 0
+};
+
+// λ in [0, levels − 1], continuous in the query; τ = max(blur·c, size).
+//   size:  λ is where the stored mean edges, interpolated in their logarithm, project to τ.
+//   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]) between the stored errors projected to px.
+// A size of the projection that is no number, negative or infinite gives λ = 0; 0 px (a point) gives the coarsest
+// level.
+double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
+                     const LodThresholds& thresholds);
+
+// Samples [0, coarseCount) draw level `level` + 1, samples [coarseCount, N) level `level`; f = λ − ⌊λ⌋.
+//   fractional: coarseCount = round(f·N). As λ moves, a whole sample at a time changes its level.
+//   continuous: f·N = n + g with n = coarseCount whole and 0 ≤ g < 1. Of sample n, the share g of the pixels draws the
+//   coarser level (a screen door): as λ moves, the pixels of one sample change one after the other, evenly spread.
+//   Each pixel of each sample still draws exactly one level: it is the pixel of the split with n coarse samples or that
+//   with n + 1. So no object has holes, and where the outlines of its levels differ it gains or loses, by the screen
+//   door, at most 1/N of a pixel's coverage.
+struct SampleSplit {
+    std::uint32_t level = 0;
+    std::uint32_t coarseCount = 0;
+    double boundaryShare = 0;  // g
+};
+
+SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode);
+
+}  // namespace defocus

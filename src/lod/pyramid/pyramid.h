@@ -1,0 +1,82 @@
+#pragma once
+// Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
+//
+// All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
+// together), so level l uses the prefix [0, vertexCount[l]): texture coordinates, joints, weights and morph targets are
+// those of the surviving vertices. Positions, normals and colours are each level's own, fitted to level 0
+// (level_fit.h).
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "lod/pyramid/clusters.h"
+#include "lod/simplify/pyramid_end.h"
+#include "scene/mesh.h"
+
+namespace defocus {
+
+struct PyramidLevel {
+    std::vector<IndexRange> primitives;  // one a primitive of the mesh, in its order
+    std::uint32_t vertexCount = 0;       // the prefix of the vertex buffer that the level uses
+    std::uint32_t triangleCount = 0;
+    std::vector<Cluster> clusters;  // their ranges follow each other over those of the primitives
+    // Fitted to level 0 (there: the mesh's own), inside its bounds; vertices at one position stay at one. Normals have
+    // a length of at most 1: the shorter, the more the normals that they stand for differ, and the less light a matt
+    // surface throws back.
+    std::vector<glm::vec3> positions;  // vertexCount
+    std::vector<glm::vec3> normals;    // vertexCount
+    std::vector<glm::u8vec4> colors;   // vertexCount; empty without colours
+
+    // Object units. Mean of all faces' edge lengths (an edge counts once a face), raised where needed so that it grows
+    // by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew them.
+    double meanEdge = 0;
+    double longestEdge = 0;  // object units
+
+    // Object units. The distance between the level's surface and level 0's (99th percentile over the area, whichever
+    // way it is larger), estimated on the safe side from 256 to 1,024 points each, and raised where needed so
+    // that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0. See surface_distance.h. Of
+    // whole parts that the level lacks no point is farther from it, and none is larger (up to the box's diagonal).
+    double error = 0;
+};
+
+struct Pyramid {
+    // Of level 0, sorted by survival, equal ones joined; `normals` are level 0's. A few are there twice, for coarser
+    // levels that need two normals at one place.
+    Vertices vertices;
+    std::vector<std::uint32_t> source;   // for each vertex, which one of Mesh::vertices it is (morph targets follow it)
+    std::vector<std::uint32_t> indices;  // of all levels
+    std::vector<PyramidLevel> levels;    // at least one; an empty mesh has one empty level
+    Bounds bounds;                       // object units; of level 0's triangles
+    std::vector<Bounds> jointBounds;     // object units; of what each joint moves, at any level; empty without joints
+    std::vector<Bounds> morphBounds;     // object units; of each morph target's displacements and 0
+    std::uint32_t repairedFaces = 0;     // faces that half-edges can't hold as they are; see manifold.h
+    PyramidEnd end = PyramidEnd::mostLevels;
+};
+
+struct PyramidOptions {
+    std::uint32_t leastTriangles = 64;  // halving ends here (the last collapse may take one triangle more)
+    int mostLevels = 24;                // level 0 included
+};
+
+// Deterministic: same mesh, same pyramid, bit for bit. Level 0 keeps every triangle of the mesh. Levels end where a
+// further one would save less than a quarter of the triangles. Throws Error for an index beyond the vertices.
+// `helpers`: threads that fit and measure levels while the caller's goes on collapsing.
+Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0);
+
+// Helpers for one of `meshes` that are built at once: its share of the cores, by triangles.
+std::size_t pyramidHelpers(const Mesh& mesh, std::span<const Mesh> meshes);
+
+// One pyramid a mesh, built on all cores.
+std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},
+                                   const Progress& progress = {});
+
+// Fills jointBounds and morphBounds from the rest of the pyramid and the mesh that it was made from.
+void measureDeformations(Pyramid& pyramid, const Mesh& mesh);
+
+// Only level 0, for renders that use no other; vertex and index order are optimised all the same.
+Pyramid fullDetail(const Mesh& mesh);
+
+}  // namespace defocus

@@ -1,0 +1,105 @@
+#pragma once
+// Hoppe 1999, New Quadric Metric for Simplifying Meshes with Appearance Attributes: how far attributes at a place are
+// from what faces interpolate linearly there, squared and weighed by their areas.
+//
+// As with Quadric, places and attributes are steps from those of the vertex that the quadric belongs to.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "lod/simplify/quadric.h"
+
+namespace defocus {
+
+constexpr std::size_t attributeCount = 8;  // normal, colour, uv
+using AttributeRow = std::array<float, attributeCount>;
+
+// How each attribute changes over a face, per unit of length along each axis.
+struct AttributeGradients {
+    AttributeRow x, y, z;
+
+    [[nodiscard]] glm::vec3 of(std::size_t attribute) const { return {x[attribute], y[attribute], z[attribute]}; }
+};
+
+// Over the face with the corners `p` (not on one line) and their attributes.
+inline AttributeGradients attributeGradients(const glm::dvec3* const* p, const AttributeRow* const* s) {
+    const glm::dvec3 e1 = *p[1] - *p[0];
+    const glm::dvec3 e2 = *p[2] - *p[0];
+    const glm::dvec3 normal = glm::cross(e1, e2);
+    const double square = glm::dot(normal, normal);
+    const glm::vec3 along1(glm::cross(e2, normal) / square);
+    const glm::vec3 along2(glm::cross(normal, e1) / square);
+    AttributeGradients gradients;
+    for (std::size_t j = 0; j < attributeCount; ++j) {
+        const float d1 = (*s[1])[j] - (*s[0])[j];
+        const float d2 = (*s[2])[j] - (*s[0])[j];
+        gradients.x[j] = d1 * along1.x + d2 * along2.x;
+        gradients.y[j] = d1 * along1.y + d2 * along2.y;
+        gradients.z[j] = d1 * along1.z + d2 * along2.z;
+    }
+    return gradients;
+}
+
+struct AttributeQuadric {
+    // Of Σ w·(g·d + e − s)² over faces and attributes, where e is what a face is off by at the vertex: the part without
+    // s (its weight is Σ w); then Σ w·g and Σ w·e of each attribute.
+    Quadric squares;
+    AttributeGradients gradients{};
+    AttributeRow offset{};
+
+    // A face around the vertex, which it meets there.
+    void addFace(const AttributeGradients& face, float faceWeight) {
+        squares.weight += faceWeight;
+        for (std::size_t j = 0; j < attributeCount; ++j) {
+            squares.addSquare(face.of(j), faceWeight);
+            gradients.x[j] += faceWeight * face.x[j];
+            gradients.y[j] += faceWeight * face.y[j];
+            gradients.z[j] += faceWeight * face.z[j];
+        }
+    }
+
+    // Another quadric of this vertex, of faces that have not been collapsed.
+    void addFaces(const AttributeQuadric& other) {
+        squares.add(other.squares, glm::vec3(0));
+        for (std::size_t j = 0; j < attributeCount; ++j) {
+            gradients.x[j] += other.gradients.x[j];
+            gradients.y[j] += other.gradients.y[j];
+            gradients.z[j] += other.gradients.z[j];
+        }
+    }
+
+    // The quadric of another vertex, from which `step` and `change` lead to this one's place and attributes.
+    void add(const AttributeQuadric& other, const glm::vec3& step, const AttributeRow& change) {
+        const float cost = other.at(step, change);
+        const AttributeGradients& g = other.gradients;
+        glm::vec3 turned(0);
+        for (std::size_t j = 0; j < attributeCount; ++j) {
+            turned += change[j] * g.of(j);
+            offset[j] += other.offset[j] + g.x[j] * step.x + g.y[j] * step.y + g.z[j] * step.z -
+                         other.squares.weight * change[j];
+            gradients.x[j] += g.x[j];
+            gradients.y[j] += g.y[j];
+            gradients.z[j] += g.z[j];
+        }
+        const float c = squares.c;
+        squares.add(other.squares, step);
+        squares.b -= turned;
+        squares.c = c + cost;
+    }
+
+    [[nodiscard]] float at(const glm::vec3& step, const AttributeRow& change) const {
+        AttributeRow terms;
+        for (std::size_t j = 0; j < attributeCount; ++j) {
+            const float mean = gradients.x[j] * step.x + gradients.y[j] * step.y + gradients.z[j] * step.z + offset[j];
+            terms[j] = change[j] * (squares.weight * change[j] - 2 * mean);
+        }
+        for (std::size_t width = attributeCount / 2; width > 0; width /= 2)
+            for (std::size_t j = 0; j < width; ++j) terms[j] += terms[j + width];
+        return std::max(0.0f, squares.at(step) + terms[0]);
+    }
+};
+
+}  // namespace defocus

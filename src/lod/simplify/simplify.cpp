@@ -1,0 +1,402 @@
+// Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics. Each vertex waits for its cheapest
+// collapse by cost alone, and whether it is allowed is only looked at when it comes up: while faces are many, in sweeps
+// over memory that allow for more and more cost; then by a priority queue. What is gone is cleared away at each level.
+
+#include "lod/simplify/simplify.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "lod/simplify/state.h"
+
+namespace defocus {
+
+namespace {
+
+// A poor collapse is made when good ones cost this much more.
+constexpr float poorPenalty = 10;
+// Up to this many faces every collapse is known at its cost at any time; coarse levels are what one sees best.
+constexpr std::size_t mostFacesToFollow = 8192;
+// Down to this many faces collapses are made in sweeps.
+constexpr std::size_t leastFacesToSweep = 16'384;
+constexpr std::size_t sweepsPerLevel = 8;  // each allows for one in so many of the collapses that are still wanted …
+constexpr std::size_t leastSweepShare = 128;  // … or of the faces, if that is more
+constexpr std::size_t costSample = 8192;      // vertices whose costs tell those of all
+// A further level must save a quarter of the triangles …
+constexpr double largestShare = 0.75;
+// … but leave this share of those that can still go: where many components are as small as they get, halving all would
+// be at the cost of the few large ones.
+constexpr double leastShareOfMovable = 0.25;
+// What is kept for components that can still go while others have most of the faces: so much of the share that their
+// area has in the mesh's, less where the level would otherwise lack whole components.
+constexpr double keptShare = 0.5;
+constexpr double leastKeptShare = 0.25;
+
+void setCandidate(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
+    const bool before = s.candidates[v].harmless();
+    s.candidates[v] = candidate;
+    if (s.components.empty() || candidate.harmless() == before) return;
+    Component& component = s.components[s.componentOf[v]];
+    if (!before)
+        ++component.harmless;
+    else if (--component.harmless == 0)
+        spend(s, v);
+}
+
+// What the vertex waits for, in the queue once there is one.
+void enqueue(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
+    setCandidate(s, v, candidate);
+    if (!s.queued) return;
+    if (candidate.possible())
+        s.queue.put(v, candidate.cost, candidate.fit == Fit::bad);
+    else
+        s.queue.take(v);
+}
+
+// Puts the vertex's cheapest collapse into the queue, unseen whether it is a good one.
+void enqueueCheapest(Simplifier& s, std::uint32_t v) {
+    enqueue(s, v, cheapestCollapse(s, v));
+}
+
+// Puts the vertex's best collapse into the queue, all of them judged; nothing if none is possible.
+void enqueueBest(Simplifier& s, std::uint32_t v) {
+    Candidate best;
+    best.fit = Fit::impossible;
+    forEachEdgeAround(s, v, [&](const Edge& edge, std::uint32_t to) {
+        const Fit fit = judgeCollapse(s, v, to);
+        if (fit == Fit::impossible || (fit == Fit::bad && best.fit < Fit::bad)) return;
+        const float cost =
+            collapseCost(s, edge, v, to, std::numeric_limits<float>::infinity()) * (fit == Fit::poor ? poorPenalty : 1);
+        if (!(cost < best.cost) && (fit == Fit::bad || best.fit < Fit::bad)) return;
+        best = {to, cost, fit};
+    });
+    enqueue(s, v, best);
+}
+
+void fillQueue(Simplifier& s) {
+    s.queued = true;
+    s.queue.reset(s.vertexCount());
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
+        if (s.isAlive(v)) enqueueCheapest(s, v);
+}
+
+// From here on vertices wait in the queue for what they have waited for before.
+void startQueue(Simplifier& s) {
+    s.queued = true;
+    s.queue.reset(s.vertexCount());
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
+        if (s.isAlive(v)) enqueue(s, v, Candidate(s.candidates[v]));
+}
+
+// The survivor, and its neighbours that would have collapsed onto it or onto what is gone, or not at all, look for
+// their best anew. While faces are many, they do so when their turn comes: what they wait for has only become dearer,
+// but for the few to which the survivor is nearer than what is gone.
+void requeueAround(Simplifier& s, std::uint32_t survivor, std::uint32_t gone) {
+    const bool atOnce = s.liveFaces <= mostFacesToFollow;
+    const auto outdate = [&](std::uint32_t v) {
+        Candidate& candidate = s.candidates[v];
+        if (!atOnce && candidate.possible() && candidate.fit == Fit::good)
+            candidate.outdated = true;
+        else
+            enqueueCheapest(s, v);
+    };
+    outdate(survivor);
+    forEachEdgeAround(s, survivor, [&](const Edge& edge, std::uint32_t v) {
+        const Candidate& candidate = s.candidates[v];
+        const bool known =
+            candidate.possible() && candidate.fit == Fit::good && candidate.to != gone && candidate.to != survivor;
+        if (!known) return outdate(v);
+        if (!atOnce || candidate.outdated) return;
+        if (const float cost = collapseCost(s, {edge.back, edge.along}, v, survivor, candidate.cost);
+            cost < candidate.cost)
+            enqueue(s, v, {survivor, cost});
+    });
+}
+
+void loseFace(Simplifier& s, std::uint32_t v) {
+    --s.liveFaces;
+    if (s.components.empty()) return;
+    Component& component = s.components[s.componentOf[v]];
+    --component.faces;
+    if (component.spent) --s.spentFaces;
+}
+
+// Of what was judged last.
+void collapse(Simplifier& s, std::uint32_t from, std::uint32_t to) {
+    const Edge edge = s.edge;
+    const glm::vec3 step(s.step(from, to));
+    for (const std::uint32_t side : {edge.along, edge.back})
+        if (side != Corner::none) loseFace(s, from);
+    for (const Retarget& retarget : s.retargets) {
+        Corner& corner = s.faces.corners[retarget.corner];
+        AttributeQuadric& old = s.attributeQuadrics[corner.wedge];
+        if (corner.wedge != retarget.wedge && old.squares.weight > 0) {
+            addAttributeQuadric(s, corner.wedge, retarget.wedge, step);
+            old = {};
+        }
+        corner.vertex = to;
+        corner.wedge = retarget.wedge;
+    }
+    s.vertices[to].quadric.add(s.vertices[from].quadric, step);
+    setCandidate(s, from, Candidate());
+    removeEdge(s, edge, from, to);
+    requeueAround(s, to, from);
+}
+
+// What looking at the vertex's collapses begins with.
+void prefetchVertex(const Simplifier& s, std::uint32_t v) {
+    prefetch(&s.candidates[v]);
+    prefetch(&s.vertices[v]);
+}
+
+// Collapses in order of fit and cost until `floor` faces are left or nothing more is possible. `target` and `share`:
+// see isKept.
+void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double share) {
+    bool collapsed = true;
+    while (s.liveFaces > floor) {
+        if (s.queue.empty()) {
+            // A collapse may become possible by one two rings away, which nobody is told of: look once more everywhere.
+            if (!collapsed) return;
+            collapsed = false;
+            fillQueue(s);
+            continue;
+        }
+        const std::uint32_t v = s.queue.takeBest();
+        if (!s.queue.empty()) prefetchVertex(s, s.queue.best());
+        const Candidate candidate = s.candidates[v];
+        if (candidate.outdated) {
+            enqueueCheapest(s, v);
+            continue;
+        }
+        if (judgeCollapse(s, v, candidate.to) > candidate.fit) {
+            enqueueBest(s, v);
+            continue;
+        }
+        if (isKept(s, v, candidate.fit, target, share)) continue;
+        collapse(s, v, candidate.to);
+        collapsed = true;
+    }
+}
+
+// The cost that `rank` of the collapses that are not bad are cheaper than, about.
+float costAtRank(const Simplifier& s, std::size_t rank) {
+    std::vector<float> costs;
+    const std::size_t stride = 1 + s.vertexCount() / costSample;
+    for (std::size_t v = 0; v < s.vertexCount(); v += stride)
+        if (const Candidate& c = s.candidates[v]; c.possible() && c.fit < Fit::bad) costs.push_back(c.cost);
+    if (costs.size() <= rank / stride) return std::numeric_limits<float>::infinity();
+    const auto place = costs.begin() + static_cast<std::ptrdiff_t>(rank / stride);
+    std::nth_element(costs.begin(), place, costs.end());
+    return *place;
+}
+
+// Makes the collapses that cost at most `most` and aren't bad, in the order of vertices, until `target` faces are left.
+// Says whether there were any.
+bool sweep(Simplifier& s, std::size_t target, float most) {
+    bool collapsed = false;
+    const Candidate* const candidates = s.candidates.data();
+    const auto count = static_cast<std::uint32_t>(s.vertexCount());
+    for (std::uint32_t v = 0; v < count && s.liveFaces > target; ++v) {
+        while (v < count && !(candidates[v].cost <= most)) ++v;  // most are too dear
+        if (v == count) break;
+        const auto ready = [&] {
+            const Candidate& c = candidates[v];
+            return c.cost <= most && c.fit < Fit::bad && c.possible();
+        };
+        if (!ready()) continue;
+        if (s.candidates[v].outdated) enqueueCheapest(s, v);
+        while (ready()) {
+            const Candidate candidate = s.candidates[v];
+            if (judgeCollapse(s, v, candidate.to) > candidate.fit) {
+                enqueueBest(s, v);
+                continue;
+            }
+            collapse(s, v, candidate.to);
+            collapsed = true;
+            break;
+        }
+    }
+    return collapsed;
+}
+
+// The same as collapseTo, but for the order: while faces are many, vertices take turns as they lie in memory, sweep
+// after sweep with a higher cost allowed. False if that leads no further.
+bool sweepTo(Simplifier& s, std::size_t target) {
+    while (s.liveFaces > target) {
+        const std::size_t wanted = (s.liveFaces - target) / 2;
+        const float most = costAtRank(s, std::max(wanted / sweepsPerLevel, s.liveFaces / leastSweepShare));
+        if (!sweep(s, target, most) && !(most < std::numeric_limits<float>::infinity())) return false;
+    }
+    return true;
+}
+
+// What is known of components once many are as small as they get.
+void noteComponents(const Simplifier& s, Snapshot& level) {
+    if (!s.grows) return;
+    level.removed = removedBalls(s);
+    level.growths = growths(s);
+    level.growthsOf = s.componentOf;
+}
+
+// Of what compact() has left.
+Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
+    Snapshot level;
+    level.positions.reserve(s.vertexCount());
+    for (const SurfaceVertex& vertex : s.vertices) level.positions.push_back(vertex.position);
+    level.nearest = s.current;
+    Creases found = creases(s);
+    level.wedges = std::move(found.wedges);
+    level.behind = std::move(found.behind);
+    level.corners.reserve(s.faces.corners.size());
+    for (const Corner& corner : s.faces.corners) level.corners.push_back(corner.vertex);
+    level.primitiveIndexCounts.assign(primitiveCount, 0);
+    for (std::uint32_t face = 0; face < s.faces.count(); ++face) {
+        level.primitiveIndexCounts[s.faces.primitives[face]] += 3;
+        if (s.faces.turned[face] == 0) continue;
+        std::swap(level.wedges[3 * face + 1], level.wedges[3 * face + 2]);
+        std::swap(level.corners[3 * face + 1], level.corners[3 * face + 2]);
+    }
+    level.twins = s.twins;
+    noteComponents(s, level);
+    return level;
+}
+
+SimplifiedLevel described(const Origin& origin, const Snapshot& snapshot) {
+    SimplifiedLevel level;
+    level.anchors = anchors(origin, snapshot);
+    level.primitiveIndexCounts = snapshot.primitiveIndexCounts;
+    const auto vertexCount = static_cast<std::uint32_t>(origin.firstVertex.size());
+    std::vector<std::uint32_t> local(vertexCount + snapshot.twins.size(), Corner::none);
+    level.mesh.indices.reserve(snapshot.wedges.size());
+    level.removed = snapshot.removed;
+    level.growths = snapshot.growths;
+    for (std::size_t i = 0; i < snapshot.wedges.size(); ++i) {
+        const std::uint32_t wedge = snapshot.wedges[i];
+        if (local[wedge] == Corner::none) {
+            local[wedge] = static_cast<std::uint32_t>(level.numbers.size());
+            const bool twin = wedge >= vertexCount;
+            level.numbers.push_back(wedge);
+            level.mesh.sources.push_back(twin ? snapshot.twins[wedge - vertexCount] : wedge);
+            const bool behind = std::binary_search(snapshot.behind.begin(), snapshot.behind.end(), wedge);
+            level.mesh.apart.push_back(twin || behind ? 1 : 0);
+            if (!snapshot.growthsOf.empty()) level.growthsOf.push_back(snapshot.growthsOf[snapshot.corners[i]]);
+        }
+        level.mesh.indices.push_back(local[wedge]);
+    }
+    return level;
+}
+
+// Whether `least` is too near to so many faces for a level of its own.
+bool isJustAbove(std::size_t faces, std::size_t least) {
+    return faces > least && largestShare * static_cast<double>(faces) < static_cast<double>(least);
+}
+
+// How many faces the next level should have: half, or the least at once where half would come so near to it that no
+// level fits between.
+std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
+    const std::size_t half = s.liveFaces / 2;
+    return half <= leastTriangles || isJustAbove(half, leastTriangles) ? leastTriangles : half;
+}
+
+// How many faces collapses should leave at least, of a level that should have `target`; `share`: see isKept.
+std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
+    std::size_t stuck = 0;  // faces of whose vertices none can go: of tetrahedra, single triangles and the like
+    std::vector<std::uint8_t> movable(s.components.size(), 0);  // has others
+    forEachLiveFace(s, [&](std::uint32_t face) {
+        const Corner* const corner = &s.faces.corners[3 * std::size_t{face}];
+        const auto canGo = [&](std::size_t i) { return s.candidates[corner[i].vertex].possible(); };
+        if (!canGo(0) && !canGo(1) && !canGo(2))
+            ++stuck;
+        else if (!movable.empty())
+            movable[s.componentOf[corner[0].vertex]] = 1;
+    });
+    const auto rest = static_cast<double>(s.liveFaces - stuck);
+    double kept = leastShareOfMovable * rest;
+    if (movable.size() > 1) {
+        double area = 0;
+        for (std::size_t c = 0; c < movable.size(); ++c) area += movable[c] != 0 ? s.components[c].area : 0;
+        kept = std::max(kept, std::min(rest, share * evenShare(s, area, target)));
+    }
+    return std::max(target, stuck + static_cast<std::size_t>(kept));
+}
+
+// Collapses until `target` faces are left, or somewhat more, up to `enough`, where the rest would be at the cost of the
+// components that can still go.
+void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
+    const std::size_t floor = collapseFloor(s, target, keptShare);
+    s.queued = false;
+    if (floor >= leastFacesToSweep) sweepTo(s, floor);
+    if (s.liveFaces <= floor) return;
+    startQueue(s);
+    collapseTo(s, floor, target, keptShare);
+    if (s.liveFaces <= enough) return;
+    startQueue(s);
+    collapseTo(s, enough, target, leastKeptShare);
+}
+
+// Why no level is tried from so many faces.
+PyramidEnd endAt(std::size_t faces, const LevelTriangles& mesh, const SimplifyOptions& options) {
+    if (faces == 0 && !mesh.indices.empty()) return PyramidEnd::noSurface;
+    return faces <= options.leastTriangles ? PyramidEnd::leastTriangles : PyramidEnd::smallSaving;
+}
+
+bool canCollapse(const Simplifier& s) {
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
+        if (s.isAlive(v) && s.candidates[v].possible()) return true;
+    return false;
+}
+
+}  // namespace
+
+Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
+                        const LevelTriangles& triangles, const SimplifyOptions& options, Tasks& tasks,
+                        const std::function<void(std::uint32_t, SimplifiedLevel)>& take) {
+    Simplification result;
+    Simplifier s = prepareSimplifier(vertices, positions, smoothing, triangles);
+    result.repairedFaces = s.repairedFaces;
+
+    // Collapse, and take a picture whenever half of the triangles are gone.
+    s.candidates.resize(s.vertexCount());
+    for (std::uint32_t v = 0; v < s.vertexCount(); ++v) enqueueCheapest(s, v);
+    while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
+        const std::size_t target = nextTarget(s, options.leastTriangles);
+        const auto most = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
+        if (target > most || s.liveFaces == 0) {
+            result.end = endAt(s.liveFaces, triangles, options);
+            break;
+        }
+
+        // Where parts that can be no smaller leave too little to the others, whole ones go; then collapses.
+        if (s.liveFaces <= mostFacesToFollow && !isConnected(s)) findComponents(s, triangles);
+        if (collapseFloor(s, target, leastKeptShare) > most) {
+            findComponents(s, triangles);
+            s.grows = true;
+            removeComponents(s, s.liveFaces - (collapseFloor(s, target, keptShare) - target));
+        }
+        if (collapseFloor(s, target, leastKeptShare) <= most) collapseToLevel(s, target, most);
+
+        // Where those came no further, whole parts go; where that isn't enough either, this is the end.
+        const bool tooMany = s.liveFaces > most || isJustAbove(s.liveFaces, options.leastTriangles);
+        if (tooMany || manyAreSmallest(s)) {
+            findComponents(s, triangles);
+            s.grows = true;
+        }
+        if (tooMany) removeComponents(s, target);
+        if (s.liveFaces > most) {
+            result.end = s.components.size() > 1 && canCollapse(s) ? PyramidEnd::largestParts : PyramidEnd::topology;
+            break;
+        }
+        compact(s);
+        const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
+        tasks.add([origin = s.origin, picture, take, l = result.levelCount++] {
+            SimplifiedLevel level = described(*origin, *picture);
+            *picture = {};  // before what takes the most memory
+            take(l, std::move(level));
+        });
+    }
+    result.twins = s.twins;
+    return result;
+}
+
+}  // namespace defocus

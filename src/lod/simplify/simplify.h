@@ -1,0 +1,78 @@
+#pragma once
+// Half-edge collapse with quadrics: from a mesh, a sequence of ever coarser ones whose vertices are among the mesh's.
+//
+// The surface is joined by position over all primitives, so that seams and material borders stay shut; see manifold.h
+// for what becomes of surfaces that aren't manifold and corners.h for the attributes. A collapse is
+//   good:  nothing speaks against it;
+//   poor:  it leaves a seam or an open border, or makes a sliver: it costs ten times as much;
+//   bad:   it turns a face's normal by more than 75° or draws a vertex of another primitive: it is made only when no
+//          other is left anywhere.
+// The cost of a collapse is the quadric error of places (Garland and Heckbert 1997), with constraints along borders,
+// seams and the rims of thin sheets, plus that of attributes (Hoppe 1999). The topology never changes (link condition):
+// a closed surface is closed at every level, and a component ends as a tetrahedron or its like; one of many handles
+// ends far above that. Where most faces are of components that good and poor collapses make no smaller, the others keep
+// a part of their share by area, and no component makes bad ones below its share. Where collapses come no further,
+// whole components go, the smallest first and never the largest; one near each grows in its place.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/parallel.h"
+#include "lod/simplify/level_fit.h"
+#include "lod/simplify/level_order.h"
+#include "lod/simplify/pyramid_end.h"
+#include "lod/simplify/weld.h"
+#include "scene/mesh.h"
+
+namespace defocus {
+
+constexpr std::size_t fewestToGiveBack = 16'384;  // triangles of a mesh whose freed memory is worth giving back
+
+struct SimplifyOptions {
+    std::uint32_t leastTriangles = 64;  // halving ends here
+    int mostLevels = 23;                // level 0 not among them
+};
+
+struct Ball {
+    glm::dvec3 centre{0};  // object units
+    double radius = 0;
+};
+
+// A component of a level is scaled about `centre`, once it is fitted, so that it has `area`: what the mesh had of it
+// and of those that it stands in for. It neither shrinks nor grows by more than `mostFactor`.
+struct Growth {
+    glm::dvec3 centre{0};  // object units
+    double area = 0;       // object units squared
+    double mostFactor = 1;
+};
+
+struct SimplifiedLevel {
+    LevelMesh mesh;  // primitive after primitive
+    std::vector<std::uint32_t> primitiveIndexCounts;
+    // For each vertex of `mesh` its number: that of the mesh's vertex, or vertexCount + i for the twin i.
+    std::vector<std::uint32_t> numbers;
+    std::vector<Anchor> anchors;  // one a vertex of the mesh
+    std::vector<Ball> removed;    // around each component that the level lacks
+    std::vector<Growth> growths;
+    std::vector<std::uint32_t> growthsOf;  // of each vertex of `mesh`, into `growths`; empty without any
+};
+
+struct Simplification {
+    // A twin is a second vertex beside twins[i] of the mesh, for the other side of a thin sheet whose rim has
+    // collapsed.
+    std::vector<std::uint32_t> twins;
+    std::uint32_t levelCount = 0;  // coarser and coarser, the mesh itself not among them; may be 0
+    std::uint32_t repairedFaces = 0;
+    PyramidEnd end = PyramidEnd::mostLevels;
+};
+
+// Each level halves the triangles; the levels end where less than a quarter can be saved. Each is given to
+// take(l, level) once, l = 0 … levelCount − 1, by whichever thread of `tasks` has made its anchors; all are when
+// tasks.wait() has returned, which the caller does. `smoothing` (see FitSource) and `vertices` are read until then.
+Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
+                        const LevelTriangles& triangles, const SimplifyOptions& options, Tasks& tasks,
+                        const std::function<void(std::uint32_t, SimplifiedLevel)>& take);
+
+}  // namespace defocus

@@ -1,0 +1,165 @@
+// Haeberli and Akeley 1990, The Accumulation Buffer; Jeong, Kim and Lee 2011, Multi-Resolution Depth-of-Field
+// Rendering.
+
+#include "render/accumulation/accumulation.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.h"
+#include "gl/timer.h"
+#include "render/accumulation/layer_sum.h"
+#include "render/frame_clock.h"
+#include "render/surface_pass.h"
+
+namespace defocus {
+
+namespace {
+
+// As many layers as the memory allows, at most a block.
+std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
+                         LayerFormat format) {
+    const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
+                                     static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format);
+    const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes;
+    const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
+}
+
+class AccumulationRenderer final : public Renderer {
+public:
+    AccumulationRenderer(const World& world, const RendererOptions& options)
+        : options_(options), wave_(options.wave), scene_(world) {}
+
+    void setWave(std::uint32_t samples) override { wave_ = samples > 0 ? samples : options_.wave; }
+
+    void start(const FramePlan& plan) override {
+        clock_.beginSetup();
+        plan_ = plan;
+        prepareTarget();
+        samplesBefore_ = 0;
+        stats_.trianglesDrawn = 0;
+        for (GpuTimer* timer : {&opaqueTimer_, &skyTimer_, &blendedTimer_, &sumTimer_}) timer->reset();
+        prepareDraws();
+    }
+
+    void continueWith(const FramePlan& plan) override {
+        const bool wholeBlocks = sum_ && samples() == sampleTotal() && samples() % blockSamples == 0;
+        if (!wholeBlocks || plan.view.width != plan_.view.width || plan.view.height != plan_.view.height)
+            fail("more samples were asked for before the block that was begun is whole");
+        clock_.beginSetup();
+        samplesBefore_ = samples();
+        plan_ = plan;
+        prepareDraws();
+    }
+
+    bool advance() override {
+        const std::uint32_t first = sum_->samples() - samplesBefore_;  // of the plan's
+        const auto total = static_cast<std::uint32_t>(plan_.samples.size());
+        if (first >= total) return false;
+        const std::uint32_t count = std::min({sum_->info().layers, total - first, blockSamples - first % blockSamples});
+        clock_.beginWave();
+        drawWave(first, count);
+        clock_.endWave();
+        if (first + count == total) clock_.endFrame();
+        return first + count < total;
+    }
+
+    [[nodiscard]] std::uint32_t samples() const override { return sum_ ? sum_->samples() : 0; }
+    [[nodiscard]] std::uint32_t sampleTotal() const override {
+        return samplesBefore_ + static_cast<std::uint32_t>(plan_.samples.size());
+    }
+    [[nodiscard]] Image image() override { return sum_->mean(); }
+    [[nodiscard]] const GlTexture* imageTexture() override { return &sum_->meanTexture(); }
+
+    [[nodiscard]] std::optional<BlockSum> blockSum() override { return sum_->block(); }
+
+    [[nodiscard]] RenderStats stats() const override {
+        RenderStats stats = stats_;
+        stats.samples = samples();
+        clock_.fill(stats);
+        stats.wave = sum_->info().layers;
+        stats.layerFormat = layerFormatName(sum_->info().format);
+        stats.passes = {{"opaque", opaqueTimer_.milliseconds()}};
+        if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
+        if (surfaces_->hasBlended()) stats.passes.push_back({"blended", blendedTimer_.milliseconds()});
+        stats.passes.push_back({"sum", sumTimer_.milliseconds()});
+        return stats;
+    }
+
+private:
+    void prepareDraws() {
+        scene_.prepare(plan_);
+        frame_.upload(scene_.world(), plan_, sum_->info().layers);
+        surfaces_->prepare(plan_, frame_);
+        stats_.peakBytes = std::max<std::uint64_t>(
+            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + sum_->bytes());
+        clock_.beginFrame();
+    }
+
+    // The sums and the pass that fills them, made anew only when size or format change.
+    void prepareTarget() {
+        const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
+        const LayerSumInfo info{plan_.view.width, plan_.view.height, chosenWave(plan_, options_, wave_, format), format,
+                                options_.shaderFolder};
+        const bool same = sum_ && sum_->info().width == info.width && sum_->info().height == info.height &&
+                          sum_->info().layers == info.layers && sum_->info().format == info.format;
+        if (!same) {
+            sum_.reset();  // before the new one is made: both may not fit
+            sum_.emplace(info);
+            surfaces_.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
+                                                      .defines = layerFormatDefines(format),
+                                                      .vertexShaderLayers =
+                                                          vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
+                                                      .shaderFolder = options_.shaderFolder});
+        }
+        sum_->reset();
+    }
+
+    // Simpler skies are composed when layers are added.
+    [[nodiscard]] bool drawsSky() const {
+        return scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha;
+    }
+
+    static void timed(GpuTimer& timer, const auto& pass) {
+        timer.begin();
+        pass();
+        timer.end();
+    }
+
+    void drawWave(std::uint32_t first, std::uint32_t count) {
+        timed(opaqueTimer_, [&] {
+            sum_->beginWave();
+            surfaces_->drawOpaque(first, count);
+        });
+        if (drawsSky()) timed(skyTimer_, [&] { surfaces_->drawSky(first, count); });
+        if (surfaces_->hasBlended()) timed(blendedTimer_, [&] { surfaces_->drawBlended(first, count); });
+        timed(sumTimer_, [&] { sum_->endWave(frame_, first, count); });
+        for (const ObjectPlan& object : plan_.objects)
+            for (const LevelDraw& draw : {object.coarse, object.fine}) {
+                const std::uint32_t begin = std::max(first, draw.firstSample);
+                const std::uint32_t end = std::min(first + count, draw.firstSample + draw.sampleCount);
+                if (begin < end) stats_.trianglesDrawn += std::uint64_t{end - begin} * draw.triangleCount;
+            }
+    }
+
+    RendererOptions options_;
+    std::uint32_t wave_;  // K asked for; 0: as many as waveBytes allow
+    GpuScene scene_;
+    FramePlan plan_;
+    std::uint32_t samplesBefore_ = 0;  // in the sum when the plan was begun
+    FrameUniforms frame_;
+    std::optional<LayerSum> sum_;
+    std::optional<SurfacePass> surfaces_;
+    mutable FrameClock clock_;
+    mutable GpuTimer opaqueTimer_, skyTimer_, blendedTimer_, sumTimer_;
+    RenderStats stats_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options) {
+    return std::make_unique<AccumulationRenderer>(world, options);
+}
+
+}  // namespace defocus

@@ -1,0 +1,143 @@
+// Neumaier 1974, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen.
+
+#include "render/accumulation/layer_sum.h"
+
+#include <cassert>
+
+#include "core/error.h"
+#include "gl/read_back.h"
+
+namespace defocus {
+
+namespace {
+
+GlTexture layerTexture(const LayerSumInfo& info, TextureFormat format) {
+    return GlTexture(
+        {.format = format, .width = info.width, .height = info.height, .layers = static_cast<int>(info.layers)});
+}
+
+}  // namespace
+
+LayerSum::Sum::Sum(int width, int height) {
+    for (int i = 0; i < 2; ++i) {
+        sum[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
+        compensation[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
+        target[i] = Target({&sum[i], &compensation[i]});
+    }
+}
+
+LayerSum::LayerSum(const LayerSumInfo& info)
+    : info_(info),
+      layers_(layerTexture(info, layerTextureFormat(info.format))),
+      depth_(layerTexture(info, TextureFormat::depth32f)),
+      layerTarget_({&layers_}, &depth_),
+      block_(info.width, info.height),
+      frame_(info.width, info.height) {
+    const auto pass = [&](const char* fragment) {
+        return Program({{fullscreenShader, fragment}, layerFormatDefines(info.format), info.shaderFolder});
+    };
+    addBlock_ = pass("accumulation/add_block.frag");
+    resolve_ = pass("accumulation/resolve.frag");
+}
+
+void LayerSum::reset() {
+    samples_ = 0;
+}
+
+void LayerSum::beginWave() {
+    layerTarget_.bind();
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    constexpr float farthest = 0;  // reversed depth
+    constexpr float transparent[4] = {};
+    constexpr GLuint nothingDrawn[4] = {};
+    glClearNamedFramebufferfv(layerTarget_.name(), GL_DEPTH, 0, &farthest);
+    if (info_.format == LayerFormat::rgb9e5)
+        glClearNamedFramebufferuiv(layerTarget_.name(), GL_COLOR, 0, nothingDrawn);
+    else
+        glClearNamedFramebufferfv(layerTarget_.name(), GL_COLOR, 0, transparent);
+}
+
+void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
+    if (!addLayers_ || addDefines_ != frame.defines()) {
+        addDefines_ = frame.defines();
+        ShaderDefines defines = addDefines_;
+        for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
+        addLayers_ = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
+    }
+    block_.target[1 - block_.current].bind();
+    frame.bind(first);
+    layers_.attach(0);
+    block_.sum[block_.current].attach(1);
+    block_.compensation[block_.current].attach(2);
+    glProgramUniform1i(addLayers_.name(), 0, static_cast<GLint>(count));
+    glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(samples_ % blockSamples));
+    fullscreen_.draw(addLayers_);
+    block_.flip();
+    countsInAlpha_ = frame.countsInAlpha();
+    samples_ += count;
+    if (samples_ % blockSamples == 0) {
+        addBlockTo(frame_, samples_ == blockSamples);
+        frame_.flip();
+    }
+}
+
+void LayerSum::addBlockTo(Sum& frame, bool startsFrame) {
+    frame.target[1 - frame.current].bind();
+    block_.sum[block_.current].attach(0);
+    block_.compensation[block_.current].attach(1);
+    frame.sum[frame.current].attach(2);
+    frame.compensation[frame.current].attach(3);
+    glProgramUniform1i(addBlock_.name(), 0, startsFrame ? 1 : 0);
+    fullscreen_.draw(addBlock_);
+}
+
+BlockSum LayerSum::block() const {
+    if (samples_ == 0) fail("the accumulation holds no sample yet");
+    return {(samples_ - 1) % blockSamples + 1, readBack(block_.sum[block_.current], 4),
+            readBack(block_.compensation[block_.current], 4)};
+}
+
+void LayerSum::addBlock(const BlockSum& block) {
+    assert(samples_ % blockSamples == 0 && block.samples >= 1 && block.samples <= blockSamples);
+    upload(block_.sum[block_.current], block.sum);
+    upload(block_.compensation[block_.current], block.compensation);
+    samples_ += block.samples;
+    if (samples_ % blockSamples == 0) {
+        addBlockTo(frame_, samples_ == blockSamples);
+        frame_.flip();
+    }
+}
+
+Image LayerSum::mean() {
+    return readBack(meanTexture(), 4);
+}
+
+const GlTexture& LayerSum::meanTexture() {
+    if (samples_ == 0) fail("the accumulation holds no sample yet");
+    // An unfinished block is added to a copy: the frame's own sum goes on at the block border.
+    const bool unfinished = samples_ % blockSamples != 0;
+    if (unfinished) addBlockTo(frame_, samples_ < blockSamples);
+    const int latest = unfinished ? 1 - frame_.current : frame_.current;
+
+    if (!mean_) {
+        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = info_.width, .height = info_.height});
+        mean_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+        meanTarget_ = Target({&mean_});
+    }
+    meanTarget_.bind();
+    frame_.sum[latest].attach(0);
+    frame_.compensation[latest].attach(1);
+    glProgramUniform1f(resolve_.name(), 0, countsInAlpha_ ? 0.0f : static_cast<float>(samples_));
+    fullscreen_.draw(resolve_);
+    return mean_;
+}
+
+std::size_t LayerSum::bytes() const {
+    std::size_t total = layers_.bytes() + depth_.bytes() + mean_.bytes();
+    for (const Sum* sum : {&block_, &frame_})
+        for (int i = 0; i < 2; ++i) total += sum->sum[i].bytes() + sum->compensation[i].bytes();
+    return total;
+}
+
+}  // namespace defocus

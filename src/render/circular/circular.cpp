@@ -1,0 +1,263 @@
+// Garcia 2018, Circular Separable Convolution Depth of Field (slides of the Game Developers Conference).
+
+#include "render/circular/circular.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.h"
+#include "render/circular/circular_kernel.h"
+#include "render/circular/complex_blur.h"
+#include "render/post_process/post_process.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr int tileSize = 16;  // px of the field
+
+struct CircularOptions {
+    int nearComponents = 1;
+    int farComponents = 2;
+    int reduction = 1;  // pixels a side to one of the fields
+    bool combined = false;
+    bool direct = false;
+    double blendBias = 1;
+    ComplexStorage storage = ComplexStorage::half;
+    ComplexTaps taps = ComplexTaps::exact;
+};
+
+CircularOptions parsed(const MethodSettings& settings) {
+    const std::string& storage = settings.at("storage");
+    const std::string& taps = settings.at("kernel-taps");
+    const std::string& resolution = settings.at("resolution");
+    CircularOptions options;
+    options.nearComponents = static_cast<int>(numberOf(settings, "near-components"));
+    options.farComponents = static_cast<int>(numberOf(settings, "far-components"));
+    options.reduction = resolution == "full" ? 1 : resolution == "half" ? 2 : 4;
+    options.combined = settings.at("fields") == "combined";
+    options.direct = settings.at("convolution") == "direct";
+    options.blendBias = numberOf(settings, "blend-bias");
+    options.storage = storage == "float"  ? ComplexStorage::float32
+                      : storage == "half" ? ComplexStorage::half
+                                          : ComplexStorage::rgb10A2;
+    options.taps = taps == "exact" ? ComplexTaps::exact : taps == "eight" ? ComplexTaps::eight : ComplexTaps::sets;
+    if (options.direct && options.storage == ComplexStorage::rgb10A2)
+        fail(
+            "method circular: convolution=direct stores no sums between its passes, so storage has no effect; leave it "
+            "out");
+    return options;
+}
+
+// The largest blur in front of the focus plane, px; objects that reach the camera have no bound.
+double largestNearDiameter(const FramePlan& plan) {
+    double largest = 0;
+    for (const ObjectPlan& object : plan.objects) {
+        const bool reachesCamera = object.nearestDepth <= plan.view.nearPlane;
+        largest = std::max(largest, reachesCamera ? plan.view.width : -object.coc.nearest);
+    }
+    return largest;
+}
+
+// The largest blur behind the focus plane, px, that of the sky included.
+double largestFarDiameter(const FramePlan& plan) {
+    double largest = std::max(largestCocAtInfinity(plan.coc, plan.view.width), 1.0);
+    for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.farthest);
+    return largest;
+}
+
+class Circular final : public PostProcess {
+public:
+    Circular(const RendererOptions& options, const CircularOptions& circular)
+        : shaderFolder_(options.shaderFolder), options_(circular) {}
+
+    void start(const FramePlan& plan, const FrameUniforms& frame) override {
+        if (!split_ || defines_ != frame.defines()) makePrograms(frame);
+        const View& view = plan.view;
+        if (view.width != width_ || view.height != height_) makeFields(view.width, view.height);
+        const double largest = 0.5 * view.width;  // px: a disk as wide as the image
+        const double nearRadius = std::min(0.5 * largestNearDiameter(plan), largest) / options_.reduction;
+        glProgramUniform1f(split_.name(), 0, static_cast<float>(largest));
+        glProgramUniform1i(reach_.name(), 0, static_cast<GLint>(std::ceil(nearRadius / tileSize)) + 2);
+        const double farDiameter = std::min(largestFarDiameter(plan), 2 * largest);
+        for (const Program* program : {&split_, &composite_})
+            glProgramUniform1f(program->name(), 1, static_cast<float>(1 / farDiameter));
+        hasNear_ = nearRadius > 0;
+        glProgramUniform1f(composite_.name(), 0, hasNear_ ? static_cast<float>(options_.blendBias) : 0.0f);
+    }
+
+    void draw(const PinholePass& pinhole, const FrameUniforms& frame, const Target& output) override {
+        frame.bind(0);
+        splitTarget_.bind();
+        pinhole.color().attach(0);
+        pinhole.attachForBlur();
+        fullscreen_.draw(split_);
+        if (hasNear_ || options_.combined) spreadNearRadius();
+        if (options_.combined) {
+            far_->blur(farField_, nearRadius_);
+        } else {
+            far_->blur(farField_, farRadius_);
+            if (hasNear_) near_->blur(nearField_, nearRadius_);
+        }
+
+        output.bind();
+        pinhole.color().attach(0);
+        pinhole.attachForBlur();
+        far_->result().attach(2);
+        if (!options_.combined) near_->result().attach(3);
+        fullscreen_.draw(composite_);
+    }
+
+    [[nodiscard]] std::size_t bytes() const override {
+        std::size_t total = (far_ ? far_->bytes() : 0) + (near_ ? near_->bytes() : 0);
+        for (const GlTexture* texture :
+             {&farField_, &nearField_, &farRadius_, &ownNearRadius_, &nearRadius_, &tiles_, &reaching_})
+            total += texture->bytes();
+        return total;
+    }
+
+private:
+    void makePrograms(const FrameUniforms& frame) {
+        defines_ = frame.defines();
+        const auto pass = [&](const char* shader) {
+            ShaderDefines defines = frame.defines();
+            defines.emplace_back("REDUCTION", std::to_string(options_.reduction));
+            defines.emplace_back("TILE", std::to_string(tileSize));
+            if (options_.combined) defines.emplace_back("COMBINED", "1");
+            return Program({{fullscreenShader, shader}, std::move(defines), shaderFolder_});
+        };
+        split_ = pass("circular/split.frag");
+        tile_ = pass("circular/tile.frag");
+        reach_ = pass("circular/reach.frag");
+        widen_ = pass("circular/near_radius.frag");
+        composite_ = pass("circular/composite.frag");
+    }
+
+    void makeFields(int width, int height) {
+        width_ = width;
+        height_ = height;
+        const int fieldWidth = (width + options_.reduction - 1) / options_.reduction;
+        const int fieldHeight = (height + options_.reduction - 1) / options_.reduction;
+        const auto texture = [](TextureFormat format, int w, int h) {
+            GlTexture made({.format = format, .width = w, .height = h});
+            made.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+            return made;
+        };
+        const TextureFormat colors =
+            options_.storage == ComplexStorage::float32 ? TextureFormat::rgba32f : TextureFormat::rgba16f;
+        farField_ = texture(colors, fieldWidth, fieldHeight);
+        farRadius_ = texture(TextureFormat::r32f, fieldWidth, fieldHeight);
+        ownNearRadius_ = texture(TextureFormat::r32f, fieldWidth, fieldHeight);
+        nearRadius_ = texture(TextureFormat::r32f, fieldWidth, fieldHeight);
+        const int columns = (fieldWidth + tileSize - 1) / tileSize;
+        const int rows = (fieldHeight + tileSize - 1) / tileSize;
+        tiles_ = texture(TextureFormat::r32f, columns, rows);
+        reaching_ = texture(TextureFormat::r32f, columns, rows);
+        ComplexBlurInfo info{fieldWidth,    fieldHeight,     options_.farComponents, options_.storage,
+                             options_.taps, options_.direct, shaderFolder_};
+        far_.emplace(info);
+        std::vector<const GlTexture*> targets = {&farField_, &farRadius_, &ownNearRadius_};
+        if (!options_.combined) {
+            nearField_ = texture(colors, fieldWidth, fieldHeight);
+            targets.push_back(&nearField_);
+            info.components = options_.nearComponents;
+            near_.emplace(info);
+        }
+        splitTarget_ = Target(targets);
+        tileTarget_ = Target({&tiles_});
+        reachTarget_ = Target({&reaching_});
+        nearRadiusTarget_ = Target({&nearRadius_});
+    }
+
+    // The near field is gathered wherever a near disk may reach.
+    void spreadNearRadius() {
+        tileTarget_.bind();
+        ownNearRadius_.attach(0);
+        fullscreen_.draw(tile_);
+        reachTarget_.bind();
+        tiles_.attach(0);
+        fullscreen_.draw(reach_);
+        nearRadiusTarget_.bind();
+        ownNearRadius_.attach(0);
+        reaching_.attach(1);
+        farRadius_.attach(2);
+        fullscreen_.draw(widen_);
+    }
+
+    std::filesystem::path shaderFolder_;
+    CircularOptions options_;
+    int width_ = 0;
+    int height_ = 0;
+    bool hasNear_ = true;
+    ShaderDefines defines_;  // that the programs were built with
+    Program split_, tile_, reach_, widen_, composite_;
+    GlTexture farField_, nearField_, farRadius_, ownNearRadius_, nearRadius_, tiles_, reaching_;
+    Target splitTarget_, tileTarget_, reachTarget_, nearRadiusTarget_;
+    std::optional<ComplexBlur> far_, near_;
+    Fullscreen fullscreen_;
+};
+
+std::vector<MethodSetting> circularSettings() {
+    return {
+        {.name = "near-components",
+         .standard = "1",
+         .description = "Components of the kernel in front of the focus plane",
+         .choices = {},
+         .least = 1,
+         .most = 5},
+        {.name = "far-components",
+         .standard = "2",
+         .description = "Components of the kernel behind the focus plane",
+         .choices = {},
+         .least = 1,
+         .most = circularKernelLimit},
+        {.name = "resolution",
+         .standard = "full",
+         .description = "Of the blurred fields; as published, half with one far component or quarter with two",
+         .choices = {"full", "half", "quarter"}},
+        {.name = "kernel-taps",
+         .standard = "exact",
+         .description = "Taps on each side: one a pixel, eight as published, or sets of 4, 8, 16 and 32 by the blur",
+         .choices = {"exact", "eight", "sets"}},
+        {.name = "storage",
+         .standard = "half",
+         .description = "Of the complex sums between the passes",
+         .choices = {"float", "half", "r10g10b10a2"}},
+        {.name = "fields",
+         .standard = "separate",
+         .description = "Near and far field blurred apart, or together in one pass with the far kernel",
+         .choices = {"separate", "combined"}},
+        {.name = "blend-bias",
+         .standard = "1",
+         .description = "Above 1, the blurred near field hides its sharp image sooner: less ghosting, wider edges",
+         .choices = {},
+         .least = 1,
+         .most = 4,
+         .whole = false},
+        {.name = "convolution",
+         .standard = "separable",
+         .description = "Direct gathers the same kernel over its whole square, for checks",
+         .choices = {"separable", "direct"}},
+        pinholesSetting(),
+    };
+}
+
+}  // namespace
+
+Method circularMethod() {
+    const std::vector<MethodSetting> settings = circularSettings();
+    return {.name = "circular",
+            .description = "post-process: circular separable convolution of one pinhole image (Garcia 2018)",
+            .usesLensSamples = false,
+            .drawsMotion = false,
+            .settings = settings,
+            .make = [settings](const World& world, const RendererOptions& options) {
+                RendererOptions complete = options;
+                complete.settings = completeSettings("circular", settings, options.settings);
+                return makePostProcessRenderer(world, complete,
+                                               std::make_unique<Circular>(complete, parsed(complete.settings)));
+            }};
+}
+
+}  // namespace defocus

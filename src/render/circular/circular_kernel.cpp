@@ -1,0 +1,189 @@
+// Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia 2018, Circular Separable Convolution Depth of
+// Field.
+
+#include "render/circular/circular_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr int nodesPerPiece = 64;
+
+// Printed by defocus_circular_fit: kernel n begins at n·(n − 1)/2.
+constexpr std::array<CircularComponent, 45> components = {{
+    // 1
+    {0.905657, 1.823553, 0.793950, 1.540016},
+    // 2
+    {1.533272, 2.044737, 0.550184, 2.623282},
+    {0.360655, 7.170812, 0.316435, -0.145504},
+    // 3
+    {1.901800, 2.155754, 0.206577, 3.525693},
+    {0.911445, 7.473262, 0.597307, -0.075285},
+    {0.153853, 13.034717, 0.092122, -0.128752},
+    // 4
+    {2.162922, 2.225750, -0.161128, 4.317169},
+    {1.250506, 7.619228, 0.833332, 0.039511},
+    {0.617650, 13.405512, 0.211899, -0.146685},
+    {0.048591, 19.026311, 0.028117, -0.094061},
+    // 5
+    {2.364944, 2.274987, -0.534475, 5.034161},
+    {1.499117, 7.712878, 1.043718, 0.173502},
+    {0.912005, 13.580187, 0.315547, -0.141809},
+    {0.455003, 19.445180, 0.095083, -0.119015},
+    {-0.016360, 25.081573, 0.002845, -0.069981},
+    // 6
+    {2.529588, 2.312070, -0.907465, 5.697236},
+    {1.696517, 7.780111, 1.236727, 0.318104},
+    {1.131983, 13.690699, 0.410952, -0.127311},
+    {0.717989, 19.644405, 0.152613, -0.127555},
+    {0.349328, 25.534390, 0.046110, -0.094187},
+    {-0.061075, 31.176168, -0.008746, -0.053315},
+    // 7
+    {2.668480, 2.341337, -1.277888, 6.319071},
+    {1.860564, 7.831600, 1.416827, 0.469427},
+    {1.309468, 13.769482, 0.501285, -0.107284},
+    {0.916566, 19.770742, 0.205133, -0.129663},
+    {0.589345, 25.752901, 0.083422, -0.104932},
+    {0.273947, 31.654045, 0.021462, -0.075722},
+    {-0.094086, 37.297785, -0.014395, -0.041356},
+    // 8
+    {2.788547, 2.365228, -1.644877, 6.907987},
+    {2.001009, 7.872761, 1.586742, 0.625344},
+    {1.458953, 13.829533, 0.588116, -0.083532},
+    {1.078173, 19.861016, 0.254625, -0.128283},
+    {0.771832, 25.892363, 0.117209, -0.110529},
+    {0.496233, 31.887826, 0.047965, -0.086545},
+    {0.216821, 37.794910, 0.007657, -0.061939},
+    {-0.119678, 43.439230, -0.017122, -0.032479},
+    // 9
+    {2.894274, 2.385237, -2.008188, 7.469898},
+    {2.123841, 7.906699, 1.748321, 0.784582},
+    {1.588405, 13.877347, 0.672349, -0.057029},
+    {1.215344, 19.929975, 0.302106, -0.124659},
+    {0.921209, 25.992509, 0.148807, -0.113428},
+    {0.666124, 32.038078, 0.071891, -0.092932},
+    {0.424908, 38.041030, 0.027574, -0.072337},
+    {0.171675, 43.951616, -0.000599, -0.051397},
+    {-0.140223, 49.595900, -0.018297, -0.025707},
+}};
+
+struct LinePoint {
+    double x;       // in (−1, 1)
+    double weight;  // all together 2
+};
+
+// The zeros of the Legendre polynomial P_n and their weights, by Newton's iteration from Tricomi's guess.
+std::array<LinePoint, nodesPerPiece> gaussLegendrePoints() {
+    constexpr int n = nodesPerPiece;
+    std::array<LinePoint, n> points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (n + 0.5));
+        double slope = 1;
+        for (int iteration = 0; iteration < 8; ++iteration) {
+            double value = x;
+            double before = 1;
+            for (int k = 2; k <= n; ++k) {
+                before = std::exchange(value, ((2 * k - 1) * x * value - (k - 1) * before) / k);
+            }
+            slope = n * (x * value - before) / (x * x - 1);
+            x -= value / slope;
+        }
+        points[i] = {x, 2 / ((1 - x * x) * slope * slope)};
+    }
+    return points;
+}
+
+// visit(t, dt) at the points of an integral over [begin, end]; nothing where the interval is empty.
+template <typename Visit>
+void forEachNode(double begin, double end, const Visit& visit) {
+    static const std::array<LinePoint, nodesPerPiece> points = gaussLegendrePoints();
+    if (!(begin < end)) return;
+    const double half = (end - begin) / 2;
+    for (const LinePoint& point : points) visit(begin + half + half * point.x, half * point.weight);
+}
+
+double integral(std::span<const RadialNode> nodes, std::span<const CircularComponent> kernel) {
+    double sum = 0;
+    for (const RadialNode& node : nodes) sum += node.weight * circularProfile(kernel, node.squaredRadius);
+    return sum;
+}
+
+}  // namespace
+
+std::span<const CircularComponent> circularKernel(int count) {
+    if (count < 1 || count > circularKernelLimit) {
+        fail("a circular kernel of {} components: there are those of 1 to {}", count, circularKernelLimit);
+    }
+    const auto n = static_cast<std::size_t>(count);
+    return std::span(components).subspan(n * (n - 1) / 2, n);
+}
+
+std::complex<double> circularFactor(const CircularComponent& component, double offset) {
+    return std::exp(std::complex<double>(-component.decay, component.frequency) * (offset * offset));
+}
+
+double circularProfile(std::span<const CircularComponent> kernel, double squaredRadius) {
+    double sum = 0;
+    for (const CircularComponent& c : kernel) {
+        const double angle = c.frequency * squaredRadius;
+        sum += std::exp(-c.decay * squaredRadius) * (c.cosine * std::cos(angle) + c.sine * std::sin(angle));
+    }
+    return sum;
+}
+
+std::vector<RadialNode> squareNodes(double extent, double edge) {
+    const double square = extent * extent;
+    std::vector<RadialNode> nodes;
+    // Whole circles, u = r² < extent²: dA = π du.
+    const auto circle = [&](double u, double du) { nodes.push_back({u, std::numbers::pi * du}); };
+    const double inside = std::min(edge * edge, square);
+    forEachNode(0, inside, circle);
+    forEachNode(inside, square, circle);
+    // Arcs in the corners, u = extent² + t²: each side hides the angle 2·arccos(extent/r) = 2·arctan(t/extent).
+    const auto arcs = [&](double t, double dt) {
+        nodes.push_back({square + t * t, (std::numbers::pi - 4 * std::atan(t / extent)) * 2 * t * dt});
+    };
+    const double corner = std::clamp(std::sqrt(std::max(0.0, edge * edge - square)), 0.0, extent);
+    forEachNode(0, corner, arcs);
+    forEachNode(corner, extent, arcs);
+    return nodes;
+}
+
+double energyGain(std::span<const CircularComponent> kernel, double extent, double diskRadius) {
+    return std::numbers::pi * diskRadius * diskRadius / integral(squareNodes(extent, diskRadius), kernel);
+}
+
+double diskProfileError(std::span<const CircularComponent> kernel, double extent, double diskRadius) {
+    const std::vector<RadialNode> nodes = squareNodes(extent, diskRadius);
+    const double disk = std::numbers::pi * diskRadius * diskRadius;
+    const double gain = disk / integral(nodes, kernel);
+    double squares = 0;
+    double covered = 0;  // area of the disk inside the square
+    for (const RadialNode& node : nodes) {
+        const double target = node.squaredRadius < diskRadius * diskRadius ? 1 : 0;
+        const double deviation = gain * circularProfile(kernel, node.squaredRadius) - target;
+        squares += node.weight * deviation * deviation;
+        covered += node.weight * target;
+    }
+    return std::sqrt((squares + std::max(0.0, disk - covered)) / disk);
+}
+
+double roundingAmplification(std::span<const CircularComponent> kernel, double extent, double diskRadius) {
+    double sum = 0;
+    for (const CircularComponent& c : kernel) {
+        double length = 0;  // ∫|F| dx
+        forEachNode(-extent, extent, [&](double x, double dx) { length += std::exp(-c.decay * x * x) * dx; });
+        sum += std::hypot(c.cosine, c.sine) * length * length;
+    }
+    return std::abs(energyGain(kernel, extent, diskRadius)) * sum / (std::numbers::pi * diskRadius * diskRadius);
+}
+
+}  // namespace defocus

@@ -1,0 +1,190 @@
+// Niemitalo 2010, Circularly symmetric convolution and lens blur; Garcia 2018, Circular Separable Convolution Depth of
+// Field (brackets: its appendix).
+
+#include "render/circular/complex_blur.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "render/circular/circular_kernel.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr int mostTargets = 8;
+constexpr int reduction = 8;  // of the search for the largest value, a side
+constexpr GLint firstComponentLocation = 15;
+constexpr GLint bracketLocation = 16;
+constexpr int mostComponentsInHalf = 5;
+constexpr double outermostTap = 2;  // in radii: taps within radius + 1/2 of radii above 1/2
+constexpr int bracketSteps = 4096;
+
+TextureFormat textureFormat(ComplexStorage storage) {
+    switch (storage) {
+        case ComplexStorage::float32:
+            return TextureFormat::rgba32f;
+        case ComplexStorage::half:
+            return TextureFormat::rgba16f;
+        case ComplexStorage::rgb10A2:
+            return TextureFormat::rgb10A2;
+    }
+    return TextureFormat::rgba16f;
+}
+
+GlTexture linearTexture(TextureFormat format, int width, int height) {
+    GlTexture texture({.format = format, .width = width, .height = height});
+    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+int targetsFor(int components, ComplexStorage storage) {
+    return storage == ComplexStorage::rgb10A2 ? 3 * components + 1 : 2 * components;
+}
+
+int componentsAtOnce(ComplexStorage storage) {
+    return storage == ComplexStorage::rgb10A2 ? (mostTargets - 1) / 3 : mostTargets / 2;
+}
+
+ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
+    return {{"KERNEL_SIZE", std::to_string(info.components)},
+            {"COMPONENTS", std::to_string(components)},
+            {"BRACKETED", info.storage == ComplexStorage::rgb10A2 ? "1" : "0"},
+            {"LARGEST", info.storage == ComplexStorage::half ? "65504.0" : "3.0e38"},
+            {"TAPS_EXACT", info.taps == ComplexTaps::exact ? "1" : "0"},
+            {"TAPS_SETS", info.taps == ComplexTaps::sets ? "1" : "0"}};
+}
+
+void setKernel(const Program& program, std::span<const CircularComponent> kernel) {
+    std::vector<float> values;
+    for (const CircularComponent& c : kernel)
+        for (const double value : {c.decay, c.frequency, c.cosine, c.sine}) values.push_back(static_cast<float>(value));
+    glProgramUniform4fv(program.name(), 0, static_cast<GLsizei>(kernel.size()), values.data());
+}
+
+}  // namespace
+
+Bracket bracketOf(const CircularComponent& component) {
+    Bracket bracket;
+    for (int i = 0; i <= bracketSteps; ++i) {
+        const std::complex<double> tap = circularFactor(component, outermostTap * i / bracketSteps);
+        bracket.leastReal = std::min(bracket.leastReal, tap.real());
+        bracket.greatestReal = std::max(bracket.greatestReal, tap.real());
+        bracket.leastImaginary = std::min(bracket.leastImaginary, tap.imag());
+        bracket.greatestImaginary = std::max(bracket.greatestImaginary, tap.imag());
+    }
+    return bracket;
+}
+
+ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
+    : info_(info), result_(linearTexture(TextureFormat::rgba32f, info.width, info.height)), resultTarget_({&result_}) {
+    constexpr float black[4] = {};
+    glClearNamedFramebufferfv(resultTarget_.name(), GL_COLOR, 0, black);
+    if (info_.storage == ComplexStorage::half && info_.components > mostComponentsInHalf)
+        info_.storage = ComplexStorage::float32;
+    if (info_.direct) {
+        direct_ = Program(
+            {{fullscreenShader, "circular/direct.frag"}, definesOf(info_, info_.components), info_.shaderFolder});
+        setKernel(direct_, circularKernel(info_.components));
+        return;
+    }
+    makeGroups();
+    const int largestGroup = groups_.front().count;
+    std::vector<const GlTexture*> targets;
+    for (int i = 0; i < targetsFor(largestGroup, info_.storage); ++i)
+        sums_.push_back(linearTexture(textureFormat(info_.storage), info_.width, info_.height));
+    for (const GlTexture& sum : sums_) targets.push_back(&sum);
+    sumTarget_ = Target(targets);
+    if (!bracketed()) return;
+
+    // The largest value of a field: tiles of tiles, down to one pixel.
+    const auto pass = [&](const ShaderDefines& defines) {
+        return Program({{fullscreenShader, "circular/tile.frag"}, defines, info_.shaderFolder});
+    };
+    reduce_ = pass({{"TILE", std::to_string(reduction)}});
+    reduceColor_ = pass({{"TILE", std::to_string(reduction)}, {"LARGEST_CHANNEL", "1"}});
+    int width = info_.width;
+    int height = info_.height;
+    do {
+        width = (width + reduction - 1) / reduction;
+        height = (height + reduction - 1) / reduction;
+        brightest_.push_back(GlTexture({.format = TextureFormat::r32f, .width = width, .height = height}));
+    } while (width > 1 || height > 1);
+}
+
+void ComplexBlur::makeGroups() {
+    const std::span<const CircularComponent> kernel = circularKernel(info_.components);
+    const int atOnce = componentsAtOnce(info_.storage);
+    for (int first = 0; first < info_.components; first += atOnce) {
+        Group group;
+        group.first = first;
+        group.count = std::min(atOnce, info_.components - first);
+        const ShaderDefines defines = definesOf(info_, group.count);
+        group.horizontal = Program({{fullscreenShader, "circular/horizontal.frag"}, defines, info_.shaderFolder});
+        group.vertical = Program({{fullscreenShader, "circular/vertical.frag"}, defines, info_.shaderFolder});
+        std::vector<float> brackets;
+        for (const CircularComponent& component :
+             kernel.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(group.count))) {
+            if (!bracketed()) break;
+            const Bracket bracket = bracketOf(component);
+            for (const double value : {bracket.leastReal, bracket.greatestReal - bracket.leastReal,
+                                       bracket.leastImaginary, bracket.greatestImaginary - bracket.leastImaginary})
+                brackets.push_back(static_cast<float>(value));
+        }
+        for (const Program* program : {&group.horizontal, &group.vertical}) {
+            setKernel(*program, kernel);
+            glProgramUniform1i(program->name(), firstComponentLocation, first);
+            if (bracketed()) glProgramUniform4fv(program->name(), bracketLocation, group.count, brackets.data());
+        }
+        groups_.push_back(std::move(group));
+    }
+}
+
+void ComplexBlur::findBrightest(const GlTexture& field) {
+    const GlTexture* source = &field;
+    for (const GlTexture& level : brightest_) {
+        const Target target({&level});
+        target.bind();
+        source->attach(0);
+        fullscreen_.draw(source == &field ? reduceColor_ : reduce_);
+        source = &level;
+    }
+}
+
+void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius) {
+    if (info_.direct) {
+        resultTarget_.bind();
+        field.attach(0);
+        radius.attach(1);
+        fullscreen_.draw(direct_);
+        return;
+    }
+    if (bracketed()) findBrightest(field);
+    for (const Group& group : groups_) {
+        // Rows …
+        sumTarget_.bind();
+        field.attach(0);
+        radius.attach(1);
+        if (bracketed()) brightest_.back().attach(2);
+        fullscreen_.draw(group.horizontal);
+        // … and columns, added to what other groups gave.
+        resultTarget_.bind();
+        for (GLuint i = 0; i < sums_.size(); ++i) sums_[i].attach(i);
+        radius.attach(8);
+        if (bracketed()) brightest_.back().attach(9);
+        if (group.first == 0)
+            fullscreen_.draw(group.vertical);
+        else
+            fullscreen_.drawAdding(group.vertical);
+    }
+}
+
+std::size_t ComplexBlur::bytes() const {
+    std::size_t total = result_.bytes();
+    for (const GlTexture& sum : sums_) total += sum.bytes();
+    for (const GlTexture& level : brightest_) total += level.bytes();
+    return total;
+}
+
+}  // namespace defocus

@@ -1,0 +1,91 @@
+// Hammersley 1960, Monte Carlo Methods for Solving Multivariable Problems (the points in the pixel).
+
+#include "render/post_process/pinhole_pass.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace defocus {
+
+namespace {
+
+GlTexture texture(int width, int height, TextureFormat format) {
+    return GlTexture({.format = format, .width = width, .height = height});
+}
+
+ShaderDefines definesOf(LayerFormat format) {
+    ShaderDefines defines = layerFormatDefines(format);
+    defines.emplace_back("READS_COC_SCALE", "1");
+    return defines;
+}
+
+// Of every surface but the sky and what is blended: those leave the scale as it is.
+void writeCocScales(bool on) {
+    const GLboolean mask = on ? GL_TRUE : GL_FALSE;
+    glColorMaski(1, mask, mask, mask, mask);
+}
+
+}  // namespace
+
+FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count) {
+    FramePlan pinholes = plan;
+    pinholes.samples.assign(count, LensSample{});
+    for (std::uint32_t i = 0; i < count && count > 1; ++i)
+        pinholes.samples[i].pixel = glm::vec2((i + 0.5) / count - 0.5, radicalInverse(2, i) + 0.5 / count - 0.5);
+    pinholes.coc.chromatic = 0;
+    pinholes.view.lens.catEye = 0;
+    pinholes.trianglesDrawn = 0;
+    pinholes.moments.clear();
+    for (ObjectPlan& object : pinholes.objects) {
+        object.motion.clear();
+        const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
+        const auto last = static_cast<double>(pyramid.levels.size() - 1);
+        const auto level = static_cast<std::uint32_t>(std::min(std::round(object.lambda), last));
+        object.coarse = {};
+        object.fine = {level, 0, count, pyramid.levels[level].triangleCount};
+        pinholes.levelsUsed[static_cast<std::size_t>(object.mesh)][level] = true;
+        pinholes.trianglesDrawn += std::uint64_t{object.fine.triangleCount} * count;
+    }
+    return pinholes;
+}
+
+PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool cocScales,
+                         const std::filesystem::path& shaderFolder)
+    : color_(texture(width, height, layerTextureFormat(format))),
+      depth_(texture(width, height, TextureFormat::depth32f)),
+      cocScale_(cocScales ? texture(width, height, TextureFormat::r32f) : GlTexture()),
+      target_(cocScales ? Target({&color_, &cocScale_}, &depth_) : Target({&color_}, &depth_)),
+      surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
+                        .defines = definesOf(format),
+                        .vertexShaderLayers = vertexShaderMayPickLayer(),
+                        .shaderFolder = shaderFolder}) {
+    color_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+}
+
+void PinholePass::attachForBlur() const {
+    depth_.attach(1);
+    if (cocScale_) cocScale_.attach(6);
+}
+
+void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame) {
+    surfaces_.prepare(pinholes, frame);
+}
+
+void PinholePass::draw(std::uint32_t index) {
+    target_.bind();
+    glDepthMask(GL_TRUE);
+    constexpr float farthest = 0;  // reversed depth
+    constexpr float black[4] = {0, 0, 0, 1};
+    glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
+    glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, black);
+    constexpr float ones[4] = {1, 1, 1, 1};
+    if (cocScale_) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 1, ones);
+    surfaces_.drawOpaque(index, 1);
+    if (cocScale_) writeCocScales(false);
+    surfaces_.drawSky(index, 1);
+    surfaces_.drawBlended(index, 1);
+    if (cocScale_) writeCocScales(true);
+    surfaces_.drawBlendedDepth(index, 1);
+}
+
+}  // namespace defocus

@@ -1,0 +1,31 @@
+#pragma once
+// Renders by blurring pinhole images: the frame around the post-process methods. Several pinholes spread over the pixel
+// are blurred one by one and averaged, which antialiases; their number is the methods' setting "pinholes".
+
+#include <memory>
+
+#include "render/methods.h"
+#include "render/post_process/pinhole_pass.h"
+
+namespace defocus {
+
+// Blurs a pinhole image by its depth.
+class PostProcess {
+public:
+    virtual ~PostProcess() = default;
+    // Makes what images of this plan need. Called before draw, and again for each frame.
+    virtual void start(const FramePlan& plan, const FrameUniforms& frame) = 0;
+    // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1.
+    virtual void draw(const PinholePass& pinhole, const FrameUniforms& frame, const Target& output) = 0;
+    [[nodiscard]] virtual std::size_t bytes() const = 0;
+};
+
+// The setting that all these methods share.
+MethodSetting pinholesSetting();
+
+// `options.settings` must be complete. Starting a frame throws Error for a transparent background, which these methods
+// don't blur.
+std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,
+                                                  std::unique_ptr<PostProcess> process);
+
+}  // namespace defocus

@@ -1,0 +1,218 @@
+// Scheuermann 2004, Advanced Depth of Field (slides of the Game Developers Conference); Mitchell 1991, Spectrally
+// Optimal Sampling for Distribution Ray Tracing.
+
+#include "render/scheuermann/scheuermann.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/error.h"
+#include "gl/fullscreen.h"
+#include "render/post_process/post_process.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double publishedLargest = 10;       // px, diameter
+constexpr float publishedSmallRadius = 0.4f;  // of the taps in the small image, whose pixels are 4 times as wide
+constexpr float trueSmallRadius = 0.25f;      // the same distance in both images
+constexpr int smallReduction = 4;             // of the small image, a side
+constexpr std::uint32_t mostTaps = 64;
+constexpr std::uint32_t candidatesPerPoint = 32;
+
+// std140, of shaders/scheuermann/gather.frag.
+struct GpuTaps {
+    glm::vec4 taps[mostTaps];
+};
+
+double largestBlur(const FramePlan& plan) {
+    double largest = largestCocAtInfinity(plan.coc, plan.view.width);
+    for (const ObjectPlan& object : plan.objects)
+        if (std::isfinite(object.coc.largest)) largest = std::max(largest, object.coc.largest);
+    return std::min(largest, static_cast<double>(plan.view.width));
+}
+
+class Scheuermann final : public PostProcess {
+public:
+    explicit Scheuermann(const RendererOptions& options)
+        : shaderFolder_(options.shaderFolder),
+          taps_(static_cast<std::uint32_t>(numberOf(options.settings, "taps"))),
+          thinLens_(options.settings.at("coc") == "thin-lens"),
+          unlimited_(options.settings.at("max-coc") == "unlimited") {}
+
+    void start(const FramePlan& plan, const FrameUniforms& frame) override {
+        if (plan.usesCocControls && !thinLens_)
+            fail(
+                "method scheuermann: with coc=published the blur follows the depth alone; coc=thin-lens takes the "
+                "lens's and the objects' controls of the blur");
+        makeTextures(plan.view.width, plan.view.height);
+        if (!blurriness_ || defines_ != frame.defines()) makePrograms(frame);
+        const double largest = unlimited_ ? std::max(largestBlur(plan), publishedLargest) : publishedLargest;
+        largestRadius_ = static_cast<float>(0.5 * largest);
+        glProgramUniform1f(blurriness_.name(), 0, static_cast<float>(1 / largest));
+        if (!thinLens_) {
+            const BlurrinessPlanes planes =
+                blurrinessPlanes(plan.coc, plan.view.lens.focusDistance, largest, plan.view.width);
+            // A line in depth each: blurriness = slope · z + offset.
+            const auto focus = static_cast<float>(planes.focus);
+            glProgramUniform4f(blurriness_.name(), 1, focus, static_cast<float>(1 / (planes.focus - planes.near)),
+                               static_cast<float>(1 / (planes.far - planes.focus)), static_cast<float>(planes.cutoff));
+        }
+        glProgramUniform1f(gather_.name(), 0, largestRadius_);
+    }
+
+    void draw(const PinholePass& pinhole, const FrameUniforms& frame, const Target& output) override {
+        frame.bind(0);
+        // Colour with blurriness, and its small pre-blurred copy.
+        sharpTarget_.bind();
+        pinhole.color().attach(0);
+        pinhole.attachForBlur();
+        fullscreen_.draw(blurriness_);
+        reducedTarget_.bind();
+        sharp_.attach(0);
+        fullscreen_.draw(reduce_);
+        smallTarget_.bind();
+        reduced_.attach(0);
+        fullscreen_.draw(preblur_);
+
+        // The gather.
+        output.bind();
+        sharp_.attach(0);
+        small_.attach(1);
+        glBindBufferBase(GL_UNIFORM_BUFFER, 1, tapBuffer_.name());
+        fullscreen_.draw(gather_);
+    }
+
+    [[nodiscard]] std::size_t bytes() const override { return sharp_.bytes() + reduced_.bytes() + small_.bytes(); }
+
+private:
+    void makeTextures(int width, int height) {
+        if (sharp_ && sharp_.info().width == width && sharp_.info().height == height) return;
+        const auto linear = [](int w, int h) {
+            GlTexture texture({.format = TextureFormat::rgba16f, .width = w, .height = h});
+            texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+            return texture;
+        };
+        const int smallWidth = (width + smallReduction - 1) / smallReduction;
+        const int smallHeight = (height + smallReduction - 1) / smallReduction;
+        sharp_ = linear(width, height);
+        reduced_ = linear(smallWidth, smallHeight);
+        small_ = linear(smallWidth, smallHeight);
+        sharpTarget_ = Target({&sharp_});
+        reducedTarget_ = Target({&reduced_});
+        smallTarget_ = Target({&small_});
+    }
+
+    void makePrograms(const FrameUniforms& frame) {
+        defines_ = frame.defines();
+        const auto pass = [&](const char* shader, ShaderDefines defines) {
+            return Program({{fullscreenShader, shader}, std::move(defines), shaderFolder_});
+        };
+        ShaderDefines blurriness = frame.defines();
+        if (thinLens_) blurriness.emplace_back("THIN_LENS", "1");
+        blurriness_ = pass("scheuermann/blurriness.frag", std::move(blurriness));
+        reduce_ = pass("scheuermann/reduce.frag", {{"REDUCTION", std::to_string(smallReduction)}});
+        preblur_ = pass("scheuermann/preblur.frag", {});
+        gather_ = pass("scheuermann/gather.frag",
+                       {{"TAPS", std::to_string(taps_)},
+                        {"MOST_TAPS", std::to_string(mostTaps)},
+                        {"SMALL_PIXEL", fmt::format("{:.1f}", static_cast<double>(smallReduction))},
+                        {"SMALL_RADIUS", fmt::format("{}", thinLens_ ? trueSmallRadius : publishedSmallRadius)}});
+        GpuTaps block{};
+        const std::vector<glm::vec2> points = poissonDisk(taps_);
+        for (std::size_t i = 0; i < points.size(); ++i) block.taps[i] = glm::vec4(points[i], 0, 0);
+        tapBuffer_ = Buffer(sizeof block, &block);
+    }
+
+    std::filesystem::path shaderFolder_;
+    std::uint32_t taps_;
+    bool thinLens_;
+    bool unlimited_;
+    float largestRadius_ = 0;  // px
+    GlTexture sharp_, reduced_, small_;
+    Target sharpTarget_, reducedTarget_, smallTarget_;
+    ShaderDefines defines_;  // that the programs were built with
+    Program blurriness_, reduce_, preblur_, gather_;
+    Buffer tapBuffer_;
+    Fullscreen fullscreen_;
+};
+
+}  // namespace
+
+BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width) {
+    const double radius = largest / width;  // in C/w
+    BlurrinessPlanes planes;
+    // C(w)/w = a/w + b is −radius at the near plane and radius at the far one; a < 0.
+    planes.near = -coc.a / (coc.front + radius);
+    if (std::isinf(focusDistance)) {  // nothing lies behind the focus
+        planes.focus = 2 * planes.near;
+        planes.far = std::numeric_limits<double>::infinity();
+        planes.cutoff = 0;
+        return planes;
+    }
+    planes.focus = focusDistance;
+    if (coc.behind > radius) {
+        planes.far = coc.a / (radius - coc.behind);
+        return planes;
+    }
+    planes.cutoff = coc.behind / radius;
+    planes.far = focusDistance + focusDistance / (0.5 * planes.cutoff);  // half the cutoff at twice the distance
+    return planes;
+}
+
+std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
+    std::vector<glm::vec2> points = {glm::vec2(0)};
+    std::uint64_t next = 0;
+    while (points.size() < count) {
+        glm::vec2 best(0);
+        float bestDistance = -1;
+        for (std::uint32_t c = 0; c < candidatesPerPoint * count; ++c, ++next) {
+            const glm::vec2 candidate(concentricDisk({radicalInverse(2, next), radicalInverse(3, next)}));
+            float distance = std::numeric_limits<float>::infinity();
+            for (const glm::vec2& point : points) distance = std::min(distance, glm::distance(point, candidate));
+            if (distance > bestDistance) {
+                bestDistance = distance;
+                best = candidate;
+            }
+        }
+        points.push_back(best);
+    }
+    return points;
+}
+
+Method scheuermannMethod() {
+    const std::vector<MethodSetting> settings = {
+        {.name = "coc",
+         .standard = "published",
+         .description = "Blur by three planes, linear in depth, as published, or by the thin lens",
+         .choices = {"published", "thin-lens"}},
+        {.name = "taps",
+         .standard = "8",
+         .description = "Taps of the Poisson disk; 8 as published",
+         .choices = {},
+         .least = 8,
+         .most = mostTaps},
+        {.name = "max-coc",
+         .standard = "published",
+         .description = "Largest blur: 10 px as published, or what the scene asks for",
+         .choices = {"published", "unlimited"}},
+        pinholesSetting(),
+    };
+    return {.name = "scheuermann",
+            .description = "post-process: Poisson disk over one pinhole image (Scheuermann 2004)",
+            .usesLensSamples = false,
+            .drawsMotion = false,
+            .settings = settings,
+            .make = [settings](const World& world, const RendererOptions& options) {
+                RendererOptions complete = options;
+                complete.settings = completeSettings("scheuermann", settings, options.settings);
+                return makePostProcessRenderer(world, complete, std::make_unique<Scheuermann>(complete));
+            }};
+}
+
+}  // namespace defocus

@@ -1,0 +1,245 @@
+// glTF 2.0 specification, 3.6.2 (accessors): component types, data alignment, sparse accessors, normalised integers
+// (3.11).
+#include "scene/gltf/accessor.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace defocus::gltf {
+
+namespace {
+
+std::size_t componentBytes(int componentType) {
+    switch (componentType) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 1;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 2;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return 4;
+        default:
+            return 0;  // not glTF's
+    }
+}
+
+// An element is `columns` columns of `rows` components; a matrix's columns start on multiples of four bytes.
+struct Layout {
+    std::size_t rows = 1;
+    std::size_t columns = 1;
+    std::size_t componentBytes = 4;
+    std::size_t columnBytes = 4;
+    [[nodiscard]] std::size_t components() const { return rows * columns; }
+    [[nodiscard]] std::size_t elementBytes() const { return columns * columnBytes; }
+};
+
+Layout layoutOf(int type, int componentType) {
+    Layout layout;
+    switch (type) {
+        case TINYGLTF_TYPE_VEC2:
+            layout.rows = 2;
+            break;
+        case TINYGLTF_TYPE_VEC3:
+            layout.rows = 3;
+            break;
+        case TINYGLTF_TYPE_VEC4:
+            layout.rows = 4;
+            break;
+        case TINYGLTF_TYPE_MAT2:
+            layout.rows = layout.columns = 2;
+            break;
+        case TINYGLTF_TYPE_MAT3:
+            layout.rows = layout.columns = 3;
+            break;
+        case TINYGLTF_TYPE_MAT4:
+            layout.rows = layout.columns = 4;
+            break;
+        default:
+            break;
+    }
+    layout.componentBytes = componentBytes(componentType);
+    layout.columnBytes = layout.rows * layout.componentBytes;
+    if (layout.columns > 1) layout.columnBytes = (layout.columnBytes + 3) / 4 * 4;
+    return layout;
+}
+
+const tinygltf::Accessor& accessorAt(const Source& source, int index) {
+    return source.model.accessors[static_cast<std::size_t>(index)];
+}
+
+// `count` elements of `elementBytes`, `stride` apart from `offset`, must lie inside a buffer view.
+void checkRange(const Source& source, const std::string& what, int view, std::uint64_t offset, std::uint64_t count,
+                std::uint64_t elementBytes, std::uint64_t stride) {
+    const std::uint64_t available = viewBytes(source, view).size();
+    const bool inside = count == 0 || (offset <= available && elementBytes <= available - offset &&
+                                       (count - 1) <= (available - offset - elementBytes) / stride);
+    if (!inside)
+        fault(source.document, "{}: {} elements from byte {} leave buffer view {}, which has {} bytes", what, count,
+              offset, view, available);
+}
+
+std::uint64_t strideOf(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout) {
+    const std::uint64_t stride = source.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+    return stride != 0 ? stride : layout.elementBytes();
+}
+
+void checkSparse(const Source& source, const tinygltf::Accessor& accessor, const Layout& layout,
+                 const std::string& what) {
+    const int type = accessor.sparse.indices.componentType;
+    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+        fault(source.document, "{}: sparse indices cannot have component type {}", what, type);
+    if (accessor.sparse.count < 1 || static_cast<std::size_t>(accessor.sparse.count) > accessor.count ||
+        accessor.sparse.indices.byteOffset < 0 || accessor.sparse.values.byteOffset < 0)
+        fault(source.document, "{}: {} sparse elements of {} are impossible", what, accessor.sparse.count,
+              accessor.count);
+    const auto count = static_cast<std::uint64_t>(accessor.sparse.count);
+    checkRange(source, what + " (sparse indices)", accessor.sparse.indices.bufferView,
+               static_cast<std::uint64_t>(accessor.sparse.indices.byteOffset), count, componentBytes(type),
+               componentBytes(type));
+    checkRange(source, what + " (sparse values)", accessor.sparse.values.bufferView,
+               static_cast<std::uint64_t>(accessor.sparse.values.byteOffset), count, layout.elementBytes(),
+               layout.elementBytes());
+}
+
+template <typename T>
+double loadAs(const std::byte* bytes) {
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return static_cast<double>(value);
+}
+
+double loadComponent(const std::byte* bytes, int componentType) {
+    switch (componentType) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return loadAs<std::int8_t>(bytes);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return loadAs<std::uint8_t>(bytes);
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return loadAs<std::int16_t>(bytes);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return loadAs<std::uint16_t>(bytes);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return loadAs<std::uint32_t>(bytes);
+        default:
+            return loadAs<float>(bytes);
+    }
+}
+
+// Calls store(element, component, value) for everything in the accessor: its view first, then the sparse elements over
+// it.
+template <typename Store>
+void forEachComponent(const Source& source, int index, const std::string& what, const Store& store) {
+    const tinygltf::Accessor& accessor = accessorAt(source, index);
+    const Layout layout = layoutOf(accessor.type, accessor.componentType);
+    const auto storeElement = [&](std::size_t element, const std::byte* bytes) {
+        for (std::size_t column = 0; column < layout.columns; ++column)
+            for (std::size_t row = 0; row < layout.rows; ++row)
+                store(element, column * layout.rows + row,
+                      loadComponent(bytes + column * layout.columnBytes + row * layout.componentBytes,
+                                    accessor.componentType));
+    };
+    if (accessor.bufferView >= 0) {
+        const std::byte* first = viewBytes(source, accessor.bufferView).data() + accessor.byteOffset;
+        const std::uint64_t stride = strideOf(source, accessor, layout);
+        for (std::size_t i = 0; i < accessor.count; ++i) storeElement(i, first + i * stride);
+    }
+    if (!accessor.sparse.isSparse) return;
+    const int indexType = accessor.sparse.indices.componentType;
+    const std::byte* indices = viewBytes(source, accessor.sparse.indices.bufferView).data() +
+                               static_cast<std::size_t>(accessor.sparse.indices.byteOffset);
+    const std::byte* values = viewBytes(source, accessor.sparse.values.bufferView).data() +
+                              static_cast<std::size_t>(accessor.sparse.values.byteOffset);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(accessor.sparse.count); ++i) {
+        const auto element =
+            static_cast<std::size_t>(loadComponent(indices + i * componentBytes(indexType), indexType));
+        if (element >= accessor.count)
+            fault(source.document, "{}: sparse index {} is beyond its {} elements", what, element, accessor.count);
+        storeElement(element, values + i * layout.elementBytes());
+    }
+}
+
+void checkComponents(const Source& source, int accessor, int components, const std::string& what) {
+    if (componentCount(source, accessor) != components)
+        fault(source.document, "{}: accessor {} has {} components an element, not {}", what, accessor,
+              componentCount(source, accessor), components);
+}
+
+}  // namespace
+
+void checkAccessors(const Source& source) {
+    for (std::size_t i = 0; i < source.model.accessors.size(); ++i) {
+        const tinygltf::Accessor& accessor = source.model.accessors[i];
+        const std::string what = fmt::format("accessor {}", i);
+        if (componentBytes(accessor.componentType) == 0)
+            fault(source.document, "{}: unknown component type {}", what, accessor.componentType);
+        if (accessor.count == 0) fault(source.document, "{}: it has no elements", what);
+        const Layout layout = layoutOf(accessor.type, accessor.componentType);
+        if (accessor.bufferView >= 0)
+            checkRange(source, what, accessor.bufferView, accessor.byteOffset, accessor.count, layout.elementBytes(),
+                       strideOf(source, accessor, layout));
+        if (accessor.sparse.isSparse) checkSparse(source, accessor, layout, what);
+    }
+}
+
+std::size_t elementCount(const Source& source, int accessor) {
+    return accessorAt(source, accessor).count;
+}
+
+int componentCount(const Source& source, int accessor) {
+    const tinygltf::Accessor& found = accessorAt(source, accessor);
+    return static_cast<int>(layoutOf(found.type, found.componentType).components());
+}
+
+double normalisationScale(const Source& source, int accessor) {
+    const tinygltf::Accessor& found = accessorAt(source, accessor);
+    if (!found.normalized) return 1.0;
+    switch (found.componentType) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return 127.0;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 255.0;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return 32767.0;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 65535.0;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return 4294967295.0;
+        default:
+            return 1.0;
+    }
+}
+
+std::vector<float> readFloats(Source& source, int accessor, int components, const std::string& what) {
+    checkComponents(source, accessor, components, what);
+    const auto perElement = static_cast<std::size_t>(components);
+    takeBudget(source, elementCount(source, accessor), perElement * sizeof(float), what);
+    std::vector<float> result(elementCount(source, accessor) * perElement);
+    const double scale = normalisationScale(source, accessor);
+    // −128/127 and −32768/32767 are clamped to −1 (3.11).
+    const bool clamps = scale != 1.0;
+    forEachComponent(source, accessor, what, [&](std::size_t element, std::size_t component, double value) {
+        result[element * perElement + component] = static_cast<float>(clamps ? std::max(value / scale, -1.0) : value);
+    });
+    return result;
+}
+
+std::vector<std::uint32_t> readIntegers(Source& source, int accessor, int components, const std::string& what) {
+    checkComponents(source, accessor, components, what);
+    const int type = accessorAt(source, accessor).componentType;
+    if (type == TINYGLTF_COMPONENT_TYPE_FLOAT || type == TINYGLTF_COMPONENT_TYPE_BYTE ||
+        type == TINYGLTF_COMPONENT_TYPE_SHORT)
+        fault(source.document, "{}: accessor {} must hold unsigned integers", what, accessor);
+    const auto perElement = static_cast<std::size_t>(components);
+    takeBudget(source, elementCount(source, accessor), perElement * sizeof(std::uint32_t), what);
+    std::vector<std::uint32_t> result(elementCount(source, accessor) * perElement);
+    forEachComponent(source, accessor, what, [&](std::size_t element, std::size_t component, double value) {
+        result[element * perElement + component] = static_cast<std::uint32_t>(value);
+    });
+    return result;
+}
+
+}  // namespace defocus::gltf

@@ -1,0 +1,251 @@
+// glTF 2.0 specification, 3.7.2 (meshes).
+#include "scene/gltf/attributes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/ext/vector_float1.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/bounds.h"
+#include "scene/gltf/accessor.h"
+
+namespace defocus::gltf {
+
+namespace {
+
+class AttributeReader {
+public:
+    AttributeReader(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco, std::string what)
+        : source_(source), primitive_(primitive), draco_(draco), what_(std::move(what)) {
+        count_ =
+            draco_ != nullptr ? draco_->vertexCount() : elementCount(source_, primitive_.attributes.at("POSITION"));
+    }
+
+    void checkCounts() const {
+        for (const auto& [name, accessor] : primitive_.attributes)
+            if (draco_ == nullptr || !draco_->has(name)) checkCount(name, accessor);
+        for (const auto& target : primitive_.targets)
+            for (const auto& [name, accessor] : target) checkCount("morph target " + name, accessor);
+    }
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] bool has(const std::string& name) const { return primitive_.attributes.contains(name); }
+    [[nodiscard]] int components(const std::string& name) const {
+        return componentCount(source_, primitive_.attributes.at(name));
+    }
+
+    // Empty where the primitive doesn't have the attribute.
+    template <typename Vector>
+    std::vector<Vector> read(const std::string& name) const {
+        const auto found = primitive_.attributes.find(name);
+        if (found == primitive_.attributes.end()) return {};
+        if (draco_ == nullptr || !draco_->has(name)) return readVectors<Vector>(source_, found->second, label(name));
+        const std::vector<float> floats =
+            draco_->floats(source_, name, Vector::length(), normalisationScale(source_, found->second));
+        std::vector<Vector> result(count_);
+        for (std::size_t i = 0; i < count_; ++i)
+            for (int c = 0; c < Vector::length(); ++c)
+                result[i][c] = floats[i * static_cast<std::size_t>(Vector::length()) + static_cast<std::size_t>(c)];
+        return result;
+    }
+
+    std::vector<MorphTarget> readTargets() const {
+        std::vector<MorphTarget> result;
+        for (const auto& target : primitive_.targets)
+            result.push_back(
+                {displacements(target, "POSITION"), displacements(target, "NORMAL"), displacements(target, "TANGENT")});
+        return result;
+    }
+
+private:
+    [[nodiscard]] std::string label(const std::string& name) const { return what_ + ": " + name; }
+
+    void checkCount(const std::string& name, int accessor) const {
+        const std::size_t elements = elementCount(source_, accessor);
+        if (elements != count_)
+            fault(source_.document, "{} has {} elements, but POSITION has {}: unequal counts", label(name), elements,
+                  count_);
+    }
+
+    [[nodiscard]] std::vector<glm::vec3> displacements(const std::map<std::string, int>& target,
+                                                       const char* name) const {
+        const auto found = target.find(name);
+        if (found == target.end()) return {};
+        std::vector<glm::vec3> result = readVectors<glm::vec3>(source_, found->second, label("morph target"));
+        for (glm::vec3& displacement : result)
+            if (!std::isfinite(glm::dot(displacement, displacement))) displacement = glm::vec3(0);
+        return result;
+    }
+
+    Source& source_;
+    const tinygltf::Primitive& primitive_;
+    const DracoPrimitive* draco_;
+    std::string what_;
+    std::size_t count_ = 0;
+};
+
+std::uint8_t toByte(float value) {
+    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(std::isfinite(value) ? value : 0.0f, 0.0f, 1.0f)));
+}
+
+std::vector<glm::u8vec4> readColors(const AttributeReader& reader) {
+    std::vector<glm::u8vec4> result;
+    if (!reader.has("COLOR_0")) return result;
+    result.reserve(reader.count());
+    if (reader.components("COLOR_0") == 3)
+        for (const glm::vec3& color : reader.read<glm::vec3>("COLOR_0"))
+            result.emplace_back(toByte(color.r), toByte(color.g), toByte(color.b), 255);
+    else
+        for (const glm::vec4& color : reader.read<glm::vec4>("COLOR_0"))
+            result.emplace_back(toByte(color.r), toByte(color.g), toByte(color.b), toByte(color.a));
+    return result;
+}
+
+std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& reader, const char* name,
+                                     const std::string& what) {
+    std::vector<glm::u16vec4> result;
+    for (const glm::vec4& joints : reader.read<glm::vec4>(name)) {
+        for (int i = 0; i < 4; ++i)
+            if (!(joints[i] >= 0 && joints[i] <= 65535))
+                fault(source.document, "{}: {} holds no joint indices", what, name);
+        result.emplace_back(joints);
+    }
+    return result;
+}
+
+// The factor on a vertex's blur, a scalar.
+std::vector<float> readCocScales(Source& source, const AttributeReader& reader, const std::string& what) {
+    if (!reader.has("_COC_SCALE")) return {};
+    if (reader.components("_COC_SCALE") != 1)
+        fault(source.document, "{}: _COC_SCALE must hold one number a vertex, not {}", what,
+              reader.components("_COC_SCALE"));
+    std::vector<float> scales;
+    for (const glm::vec1& scale : reader.read<glm::vec1>("_COC_SCALE")) {
+        if (!(scale.x >= 0) || !std::isfinite(scale.x))
+            fault(source.document, "{}: _COC_SCALE of vertex {} is {}; it must be a number of 0 or more", what,
+                  scales.size(), scale.x);
+        scales.push_back(scale.x);
+    }
+    return scales;
+}
+
+std::vector<glm::vec2> readTextureCoordinates(const AttributeReader& reader, const std::string& name) {
+    std::vector<glm::vec2> result = reader.read<glm::vec2>(name);
+    for (glm::vec2& uv : result)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = glm::vec2(0);
+    return result;
+}
+
+bool normalise(glm::vec3& vector) {
+    const glm::dvec3 wide = vector;
+    const double length = glm::length(wide);
+    if (!(length > 1e-12) || !std::isfinite(length)) return false;
+    // A length that is one already to single precision stays as the file has it.
+    if (std::abs(length - 1.0) > 1e-6) vector = glm::vec3(wide / length);
+    return true;
+}
+
+void repairNormals(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices) {
+    std::vector<std::size_t> broken;
+    for (std::size_t i = 0; i < block.vertices.normals.size(); ++i)
+        if (!normalise(block.vertices.normals[i])) broken.push_back(i);
+    if (broken.empty()) return;
+    std::vector<std::uint32_t> all;
+    for (const std::vector<std::uint32_t>* list : indices) all.insert(all.end(), list->begin(), list->end());
+    const std::vector<glm::vec3> smooth = smoothNormals(block.vertices.positions, all);
+    for (const std::size_t i : broken) block.vertices.normals[i] = smooth[i];
+    ignore(source, "vertex normals", "of no length or not finite; replaced by the faces' average", broken.size());
+}
+
+void repairTangents(VertexBlock& block) {
+    for (std::size_t i = 0; i < block.vertices.tangents.size(); ++i) {
+        glm::vec4& tangent = block.vertices.tangents[i];
+        glm::vec3 direction(tangent);
+        if (!normalise(direction)) direction = perpendicular(block.vertices.normals[i]);
+        tangent = glm::vec4(direction, tangent.w < 0 ? -1.0f : 1.0f);
+    }
+}
+
+// What is no weight becomes 0; the sum that remains.
+double usableSum(glm::vec4& weight) {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i) {
+        if (!(weight[i] > 0) || !std::isfinite(weight[i])) weight[i] = 0;
+        sum += static_cast<double>(weight[i]);
+    }
+    return sum;
+}
+
+// Weights of all influences sum to 1; a vertex without any follows its first joint.
+void repairWeights(VertexBlock& block) {
+    Vertices& vertices = block.vertices;
+    bool furtherCount = false;
+    for (std::size_t i = 0; i < vertices.weights.size(); ++i) {
+        glm::vec4 none(0);
+        glm::vec4& first = vertices.weights[i];
+        glm::vec4& further = vertices.weights1.empty() ? none : vertices.weights1[i];
+        const double firstSum = usableSum(first);
+        const double furtherSum = usableSum(further);
+        const double sum = firstSum + furtherSum;
+        first = sum > 0 ? glm::vec4(glm::dvec4(first) / sum) : glm::vec4(1, 0, 0, 0);
+        if (sum > 0) further = glm::vec4(glm::dvec4(further) / sum);
+        furtherCount |= furtherSum > 0;
+    }
+    if (furtherCount) return;
+    vertices.joints1.clear();
+    vertices.weights1.clear();
+}
+
+}  // namespace
+
+VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive, const DracoPrimitive* draco,
+                           const std::string& what) {
+    const AttributeReader reader(source, primitive, draco, what);
+    reader.checkCounts();
+    VertexBlock block;
+    block.vertices.positions = reader.read<glm::vec3>("POSITION");
+    block.vertices.normals = reader.read<glm::vec3>("NORMAL");
+    if (!block.vertices.normals.empty()) block.vertices.tangents = reader.read<glm::vec4>("TANGENT");
+    block.vertices.uv0 = readTextureCoordinates(reader, "TEXCOORD_0");
+    block.vertices.uv1 = readTextureCoordinates(reader, "TEXCOORD_1");
+    block.vertices.colors = readColors(reader);
+    if (reader.has("WEIGHTS_0")) {
+        block.vertices.joints = readJoints(source, reader, "JOINTS_0", what);
+        block.vertices.weights = reader.read<glm::vec4>("WEIGHTS_0");
+    }
+    if (block.vertices.joints.empty()) block.vertices.weights.clear();
+    if (!block.vertices.joints.empty() && reader.has("WEIGHTS_1")) {
+        block.vertices.joints1 = readJoints(source, reader, "JOINTS_1", what);
+        block.vertices.weights1 = reader.read<glm::vec4>("WEIGHTS_1");
+    }
+    if (block.vertices.joints1.empty()) block.vertices.weights1.clear();
+    block.vertices.cocScales = readCocScales(source, reader, what);
+    block.morphTargets = reader.readTargets();
+    return block;
+}
+
+std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positions,
+                           std::span<std::vector<std::uint32_t>* const> indices) {
+    std::uint64_t dropped = 0;
+    for (std::vector<std::uint32_t>* list : indices) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i + 2 < list->size(); i += 3) {
+            const std::uint32_t* const corners = list->data() + i;
+            const bool placed = std::all_of(corners, corners + 3, [&](auto v) { return isFinite(positions[v]); });
+            if (placed)
+                kept = static_cast<std::size_t>(std::copy(corners, corners + 3, list->data() + kept) - list->data());
+        }
+        dropped += (list->size() - kept) / 3;
+        list->resize(kept);
+    }
+    if (dropped > 0) ignoreDamaged(source, "triangles", "a corner's position is not finite (NaN or infinite)", dropped);
+    return dropped;
+}
+
+void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices) {
+    repairNormals(source, block, indices);
+    repairTangents(block);
+    repairWeights(block);
+}
+
+}  // namespace defocus::gltf

@@ -1,0 +1,230 @@
+// glTF 2.0 specification, 3.6 (URIs) and 4 (GLB). RFC 2397 (data URIs), RFC 3986 (percent coding), RFC 4648 (base64).
+#include "scene/gltf/document.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+#include <string_view>
+
+#include "core/file.h"
+
+namespace defocus::gltf {
+
+namespace {
+
+constexpr std::uint32_t glbMagic = 0x46546C67;   // "glTF"
+constexpr std::uint32_t jsonChunk = 0x4E4F534A;  // "JSON"
+constexpr std::uint32_t binChunk = 0x004E4942;   // "BIN"
+constexpr std::size_t headerBytes = 12;
+constexpr std::size_t chunkHeaderBytes = 8;
+constexpr std::size_t longestMessage = 400;  // bytes
+constexpr int deepestNesting = 64;           // glTF itself needs ten levels; deeper JSON would only cost stack
+
+using Bytes = std::span<const std::byte>;
+
+std::uint32_t littleEndian32(Bytes bytes, std::size_t offset) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[offset + i]) << (8 * i);
+    return value;
+}
+
+bool endsWithIgnoringCase(const std::string& text, const std::string& ending) {
+    return text.size() >= ending.size() &&
+           std::equal(ending.rbegin(), ending.rend(), text.rbegin(),
+                      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+}
+
+struct Container {
+    Bytes json;
+    std::optional<Bytes> binary;
+};
+
+Container splitGlb(const Document& document, Bytes bytes) {
+    if (bytes.size() < headerBytes) fault(document, "truncated: a .glb needs a header of {} bytes", headerBytes);
+    if (littleEndian32(bytes, 0) != glbMagic) fault(document, "not a .glb file: its magic number is wrong");
+    const std::uint32_t version = littleEndian32(bytes, 4);
+    if (version != 2) fault(document, "GLB version {} is not supported (only 2)", version);
+    const std::uint32_t length = littleEndian32(bytes, 8);
+    if (length != bytes.size())
+        fault(document, "length mismatch: the header says {} bytes, the file has {}{}", length, bytes.size(),
+              bytes.size() < length ? " (truncated)" : "");
+    if (length < headerBytes + chunkHeaderBytes) fault(document, "the length {} is too small for any content", length);
+
+    Container result;
+    std::size_t offset = headerBytes;
+    for (int chunk = 0; offset < bytes.size(); ++chunk) {
+        if (bytes.size() - offset < chunkHeaderBytes) fault(document, "truncated: chunk {} has no whole header", chunk);
+        const std::uint32_t chunkLength = littleEndian32(bytes, offset);
+        const std::uint32_t type = littleEndian32(bytes, offset + 4);
+        offset += chunkHeaderBytes;
+        if (chunkLength > bytes.size() - offset)
+            fault(document, "truncated: chunk {} has {} of its {} bytes", chunk, bytes.size() - offset, chunkLength);
+        const Bytes content = bytes.subspan(offset, chunkLength);
+        if (chunk == 0 && type != jsonChunk) fault(document, "the first chunk is not JSON");
+        if (chunk == 0) result.json = content;
+        if (chunk == 1 && type == binChunk) result.binary = content;
+        offset += chunkLength;
+    }
+    return result;
+}
+
+// How deep the text's arrays and objects nest, whether or not it is valid. Looked at before parsing, since everything
+// after it may recurse. (A parser's own callback could count too, but makes long arrays quadratic in this library.)
+int nestingDepth(std::string_view text) {
+    int depth = 0;
+    int deepest = 0;
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (inString && c == '\\') ++i;
+        if (c == '"') inString = !inString;
+        if (inString) continue;
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if (c == ']' || c == '}') --depth;
+    }
+    return deepest;
+}
+
+nlohmann::json parseJson(const Document& document, Bytes bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\xEF\xBB\xBF")) fault(document, "not valid glTF JSON: it starts with a byte order mark");
+    if (nestingDepth(text) > deepestNesting) fault(document, "JSON nested deeper than {} levels", deepestNesting);
+    try {
+        nlohmann::json json = nlohmann::json::parse(text.begin(), text.end());
+        if (!json.is_object()) fault(document, "not glTF: its JSON is not an object");
+        return json;
+    } catch (const nlohmann::json::exception& exception) {
+        const std::string message = exception.what();
+        const std::size_t prefix = message.find("] ");
+        fault(document, "not valid JSON: {}", prefix == std::string::npos ? message : message.substr(prefix + 2));
+    }
+}
+
+void checkVersion(const Document& document) {
+    const auto asset = document.json.find("asset");
+    if (asset == document.json.end() || !asset->is_object() || !asset->contains("version") ||
+        !(*asset)["version"].is_string())
+        fault(document, "not glTF: it has no asset.version");
+    const auto version = (*asset)["version"].get<std::string>();
+    const auto minimum = asset->value("minVersion", nlohmann::json(version));
+    const std::string needed = minimum.is_string() ? minimum.get<std::string>() : version;
+    if (!version.starts_with("2.") || (needed != version && needed != "2.0"))
+        fault(document, "glTF version {} is not supported (only 2.0)", needed != version ? needed : version);
+}
+
+int hexDigit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+}
+
+std::string percentDecoded(std::string_view text) {
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool coded =
+            text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
+        result += coded ? static_cast<char>(16 * hexDigit(text[i + 1]) + hexDigit(text[i + 2])) : text[i];
+        if (coded) i += 2;
+    }
+    return result;
+}
+
+// Nothing for text that is not base64.
+std::optional<std::vector<std::byte>> base64Decoded(std::string_view text) {
+    static const std::array<int, 256> digits = [] {
+        std::array<int, 256> table{};
+        table.fill(-1);
+        constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        for (std::size_t i = 0; i < alphabet.size(); ++i)
+            table[static_cast<unsigned char>(alphabet[i])] = static_cast<int>(i);
+        return table;
+    }();
+    while (text.ends_with('=')) text.remove_suffix(1);
+    std::vector<std::byte> result;
+    result.reserve(text.size() / 4 * 3 + 2);
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text) {
+        const int digit = digits[static_cast<unsigned char>(c)];
+        if (digit < 0) return std::nullopt;
+        bits = (bits << 6) | static_cast<std::uint32_t>(digit);
+        count += 6;
+        if (count >= 8) {
+            count -= 8;
+            result.push_back(static_cast<std::byte>((bits >> count) & 0xFF));
+        }
+    }
+    return result;
+}
+
+std::vector<std::byte> readDataUri(const Document& document, std::string_view uri, const std::string& what) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string_view::npos) fault(document, "{}: its data URI has no comma", what);
+    const std::string_view data = uri.substr(comma + 1);
+    if (uri.substr(0, comma).ends_with(";base64")) {
+        std::optional<std::vector<std::byte>> decoded =
+            base64Decoded(data.find('%') == std::string_view::npos ? std::string(data) : percentDecoded(data));
+        if (!decoded) fault(document, "{}: its data URI is not valid base64", what);
+        return std::move(*decoded);
+    }
+    const std::string text = percentDecoded(data);
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+// A scheme is letters, digits, '+', '-' and '.' before a colon; a single letter is left to be a drive or a file's name.
+bool hasScheme(std::string_view uri) {
+    const std::size_t colon = uri.find(':');
+    return colon != std::string_view::npos && colon > 1 &&
+           std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon),
+                       [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.'; });
+}
+
+}  // namespace
+
+std::string oneLine(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+    if (text.size() <= longestMessage) return text;
+    std::size_t end = longestMessage;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not inside a UTF-8 character
+    return text.substr(0, end) + "…";
+}
+
+std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what) {
+    if (uri.starts_with("data:")) return readDataUri(document, uri, what);
+    if (hasScheme(uri)) fault(document, "{}: '{}' is not a relative path; only local files are read", what, uri);
+
+    // Some exporters write names as they are, others percent-coded as the standard says, which goes first.
+    const std::filesystem::path asWritten = document.folder / uri;
+    const std::filesystem::path decoded = document.folder / percentDecoded(uri);
+    if (uri.empty() || uri.find('\0') != std::string::npos || std::filesystem::path(percentDecoded(uri)).is_absolute())
+        fault(document, "{}: '{}' is not a relative path", what, uri);
+    std::error_code status;
+    for (const std::filesystem::path& path : {decoded, asWritten})
+        if (std::filesystem::is_regular_file(path, status)) return readFile(path);
+    fault(document, "{}: '{}' does not exist beside it", what, uri);
+}
+
+Document readDocument(const std::filesystem::path& path) {
+    Document document;
+    document.file = path.string();
+    document.folder = path.parent_path();
+
+    // Any container is recognised by its magic number; the name only decides what a broken one should have been.
+    const std::vector<std::byte> bytes = readFile(path);
+    document.fileBytes = bytes.size();
+    if (bytes.empty()) fault(document, "the file is empty: not valid JSON");
+    const bool glb =
+        (bytes.size() >= 4 && littleEndian32(bytes, 0) == glbMagic) || endsWithIgnoringCase(document.file, ".glb");
+    const Container container = glb ? splitGlb(document, bytes) : Container{bytes, std::nullopt};
+
+    document.json = parseJson(document, container.json);
+    if (container.binary) document.binaryChunk.emplace(container.binary->begin(), container.binary->end());
+    checkVersion(document);
+    return document;
+}
+
+}  // namespace defocus::gltf

@@ -1,0 +1,87 @@
+#include "scene/gltf/gltf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "scene/gltf/animation.h"
+#include "scene/gltf/material.h"
+#include "scene/gltf/mesh.h"
+#include "scene/gltf/node.h"
+#include "scene/gltf/source.h"
+#include "scene/pose.h"
+
+namespace defocus {
+
+namespace {
+
+// Numbers that are fine one by one can still multiply to infinity.
+void checkPlacement(const gltf::Source& source, const Scene& scene) {
+    const Pose pose = unmeasuredPoseAt(scene, 0, -1);
+    const auto finite = [](const glm::dmat4& matrix) {
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                if (!std::isfinite(matrix[column][row])) return false;
+        return true;
+    };
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+        if (!finite(pose.worldFromNode[i]))
+            gltf::fault(source.document, "node '{}' is placed at infinity", scene.nodes[i].name);
+    for (const Object& object : pose.objects)
+        if (!finite(object.worldFromObject) ||
+            !std::all_of(object.worldFromJoint.begin(), object.worldFromJoint.end(), finite))
+            gltf::fault(source.document, "object '{}' is placed at infinity", object.name);
+}
+
+std::vector<std::string> extensionsOf(const gltf::Source& source) {
+    std::set<std::string> names(source.model.extensionsUsed.begin(), source.model.extensionsUsed.end());
+    names.insert(source.model.extensionsRequired.begin(), source.model.extensionsRequired.end());
+    return {names.begin(), names.end()};
+}
+
+Scene readScene(gltf::Source& source, const std::filesystem::path& path, const Progress& progress) {
+    Scene scene;
+
+    // 1. Looks: materials first, since their normal maps decide which meshes need tangents.
+    scene.materials = gltf::readMaterials(source);
+    scene.textures = gltf::readTextures(source);
+    gltf::Images images = gltf::readImages(source, progress);
+    scene.images = std::move(images.images);
+    scene.imageNames = std::move(images.names);
+
+    // 2. Geometry.
+    scene.meshes = gltf::readMeshes(source, scene.materials, progress);
+
+    // 3. Hierarchy, and what moves it.
+    gltf::Hierarchy hierarchy = gltf::readHierarchy(source);
+    scene.cameras = gltf::readCameras(source);
+    scene.lights = gltf::readLights(source);
+    scene.clips = gltf::readAnimations(source, hierarchy, scene.meshes);
+    scene.skins = gltf::readSkins(source, hierarchy);
+    gltf::checkSkinnedMeshes(source, hierarchy, scene.meshes, scene.skins);
+    scene.name = hierarchy.sceneName.empty() ? path.stem().string() : hierarchy.sceneName;
+    scene.nodes = std::move(hierarchy.nodes);
+    scene.roots = std::move(hierarchy.roots);
+
+    // 4. What the file holds besides.
+    checkPlacement(source, scene);
+    scene.extensions = extensionsOf(source);
+    scene.ignored = std::move(source.ignored);
+    return scene;
+}
+
+}  // namespace
+
+Scene loadGltf(const std::filesystem::path& path, const Progress& progress) {
+    gltf::Source source = gltf::openSource(path, progress);
+    try {
+        return readScene(source, path, progress);
+    } catch (const nlohmann::json::exception& exception) {
+        // checkSchema vouches for everything that is read; this is the net below it.
+        gltf::fault(source.document, "not valid glTF: {}", exception.what());
+    } catch (const std::bad_alloc&) {
+        gltf::fault(source.document, "it does not fit into memory");
+    }
+}
+
+}  // namespace defocus

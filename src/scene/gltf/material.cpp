@@ -1,0 +1,177 @@
+// glTF 2.0 specification, 3.8 (textures) and 3.9 (materials); KHR_texture_transform, KHR_materials_emissive_strength,
+// KHR_materials_unlit.
+#include "scene/gltf/material.h"
+
+#include <cmath>
+#include <mutex>
+
+#include "core/parallel.h"
+#include "image/image_io.h"
+
+namespace defocus::gltf {
+
+namespace {
+
+// ---- materials ----------------------------------------------------------------------------------
+
+float numberOf(const nlohmann::json& json, const char* name, double otherwise) {
+    return toFloat(json.value(name, otherwise));
+}
+
+// uv' = T · R · S · uv. The rotation is counter-clockwise for a viewer of the texture, whose v grows downwards.
+glm::mat3 textureTransform(const nlohmann::json& json) {
+    const auto offset = json.value("offset", std::vector<double>{0, 0});
+    const auto scale = json.value("scale", std::vector<double>{1, 1});
+    const double rotation = json.value("rotation", 0.0);
+    const double c = std::cos(rotation);
+    const double s = std::sin(rotation);
+    return {toFloat(c * scale[0]), toFloat(-s * scale[0]), 0.0f,  // columns
+            toFloat(s * scale[1]), toFloat(c * scale[1]),  0.0f, toFloat(offset[0]), toFloat(offset[1]), 1.0f};
+}
+
+// The texture that `owner` names as `name`; none when it can't be drawn, which is noted.
+TextureUse textureUse(Source& source, const nlohmann::json& owner, const char* name) {
+    TextureUse use;
+    const auto found = owner.find(name);
+    if (found == owner.end()) return use;
+    const int texture = (*found)["index"].get<int>();
+    auto uvSet = found->value("texCoord", std::uint64_t{0});
+    if (const nlohmann::json* transform = findExtension(*found, "KHR_texture_transform")) {
+        use.uvTransform = textureTransform(*transform);
+        uvSet = transform->value("texCoord", uvSet);
+    }
+    if (uvSet > 1) {
+        ignore(source, fmt::format("texture with texture coordinates {}", uvSet), "only sets 0 and 1 are used");
+        return use;
+    }
+    if (source.model.textures[static_cast<std::size_t>(texture)].source < 0) {
+        ignore(source, "texture", "it has no plain image");
+        return use;
+    }
+    use.texture = texture;
+    use.uvSet = static_cast<int>(uvSet);
+    return use;
+}
+
+void readMetallicRoughness(Source& source, const nlohmann::json& json, Material& material) {
+    if (json.contains("baseColorFactor"))
+        for (int i = 0; i < 4; ++i)
+            material.baseColorFactor[i] = toFloat(json["baseColorFactor"][static_cast<std::size_t>(i)].get<double>());
+    material.metallicFactor = numberOf(json, "metallicFactor", 1.0);
+    material.roughnessFactor = numberOf(json, "roughnessFactor", 1.0);
+    material.baseColor = textureUse(source, json, "baseColorTexture");
+    material.metallicRoughness = textureUse(source, json, "metallicRoughnessTexture");
+}
+
+AlphaMode alphaModeOf(const Source& source, const std::string& name, const std::string& label) {
+    if (name == "OPAQUE") return AlphaMode::opaque;
+    if (name == "MASK") return AlphaMode::mask;
+    if (name == "BLEND") return AlphaMode::blend;
+    fault(source.document, "{}: unknown alphaMode '{}'", label, name);
+}
+
+Material readMaterial(Source& source, std::size_t index) {
+    const nlohmann::json& json = source.document.json["materials"][index];
+    Material material;
+    material.name = json.value("name", std::string());
+    if (json.contains("pbrMetallicRoughness")) readMetallicRoughness(source, json["pbrMetallicRoughness"], material);
+
+    material.normal = textureUse(source, json, "normalTexture");
+    if (json.contains("normalTexture")) material.normalScale = numberOf(json["normalTexture"], "scale", 1.0);
+    material.occlusion = textureUse(source, json, "occlusionTexture");
+    if (json.contains("occlusionTexture"))
+        material.occlusionStrength = numberOf(json["occlusionTexture"], "strength", 1.0);
+
+    material.emissive = textureUse(source, json, "emissiveTexture");
+    double strength = 1.0;
+    if (const nlohmann::json* extension = findExtension(json, "KHR_materials_emissive_strength"))
+        strength = extension->value("emissiveStrength", 1.0);
+    if (json.contains("emissiveFactor"))
+        for (int i = 0; i < 3; ++i)
+            material.emissiveFactor[i] =
+                toFloat(strength * json["emissiveFactor"][static_cast<std::size_t>(i)].get<double>());
+
+    material.alphaMode =
+        alphaModeOf(source, json.value("alphaMode", std::string("OPAQUE")), labelOf("material", index, material.name));
+    material.alphaCutoff = numberOf(json, "alphaCutoff", 0.5);
+    material.doubleSided = json.value("doubleSided", false);
+    material.unlit = findExtension(json, "KHR_materials_unlit") != nullptr;
+    return material;
+}
+
+// ---- textures -----------------------------------------------------------------------------------
+
+Wrap wrapOf(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clampToEdge;
+    if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirroredRepeat;
+    return Wrap::repeat;
+}
+
+Texture readTexture(const tinygltf::Model& model, const tinygltf::Texture& from) {
+    Texture texture;
+    texture.image = from.source;
+    if (from.sampler < 0) return texture;
+    const tinygltf::Sampler& sampler = model.samplers[static_cast<std::size_t>(from.sampler)];
+    const int minification = sampler.minFilter;
+    texture.wrapS = wrapOf(sampler.wrapS);
+    texture.wrapT = wrapOf(sampler.wrapT);
+    if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) texture.magnification = Filter::nearest;
+    const bool nearest = minification == TINYGLTF_TEXTURE_FILTER_NEAREST ||
+                         minification == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
+                         minification == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
+    if (nearest) texture.minification = Filter::nearest;
+    texture.mipmaps = minification != TINYGLTF_TEXTURE_FILTER_NEAREST && minification != TINYGLTF_TEXTURE_FILTER_LINEAR;
+    return texture;
+}
+
+// ---- images -------------------------------------------------------------------------------------
+
+std::string imageName(const nlohmann::json& json, std::size_t index) {
+    std::string name = json.value("name", std::string());
+    if (!name.empty()) return name;
+    std::string uri = json.value("uri", std::string());
+    return uri.empty() || uri.starts_with("data:") ? fmt::format("image {}", index) : uri;
+}
+
+std::vector<std::byte> encodedImage(const Source& source, const nlohmann::json& json, const std::string& label) {
+    if (json.contains("uri")) return readUri(source.document, json["uri"].get<std::string>(), label);
+    if (!json.contains("bufferView")) fault(source.document, "{}: it has neither uri nor bufferView", label);
+    const std::span<const std::byte> bytes = viewBytes(source, json["bufferView"].get<int>());
+    return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+std::vector<Material> readMaterials(Source& source) {
+    std::vector<Material> materials;
+    for (std::size_t i = 0; i < source.model.materials.size(); ++i) materials.push_back(readMaterial(source, i));
+    return materials;
+}
+
+std::vector<Texture> readTextures(Source& source) {
+    std::vector<Texture> textures;
+    for (const tinygltf::Texture& texture : source.model.textures)
+        textures.push_back(readTexture(source.model, texture));
+    return textures;
+}
+
+Images readImages(Source& source, const Progress& progress) {
+    const auto found = source.document.json.find("images");
+    const std::size_t count = found != source.document.json.end() ? found->size() : 0;
+    Images result;
+    result.images.resize(count);
+    for (std::size_t i = 0; i < count; ++i) result.names.push_back(oneLine(imageName((*found)[i], i)));
+
+    std::mutex mutex;
+    std::size_t done = 0;
+    parallelFor(count, [&](std::size_t i) {
+        const std::string label = fmt::format("image {} '{}'", i, result.names[i]);
+        const std::vector<std::byte> encoded = encodedImage(source, (*found)[i], label);
+        result.images[i] = decodeTexture(encoded, source.document.file + ": " + label);
+        const std::scoped_lock lock(mutex);
+        report(progress, "reading images", ++done, count);
+    });
+    return result;
+}
+
+}  // namespace defocus::gltf

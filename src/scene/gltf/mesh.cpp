@@ -1,0 +1,223 @@
+// glTF 2.0 specification, 3.7.2 (meshes): topology of strips and fans, flat normals, tangents.
+#include "scene/gltf/mesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "scene/gltf/accessor.h"
+#include "scene/gltf/attributes.h"
+#include "scene/tangents.h"
+
+namespace defocus::gltf {
+
+namespace {
+
+// What two primitives must have in common to share vertices.
+struct VertexSource {
+    std::map<std::string, int> attributes;
+    std::vector<std::map<std::string, int>> targets;
+    bool operator==(const VertexSource&) const = default;
+};
+
+// Primitives of one mesh over the same vertices.
+struct Group {
+    VertexSource vertices;
+    std::vector<std::size_t> members;  // into the mesh's primitives
+    bool compressed = false;
+};
+
+// The vertices that were read last: files with one set of attributes for many meshes name them again and again.
+struct LastBlock {
+    VertexSource vertices;
+    VertexBlock block;
+};
+
+std::vector<std::uint32_t> triangleList(int mode, const std::vector<std::uint32_t>& indices) {
+    if (mode == TINYGLTF_MODE_TRIANGLES)
+        return {indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(indices.size() % 3)};
+    std::vector<std::uint32_t> result;
+    for (std::size_t i = 0; i + 2 < indices.size(); ++i) {
+        const bool fan = mode == TINYGLTF_MODE_TRIANGLE_FAN;
+        const std::uint32_t a = fan ? indices[i + 1] : indices[i];
+        const std::uint32_t b = fan ? indices[i + 2] : indices[i + 1 + i % 2];
+        const std::uint32_t c = fan ? indices[0] : indices[i + 2 - i % 2];
+        // Strips turn corners by triangles that repeat a vertex.
+        if (a != b && b != c && c != a) result.insert(result.end(), {a, b, c});
+    }
+    return result;
+}
+
+std::vector<std::uint32_t> readTriangles(Source& source, const tinygltf::Primitive& primitive, std::size_t vertexCount,
+                                         const DracoPrimitive* draco, const std::string& what) {
+    std::vector<std::uint32_t> indices;
+    if (draco != nullptr) {
+        indices = draco->triangles();
+    } else if (primitive.indices >= 0) {
+        indices = readIntegers(source, primitive.indices, 1, what + ": indices");
+    } else {
+        takeBudget(source, vertexCount, sizeof(std::uint32_t), what);
+        indices.resize(vertexCount);
+        std::iota(indices.begin(), indices.end(), 0u);
+    }
+    for (const std::uint32_t index : indices)
+        if (index >= vertexCount)
+            fault(source.document, "{}: index {} is out of range, there are {} vertices", what, index, vertexCount);
+    return triangleList(draco != nullptr ? TINYGLTF_MODE_TRIANGLES : primitive.mode, indices);
+}
+
+// True for a primitive of triangles; others are noted.
+bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::string& what) {
+    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+        fault(source.document, "{}: unknown mode {}", what, primitive.mode);
+    if (!primitive.attributes.contains("POSITION")) {
+        ignore(source, "primitive", "it has no positions");
+        return false;
+    }
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+        ignore(source, primitive.mode == TINYGLTF_MODE_POINTS ? "points" : "lines", "only triangles are drawn");
+        return false;
+    }
+    for (const char* name : {"TEXCOORD_2", "COLOR_1", "JOINTS_2"})
+        if (primitive.attributes.contains(name)) ignore(source, name, "a further attribute set is not used");
+    return true;
+}
+
+std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, const nlohmann::json& json,
+                                   const std::string& label) {
+    std::vector<Group> groups;
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+        const tinygltf::Primitive& primitive = mesh.primitives[i];
+        if (!drawable(source, primitive, fmt::format("{}, primitive {}", label, i))) continue;
+        const bool compressed = findExtension(json["primitives"][i], "KHR_draco_mesh_compression") != nullptr;
+        const VertexSource vertices{primitive.attributes, primitive.targets};
+        const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+            return !compressed && !group.compressed && group.vertices == vertices;
+        });
+        if (same != groups.end())
+            same->members.push_back(i);
+        else
+            groups.push_back({vertices, {i}, compressed});
+    }
+    return groups;
+}
+
+// The texture coordinates of a normal map among the primitives, or −1 when none has a normal map.
+int normalMapUvSet(const std::vector<Primitive>& primitives, const std::vector<Material>& materials) {
+    for (const Primitive& primitive : primitives)
+        if (primitive.material >= 0 && materials[static_cast<std::size_t>(primitive.material)].normal.used())
+            return materials[static_cast<std::size_t>(primitive.material)].normal.uvSet;
+    return -1;
+}
+
+class MeshReader {
+public:
+    MeshReader(Source& source, const std::vector<Material>& materials) : source_(source), materials_(materials) {}
+
+    Mesh read(std::size_t index) {
+        const tinygltf::Mesh& from = source_.model.meshes[index];
+        const nlohmann::json& json = source_.document.json["meshes"][index];
+        const std::string label = labelOf("mesh", index, from.name);
+        Mesh mesh;
+        mesh.name = from.name;
+        dropped_ = 0;
+        std::vector<std::pair<std::size_t, Primitive>> primitives;
+        for (const Group& group : groupPrimitives(source_, from, json, label)) {
+            std::vector<Primitive> members = readGroup(mesh, from, json, group, label);
+            for (std::size_t i = 0; i < members.size(); ++i)
+                primitives.emplace_back(group.members[i], std::move(members[i]));
+        }
+        std::sort(primitives.begin(), primitives.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (auto& [order, primitive] : primitives) mesh.primitives.push_back(std::move(primitive));
+        if (dropped_ > 0 && mesh.triangleCount() == 0)
+            fault(source_.document, "{}: every triangle has a position that is not finite (NaN or infinite)", label);
+        readMorphWeights(mesh, from, label);
+        return mesh;
+    }
+
+private:
+    // Reads the group's triangles and vertices and appends them to the mesh.
+    std::vector<Primitive> readGroup(Mesh& mesh, const tinygltf::Mesh& from, const nlohmann::json& json,
+                                     const Group& group, const std::string& label) {
+        const std::string what = fmt::format("{}, primitive {}", label, group.members.front());
+        std::optional<DracoPrimitive> draco;
+        if (group.compressed)
+            draco.emplace(
+                source_, *findExtension(json["primitives"][group.members.front()], "KHR_draco_mesh_compression"), what);
+        const VertexBlock& all =
+            readBlock(from.primitives[group.members.front()], group, draco ? &*draco : nullptr, what);
+
+        std::vector<Primitive> primitives;
+        std::vector<std::vector<std::uint32_t>*> lists;
+        for (const std::size_t member : group.members) {
+            const tinygltf::Primitive& primitive = from.primitives[member];
+            primitives.push_back(
+                {primitive.material, readTriangles(source_, primitive, all.vertices.count(), draco ? &*draco : nullptr,
+                                                   fmt::format("{}, primitive {}", label, member))});
+        }
+        lists.reserve(primitives.size());
+        for (Primitive& primitive : primitives) lists.push_back(&primitive.indices);
+        dropped_ += dropUnplaced(source_, all.vertices.positions, lists);
+
+        VertexBlock block = finish(compacted(all, lists), lists, normalMapUvSet(primitives, materials_), what);
+        takeBudget(source_, block.vertices.count(), sizeof(glm::vec3) * 4, what);
+        const std::uint32_t base = append(mesh, block);
+        for (Primitive& primitive : primitives)
+            for (std::uint32_t& index : primitive.indices) index += base;
+        return primitives;
+    }
+
+    const VertexBlock& readBlock(const tinygltf::Primitive& primitive, const Group& group, const DracoPrimitive* draco,
+                                 const std::string& what) {
+        if (group.compressed || !last_ || last_->vertices != group.vertices)
+            last_ = {group.compressed ? VertexSource{} : group.vertices,
+                     readAttributes(source_, primitive, draco, what)};
+        return last_->block;
+    }
+
+    // Usable values, normals, tangents.
+    VertexBlock finish(VertexBlock block, std::span<std::vector<std::uint32_t>* const> lists, int normalMapUv,
+                       const std::string& what) {
+        repair(source_, block, lists);
+        if (block.vertices.normals.empty()) {
+            std::size_t corners = 0;
+            for (const std::vector<std::uint32_t>* list : lists) corners += list->size();
+            takeBudget(source_, corners, sizeof(glm::vec3) * 2, what);
+            block = flatShaded(block, lists);
+        }
+        if (normalMapUv >= 0 && block.vertices.tangents.empty()) block = withTangents(block, lists, normalMapUv);
+        return block;
+    }
+
+    void readMorphWeights(Mesh& mesh, const tinygltf::Mesh& from, const std::string& label) {
+        for (const tinygltf::Primitive& primitive : from.primitives)
+            if (primitive.targets.size() != from.primitives.front().targets.size())
+                fault(source_.document, "{}: its primitives have different numbers of morph targets", label);
+        mesh.morphWeights.assign(mesh.morphTargets.size(), 0.0f);
+        for (std::size_t i = 0; i < std::min(from.weights.size(), mesh.morphWeights.size()); ++i)
+            mesh.morphWeights[i] = toFloat(from.weights[i]);
+    }
+
+    Source& source_;
+    const std::vector<Material>& materials_;
+    std::optional<LastBlock> last_;
+    std::uint64_t dropped_ = 0;  // triangles of the mesh that have no place
+};
+
+}  // namespace
+
+std::vector<Mesh> readMeshes(Source& source, const std::vector<Material>& materials, const Progress& progress) {
+    MeshReader reader(source, materials);
+    std::vector<Mesh> meshes;
+    for (std::size_t i = 0; i < source.model.meshes.size(); ++i) {
+        report(progress, "reading meshes", i, source.model.meshes.size());
+        meshes.push_back(reader.read(i));
+        const std::vector<float>& scales = meshes.back().vertices.cocScales;
+        if (scales.empty()) continue;
+        const auto [least, most] = std::minmax_element(scales.begin(), scales.end());
+        meshes.back().cocScaleLeast = *least;
+        meshes.back().cocScaleMost = *most;
+    }
+    return meshes;
+}
+
+}  // namespace defocus::gltf

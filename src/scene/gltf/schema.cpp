@@ -1,0 +1,336 @@
+// glTF 2.0 specification, chapter 5 (properties reference), and the specifications of the supported extensions.
+#include "scene/gltf/schema.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace defocus::gltf {
+
+namespace {
+
+using Json = nlohmann::json;
+
+enum class Kind {
+    string,
+    strings,
+    boolean,
+    number,
+    numbers,    // array; `length` entries unless that is 0
+    size,       // integer ≥ 0
+    index,      // integer that refers to an entry of the top-level array `target`
+    indices,    // array of such
+    indexMap,   // object whose values are such
+    indexMaps,  // array of such objects
+    object,     // with `properties`
+    objects,    // array of such
+};
+
+struct Property {
+    std::string_view name;
+    Kind kind;
+    std::string_view target = {};               // index, indices, indexMap, indexMaps
+    std::span<const Property> properties = {};  // object, objects
+    std::size_t length = 0;                     // numbers
+    bool required = false;
+};
+
+constexpr Property required(Property property) {
+    property.required = true;
+    return property;
+}
+constexpr Property numbers(std::string_view name, std::size_t length) {
+    return {name, Kind::numbers, {}, {}, length};
+}
+constexpr Property object(std::string_view name, std::span<const Property> properties) {
+    return {name, Kind::object, {}, properties};
+}
+constexpr Property objects(std::string_view name, std::span<const Property> properties) {
+    return {name, Kind::objects, {}, properties};
+}
+constexpr Property nameProperty{"name", Kind::string};
+
+// ---- buffers and accessors ----------------------------------------------------------------------
+
+constexpr Property bufferProperties[] = {nameProperty, {"uri", Kind::string}, required({"byteLength", Kind::size})};
+
+constexpr Property meshoptProperties[] = {required({"buffer", Kind::index, "buffers"}),
+                                          {"byteOffset", Kind::size},
+                                          required({"byteLength", Kind::size}),
+                                          required({"byteStride", Kind::size}),
+                                          required({"count", Kind::size}),
+                                          required({"mode", Kind::string}),
+                                          {"filter", Kind::string}};
+constexpr Property bufferViewExtensions[] = {object("EXT_meshopt_compression", meshoptProperties)};
+constexpr Property bufferViewProperties[] = {nameProperty,
+                                             required({"buffer", Kind::index, "buffers"}),
+                                             {"byteOffset", Kind::size},
+                                             required({"byteLength", Kind::size}),
+                                             {"byteStride", Kind::size},
+                                             {"target", Kind::size},
+                                             object("extensions", bufferViewExtensions)};
+
+constexpr Property sparseIndicesProperties[] = {required({"bufferView", Kind::index, "bufferViews"}),
+                                                {"byteOffset", Kind::size},
+                                                required({"componentType", Kind::size})};
+constexpr Property sparseValuesProperties[] = {required({"bufferView", Kind::index, "bufferViews"}),
+                                               {"byteOffset", Kind::size}};
+constexpr Property sparseProperties[] = {required({"count", Kind::size}),
+                                         required(object("indices", sparseIndicesProperties)),
+                                         required(object("values", sparseValuesProperties))};
+constexpr Property accessorProperties[] = {nameProperty,
+                                           {"bufferView", Kind::index, "bufferViews"},
+                                           {"byteOffset", Kind::size},
+                                           required({"componentType", Kind::size}),
+                                           {"normalized", Kind::boolean},
+                                           required({"count", Kind::size}),
+                                           required({"type", Kind::string}),
+                                           {"min", Kind::numbers},
+                                           {"max", Kind::numbers},
+                                           object("sparse", sparseProperties)};
+
+// ---- meshes -------------------------------------------------------------------------------------
+
+constexpr Property dracoProperties[] = {required({"bufferView", Kind::index, "bufferViews"}),
+                                        required({"attributes", Kind::indexMap})};
+constexpr Property primitiveExtensions[] = {object("KHR_draco_mesh_compression", dracoProperties)};
+constexpr Property primitiveProperties[] = {required({"attributes", Kind::indexMap, "accessors"}),
+                                            {"indices", Kind::index, "accessors"},
+                                            {"material", Kind::index, "materials"},
+                                            {"mode", Kind::size},
+                                            {"targets", Kind::indexMaps, "accessors"},
+                                            object("extensions", primitiveExtensions)};
+constexpr Property meshProperties[] = {
+    nameProperty, required(objects("primitives", primitiveProperties)), {"weights", Kind::numbers}};
+
+// ---- materials ----------------------------------------------------------------------------------
+
+constexpr Property textureTransformProperties[] = {
+    numbers("offset", 2), {"rotation", Kind::number}, numbers("scale", 2), {"texCoord", Kind::size}};
+constexpr Property textureInfoExtensions[] = {object("KHR_texture_transform", textureTransformProperties)};
+constexpr Property textureInfoProperties[] = {required({"index", Kind::index, "textures"}),
+                                              {"texCoord", Kind::size},
+                                              {"scale", Kind::number},
+                                              {"strength", Kind::number},
+                                              object("extensions", textureInfoExtensions)};
+constexpr Property metallicRoughnessProperties[] = {numbers("baseColorFactor", 4),
+                                                    object("baseColorTexture", textureInfoProperties),
+                                                    {"metallicFactor", Kind::number},
+                                                    {"roughnessFactor", Kind::number},
+                                                    object("metallicRoughnessTexture", textureInfoProperties)};
+constexpr Property emissiveStrengthProperties[] = {{"emissiveStrength", Kind::number}};
+constexpr Property unlitProperties[] = {nameProperty};
+constexpr Property materialExtensions[] = {object("KHR_materials_emissive_strength", emissiveStrengthProperties),
+                                           object("KHR_materials_unlit", unlitProperties)};
+constexpr Property materialProperties[] = {nameProperty,
+                                           object("pbrMetallicRoughness", metallicRoughnessProperties),
+                                           object("normalTexture", textureInfoProperties),
+                                           object("occlusionTexture", textureInfoProperties),
+                                           object("emissiveTexture", textureInfoProperties),
+                                           numbers("emissiveFactor", 3),
+                                           {"alphaMode", Kind::string},
+                                           {"alphaCutoff", Kind::number},
+                                           {"doubleSided", Kind::boolean},
+                                           object("extensions", materialExtensions)};
+constexpr Property imageProperties[] = {
+    nameProperty, {"uri", Kind::string}, {"mimeType", Kind::string}, {"bufferView", Kind::index, "bufferViews"}};
+constexpr Property samplerProperties[] = {
+    nameProperty, {"magFilter", Kind::size}, {"minFilter", Kind::size}, {"wrapS", Kind::size}, {"wrapT", Kind::size}};
+constexpr Property textureProperties[] = {
+    nameProperty, {"sampler", Kind::index, "samplers"}, {"source", Kind::index, "images"}};
+
+// ---- hierarchy ----------------------------------------------------------------------------------
+
+constexpr Property instancingProperties[] = {required({"attributes", Kind::indexMap, "accessors"})};
+constexpr Property nodeLightProperties[] = {required({"light", Kind::size})};
+constexpr Property nodeExtensions[] = {object("EXT_mesh_gpu_instancing", instancingProperties),
+                                       object("KHR_lights_punctual", nodeLightProperties)};
+constexpr Property nodeProperties[] = {nameProperty,
+                                       {"camera", Kind::index, "cameras"},
+                                       {"children", Kind::indices, "nodes"},
+                                       {"skin", Kind::index, "skins"},
+                                       numbers("matrix", 16),
+                                       {"mesh", Kind::index, "meshes"},
+                                       numbers("rotation", 4),
+                                       numbers("scale", 3),
+                                       numbers("translation", 3),
+                                       {"weights", Kind::numbers},
+                                       object("extensions", nodeExtensions)};
+constexpr Property sceneProperties[] = {nameProperty, {"nodes", Kind::indices, "nodes"}};
+constexpr Property skinProperties[] = {nameProperty,
+                                       {"inverseBindMatrices", Kind::index, "accessors"},
+                                       {"skeleton", Kind::index, "nodes"},
+                                       required({"joints", Kind::indices, "nodes"})};
+
+constexpr Property perspectiveProperties[] = {{"aspectRatio", Kind::number},
+                                              required({"yfov", Kind::number}),
+                                              {"zfar", Kind::number},
+                                              required({"znear", Kind::number})};
+constexpr Property orthographicProperties[] = {
+    {"xmag", Kind::number}, {"ymag", Kind::number}, {"zfar", Kind::number}, {"znear", Kind::number}};
+// Draft, of the glTF repository's proposal (July 2026); lengths in metres.
+constexpr Property physicalCameraProperties[] = {required({"focalLength", Kind::number}),
+                                                 required(numbers("sensorSize", 2)),
+                                                 {"fStop", Kind::number},
+                                                 {"focusDistance", Kind::number}};
+constexpr Property cameraExtensions[] = {object("EXT_camera_physical", physicalCameraProperties)};
+constexpr Property cameraProperties[] = {
+    nameProperty, required({"type", Kind::string}), object("perspective", perspectiveProperties),
+    object("orthographic", orthographicProperties), object("extensions", cameraExtensions)};
+
+constexpr Property spotProperties[] = {{"innerConeAngle", Kind::number}, {"outerConeAngle", Kind::number}};
+constexpr Property lightProperties[] = {nameProperty,
+                                        required({"type", Kind::string}),
+                                        numbers("color", 3),
+                                        {"intensity", Kind::number},
+                                        {"range", Kind::number},
+                                        object("spot", spotProperties)};
+constexpr Property lightsProperties[] = {required(objects("lights", lightProperties))};
+
+// ---- animation ----------------------------------------------------------------------------------
+
+constexpr Property animationPointerProperties[] = {required({"pointer", Kind::string})};
+constexpr Property animationTargetExtensions[] = {object("KHR_animation_pointer", animationPointerProperties)};
+constexpr Property animationTargetProperties[] = {
+    {"node", Kind::index, "nodes"}, required({"path", Kind::string}), object("extensions", animationTargetExtensions)};
+constexpr Property animationChannelProperties[] = {required({"sampler", Kind::size}),
+                                                   required(object("target", animationTargetProperties))};
+constexpr Property animationSamplerProperties[] = {required({"input", Kind::index, "accessors"}),
+                                                   {"interpolation", Kind::string},
+                                                   required({"output", Kind::index, "accessors"})};
+constexpr Property animationProperties[] = {nameProperty, required(objects("channels", animationChannelProperties)),
+                                            required(objects("samplers", animationSamplerProperties))};
+
+// ---- the whole file -----------------------------------------------------------------------------
+
+constexpr Property rootExtensions[] = {object("KHR_lights_punctual", lightsProperties)};
+constexpr Property rootProperties[] = {
+    {"extensionsUsed", Kind::strings},        {"extensionsRequired", Kind::strings},
+    objects("accessors", accessorProperties), objects("animations", animationProperties),
+    objects("buffers", bufferProperties),     objects("bufferViews", bufferViewProperties),
+    objects("cameras", cameraProperties),     objects("images", imageProperties),
+    objects("materials", materialProperties), objects("meshes", meshProperties),
+    objects("nodes", nodeProperties),         objects("samplers", samplerProperties),
+    {"scene", Kind::index, "scenes"},         objects("scenes", sceneProperties),
+    objects("skins", skinProperties),         objects("textures", textureProperties),
+    object("extensions", rootExtensions)};
+
+// ---- the walk -----------------------------------------------------------------------------------
+
+// Integers beyond 2^53 are not exact in JSON; indices must also fit an int.
+constexpr std::uint64_t largestSize = 1ull << 53;
+
+class Checker {
+public:
+    explicit Checker(const Document& document) : document_(document) {}
+
+    void checkObject(const Json& json, std::span<const Property> properties, const std::string& place) {
+        if (!json.is_object()) fault(document_, "{} must be an object", place);
+        for (const Property& property : properties) {
+            const auto found = json.find(property.name);
+            const std::string inside =
+                place.empty() ? std::string(property.name) : fmt::format("{}.{}", place, property.name);
+            if (found != json.end())
+                checkValue(*found, property, inside);
+            else if (property.required)
+                fault(document_, "{} is missing", inside);
+        }
+    }
+
+private:
+    void checkValue(const Json& json, const Property& property, const std::string& place) {
+        switch (property.kind) {
+            case Kind::string:
+                if (!json.is_string()) fault(document_, "{} must be a string", place);
+                break;
+            case Kind::boolean:
+                if (!json.is_boolean()) fault(document_, "{} must be true or false", place);
+                break;
+            case Kind::number:
+                if (!json.is_number()) fault(document_, "{} must be a number", place);
+                break;
+            case Kind::size:
+                checkSize(json, place);
+                break;
+            case Kind::index:
+                checkIndex(json, property.target, place);
+                break;
+            case Kind::indexMap:
+                checkIndexMap(json, property.target, place);
+                break;
+            case Kind::object:
+                checkObject(json, property.properties, place);
+                break;
+            case Kind::strings:
+            case Kind::numbers:
+            case Kind::indices:
+            case Kind::indexMaps:
+            case Kind::objects:
+                checkArray(json, property, place);
+                break;
+        }
+    }
+
+    void checkArray(const Json& json, const Property& property, const std::string& place) {
+        if (!json.is_array()) fault(document_, "{} must be an array", place);
+        if (property.length != 0 && json.size() != property.length)
+            fault(document_, "{} must have {} numbers, not {}", place, property.length, json.size());
+        Property entry = property;
+        switch (property.kind) {
+            case Kind::strings:
+                entry.kind = Kind::string;
+                break;
+            case Kind::numbers:
+                if (std::all_of(json.begin(), json.end(), [](const Json& number) { return number.is_number(); }))
+                    return;
+                fault(document_, "{} must hold numbers only", place);
+            case Kind::indices:
+                entry.kind = Kind::index;
+                break;
+            case Kind::indexMaps:
+                entry.kind = Kind::indexMap;
+                break;
+            default:
+                entry.kind = Kind::object;
+                break;
+        }
+        for (std::size_t i = 0; i < json.size(); ++i) checkValue(json[i], entry, fmt::format("{}[{}]", place, i));
+    }
+
+    void checkIndexMap(const Json& json, std::string_view target, const std::string& place) {
+        if (!json.is_object()) fault(document_, "{} must be an object", place);
+        for (const auto& [key, value] : json.items()) {
+            const std::string inside = fmt::format("{}.{}", place, key);
+            if (target.empty())
+                checkSize(value, inside);
+            else
+                checkIndex(value, target, inside);
+        }
+    }
+
+    void checkSize(const Json& json, const std::string& place) {
+        if (!json.is_number_integer() || (!json.is_number_unsigned() && json.get<std::int64_t>() < 0))
+            fault(document_, "{} must be an integer of at least 0", place);
+        if (json.get<std::uint64_t>() > largestSize) fault(document_, "{} is too large", place);
+    }
+
+    void checkIndex(const Json& json, std::string_view target, const std::string& place) {
+        checkSize(json, place);
+        const auto found = document_.json.find(target);
+        const std::size_t count = found != document_.json.end() && found->is_array() ? found->size() : 0;
+        if (json.get<std::uint64_t>() >= std::min<std::uint64_t>(count, std::numeric_limits<int>::max()))
+            fault(document_, "{} is {}, but the file has {} {}", place, json.get<std::uint64_t>(), count, target);
+    }
+
+    const Document& document_;
+};
+
+}  // namespace
+
+void checkSchema(const Document& document) {
+    Checker(document).checkObject(document.json, rootProperties, "");
+}
+
+}  // namespace defocus::gltf

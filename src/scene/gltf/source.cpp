@@ -1,0 +1,189 @@
+#include "scene/gltf/source.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <string_view>
+
+#include "scene/gltf/accessor.h"
+#include "scene/gltf/meshopt.h"
+#include "scene/gltf/schema.h"
+
+namespace defocus::gltf {
+
+namespace {
+
+constexpr std::array<std::string_view, 10> supportedExtensions = {
+    "EXT_camera_physical",        "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_animation_pointer",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_materials_emissive_strength", "KHR_materials_unlit",
+    "KHR_mesh_quantization",      "KHR_texture_transform",
+};
+
+// What a person sees instead, for extensions that are often met.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> fallbackLooks = {{
+    {"KHR_materials_pbrSpecularGlossiness", "not supported; drawn with the material's metallic-roughness values"},
+    {"KHR_materials_transmission", "not supported; drawn without transmission"},
+    {"KHR_materials_volume", "not supported; drawn without volume absorption"},
+    {"KHR_materials_clearcoat", "not supported; drawn without clear coat"},
+    {"KHR_materials_variants", "not supported; drawn in the default variant"},
+    {"KHR_texture_basisu", "not supported; the texture's plain image is used where it has one"},
+    {"EXT_texture_webp", "not supported; the texture's plain image is used where it has one"},
+    {"MSFT_texture_dds", "not supported; the texture's plain image is used where it has one"},
+}};
+
+std::vector<std::string> stringsOf(const nlohmann::json& json, const char* name) {
+    const auto found = json.find(name);
+    return found != json.end() ? found->get<std::vector<std::string>>() : std::vector<std::string>();
+}
+
+void checkExtensions(Source& source) {
+    const auto supported = [](const std::string& name) {
+        return std::find(supportedExtensions.begin(), supportedExtensions.end(), name) != supportedExtensions.end();
+    };
+    for (const std::string& name : stringsOf(source.document.json, "extensionsRequired"))
+        if (!supported(name)) fault(source.document, "it requires the extension {}, which is not supported", name);
+    const std::vector<std::string> used = stringsOf(source.document.json, "extensionsUsed");
+    for (const std::string& name : std::set<std::string>(used.begin(), used.end())) {
+        if (supported(name)) continue;
+        const auto* look = std::find_if(fallbackLooks.begin(), fallbackLooks.end(),
+                                        [&](const auto& entry) { return entry.first == name; });
+        ignore(source, "extension " + name, std::string(look != fallbackLooks.end() ? look->second : "not supported"));
+    }
+}
+
+// tinygltf would open files, decode images and refuse indices that Draco keeps: those parts are cut out of its copy.
+void parseStructure(Source& source) {
+    nlohmann::json json = source.document.json;
+    json.erase("buffers");
+    json.erase("images");
+    if (json.contains("meshes"))
+        for (nlohmann::json& mesh : json["meshes"])
+            for (nlohmann::json& primitive : mesh["primitives"]) primitive.erase("indices");
+
+    const std::string text = json.dump();
+    std::string error;
+    std::string warning;
+    bool parsed = false;
+    if (text.size() > std::numeric_limits<unsigned int>::max()) fault(source.document, "its JSON is too large");
+    try {
+        parsed = tinygltf::TinyGLTF().LoadASCIIFromString(&source.model, &error, &warning, text.c_str(),
+                                                          static_cast<unsigned int>(text.size()), "");
+    } catch (const std::exception& exception) {
+        error = exception.what();
+    }
+    if (!parsed) fault(source.document, "not valid glTF: {}", error);
+
+    for (std::size_t m = 0; m < source.model.meshes.size(); ++m) {
+        std::vector<tinygltf::Primitive>& primitives = source.model.meshes[m].primitives;
+        const nlohmann::json& originals = source.document.json["meshes"][m]["primitives"];
+        if (primitives.size() != originals.size()) fault(source.document, "mesh {}: a primitive cannot be read", m);
+        for (std::size_t p = 0; p < primitives.size(); ++p) primitives[p].indices = originals[p].value("indices", -1);
+    }
+}
+
+void readBuffers(Source& source, const Progress& progress) {
+    const auto found = source.document.json.find("buffers");
+    const std::size_t count = found != source.document.json.end() ? found->size() : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        report(progress, "reading buffers", i, count);
+        const nlohmann::json& buffer = (*found)[i];
+        const std::string what = fmt::format("buffer {}", i);
+        const auto length = buffer["byteLength"].get<std::uint64_t>();
+        std::optional<std::vector<std::byte>> bytes;
+        if (buffer.contains("uri"))
+            bytes = readUri(source.document, buffer["uri"].get<std::string>(), what);
+        else if (i == 0 && source.document.binaryChunk)
+            bytes = std::move(source.document.binaryChunk);
+        if (bytes && bytes->size() < length)
+            fault(source.document, "{}: byteLength is {}, but it has {} bytes", what, length, bytes->size());
+        if (bytes) bytes->resize(length);
+        source.buffers.push_back(std::move(bytes));
+    }
+}
+
+void checkViews(const Source& source) {
+    for (std::size_t i = 0; i < source.model.bufferViews.size(); ++i)
+        if (!source.unpackedViews[i]) (void)viewBytes(source, static_cast<int>(i));
+}
+
+}  // namespace
+
+bool UnpackBudget::take(std::uint64_t count, std::uint64_t elementBytes) {
+    if (elementBytes != 0 && count > left_ / elementBytes) return false;
+    left_ -= count * elementBytes;
+    return true;
+}
+
+Source openSource(const std::filesystem::path& path, const Progress& progress) {
+    Source source;
+
+    // 1. The container, and the JSON against the schema.
+    source.document = readDocument(path);
+    source.budget = UnpackBudget(source.document.fileBytes);
+    checkSchema(source.document);
+    checkExtensions(source);
+
+    // 2. The structure.
+    parseStructure(source);
+
+    // 3. Buffers; views that need unpacking are unpacked.
+    readBuffers(source, progress);
+    unpackMeshoptViews(source);
+    checkViews(source);
+
+    // 4. No accessor leaves its view.
+    checkAccessors(source);
+    return source;
+}
+
+std::span<const std::byte> viewBytes(const Source& source, int view) {
+    const auto index = static_cast<std::size_t>(view);
+    if (source.unpackedViews[index]) return *source.unpackedViews[index];
+    const tinygltf::BufferView& bufferView = source.model.bufferViews[index];
+    const auto& buffer = source.buffers[static_cast<std::size_t>(bufferView.buffer)];
+    if (!buffer) fault(source.document, "buffer view {}: buffer {} has no data", view, bufferView.buffer);
+    if (bufferView.byteOffset > buffer->size() || bufferView.byteLength > buffer->size() - bufferView.byteOffset)
+        fault(source.document, "buffer view {}: its {} bytes from {} leave buffer {}, which has {}", view,
+              bufferView.byteLength, bufferView.byteOffset, bufferView.buffer, buffer->size());
+    return std::span(*buffer).subspan(bufferView.byteOffset, bufferView.byteLength);
+}
+
+void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what) {
+    if (!source.budget.take(count, elementBytes))
+        fault(source.document, "{}: {} elements are far more than a file of {} bytes can mean", what, count,
+              source.document.fileBytes);
+}
+
+void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count) {
+    for (Ignored& entry : source.ignored)
+        if (entry.what == what && entry.reason == reason) {
+            entry.count += count;
+            return;
+        }
+    source.ignored.push_back({what, reason, count});
+}
+
+void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count) {
+    ignore(source, what, reason, count);
+    for (Ignored& entry : source.ignored)
+        if (entry.what == what && entry.reason == reason) entry.damage = true;
+}
+
+const nlohmann::json* findExtension(const nlohmann::json& object, const char* name) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object()) return nullptr;
+    const auto found = extensions->find(name);
+    return found != extensions->end() ? &*found : nullptr;
+}
+
+std::string labelOf(const char* kind, std::size_t index, const std::string& name) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+}
+
+float toFloat(double value) {
+    constexpr double largest = std::numeric_limits<float>::max();
+    return static_cast<float>(std::clamp(value, -largest, largest));
+}
+
+}  // namespace defocus::gltf

@@ -1,0 +1,48 @@
+#pragma once
+// The fish kinds before any variation: outline, fins and palette of each. `variant` picks a palette, modulo their
+// number. fish_prototypes_disks.cpp: tall disks; fish_prototypes_ovals.cpp: ovals; fish_prototypes_swimmers.cpp: long
+// swimmers.
+
+#include "school/mesh.h"
+
+namespace defocus::prototypes {
+
+Fish angelfish(int variant);
+Fish butterflyfish(int variant);
+Fish idol(int variant);
+
+Fish anthias(int variant);
+Fish tang(int variant);
+Fish clownfish(int variant);
+Fish goldfish(int variant);
+
+Fish fusilier(int variant);
+Fish parrotfish(int variant);
+
+// Shorthands for the tables, colours as 0xRRGGBB in sRGB.
+inline glm::vec3 rgb(std::uint32_t srgb) {
+    return linearColor(srgb);
+}
+
+inline void setBody(FishPattern& p, std::uint32_t back, std::uint32_t flank, std::uint32_t belly) {
+    p.back = rgb(back);
+    p.flank = rgb(flank);
+    p.belly = rgb(belly);
+}
+
+inline void setMedianFins(FishPattern& p, std::uint32_t root, std::uint32_t edge) {
+    p.medianRoot = rgb(root);
+    p.medianEdge = rgb(edge);
+}
+
+inline void setCaudalFin(FishPattern& p, std::uint32_t root, std::uint32_t edge) {
+    p.caudalRoot = rgb(root);
+    p.caudalEdge = rgb(edge);
+}
+
+inline void setPairedFins(FishPattern& p, std::uint32_t root, std::uint32_t edge) {
+    p.pairedRoot = rgb(root);
+    p.pairedEdge = rgb(edge);
+}
+
+}  // namespace defocus::prototypes

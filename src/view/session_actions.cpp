@@ -1,0 +1,222 @@
+// What people ask a view for, once: files to open and to write, the clipboard, the state as JSON.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/stopwatch.h"
+#include "frame/focus.h"
+#include "frame/render_command_text.h"
+#include "view/session.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double statsEvery = 0.2;  // s
+constexpr double exportSlice = 60;  // ms a frame
+
+// What another scene keeps of the options: samples, levels, method, surroundings.
+SceneOptions withoutScene(SceneOptions options) {
+    const SceneOptions standard;
+    options.time = standard.time;
+    options.clip = standard.clip;
+    options.camera = standard.camera;
+    options.cameraPosition = options.cameraTarget = options.cameraUp = std::nullopt;
+    options.lens = standard.lens;
+    options.apertureImage = standard.apertureImage;
+    options.focusNode = standard.focusNode;
+    options.focusPixel = standard.focusPixel;
+    options.focusPoints = standard.focusPoints;
+    options.focusAuto = standard.focusAuto;
+    options.nodeBlur = standard.nodeBlur;
+    return options;
+}
+
+}  // namespace
+
+void ViewSession::act() {
+    const ViewActions actions = std::exchange(actions_, {});
+    try {
+        if (actions.open) {
+            SceneOptions options = withoutScene(state_.options);
+            options.path = *actions.open;
+            loader_.open(options);
+        }
+        if (actions.chooseCamera) chooseCamera(*actions.chooseCamera);
+        if (actions.changed && frame_ && !export_) change(*actions.changed);
+        if (actions.frameSelection || actions.frameAll) frameBounds(actions.frameSelection);
+        if (actions.togglePopping && picture_)
+            state_.poppingSince = state_.poppingSince ? std::nullopt : std::optional(now());
+        if (actions.focusThroughPoints) tiltFocus();
+        if (frame_) share(actions);
+        if (actions.quit) window_.close();
+    } catch (const Error& error) {
+        say(error.what(), true);
+    }
+}
+
+void ViewSession::tiltFocus() {
+    const glm::dmat4 viewFromWorld = glm::inverse(state_.camera.worldFromCamera);
+    std::array<glm::dvec3, 3> points;
+    for (std::size_t i = 0; i < 3; ++i) points[i] = viewFromWorld * glm::dvec4(state_.focusPoints.at(i), 1);
+    state_.focusPoints.clear();
+    Lens lens = state_.lens;
+    focusThrough(points, lens, "focus plane");
+    checkLens(lens);
+    state_.lens = lens;
+    state_.pull.reset();
+    say("The focus plane goes through the three points.");
+}
+
+// What leaves the window.
+void ViewSession::share(const ViewActions& actions) {
+    if (actions.copyCommand) {
+        const View view = exportView();
+        window_.setClipboard(renderCommand(
+            {state_.options, *frame_, view, state_.camera.pivotDistance, writeOptions(), state_.exportPath}));
+        say("The command is on the clipboard.");
+    }
+    if (actions.recordKey) {
+        state_.shotKeys.push_back({exportView(), state_.camera.pivotDistance, state_.animation.time});
+        say(fmt::format("Key {} is recorded; save the shot in the panel's Export.", state_.shotKeys.size()));
+    }
+    if (actions.saveShot && !state_.shotKeys.empty()) {
+        writeFile(state_.shotPath, shotJson({state_.options, frame_->cameraLens, state_.shotKeys,
+                                             state_.animation.speed, writeOptions()}));
+        const std::string command = captureCommand(state_.shotPath, state_.options);
+        window_.setClipboard(command);
+        say(fmt::format("Written: {}; film it with (on the clipboard): {}", state_.shotPath, command));
+    }
+    if (actions.cancelExport && export_) {
+        export_.reset();
+        say("The export was stopped; nothing was written.");
+    }
+    if (actions.exportStill && !export_) beginExport();
+}
+
+View ViewSession::exportView() const {
+    View view = currentView();
+    const glm::ivec2 size = state_.exportSize.value_or(glm::ivec2(view.width, view.height));
+    view.width = size.x;
+    view.height = size.y;
+    return view;
+}
+
+WriteOptions ViewSession::writeOptions() const {
+    return {state_.display.toneMap, shownExposure(state_)};
+}
+
+void ViewSession::beginExport() {
+    if (draft_) {
+        say("A still waits for the simplified meshes: try again in a moment", true);
+        return;
+    }
+    state_.animation.playing = false;
+    StillRequest still;
+    still.options = state_.options;
+    still.view = exportView();
+    still.output = state_.exportPath;
+    still.write = writeOptions();
+    still.software = window_.software();
+    still.shaderFolder = shaderFolder_;
+    export_.emplace(*frame_, still);
+}
+
+void ViewSession::exportStep() {
+    if (!export_) return;
+    try {
+        const Clock::time_point begin = Clock::now();
+        bool more = true;
+        while (more && millisecondsSince(begin) < exportSlice) more = export_->step();
+        if (more) return;
+        say("Written: " + export_->request().output.string());
+    } catch (const Error& error) {
+        say(error.what(), true);
+    }
+    export_.reset();
+}
+
+void ViewSession::takeScreenshot(const std::filesystem::path& path) {
+    std::filesystem::path chosen = path;
+    for (int i = 1; chosen.empty() || (path.empty() && std::filesystem::exists(chosen)); ++i)
+        chosen = fmt::format("defocus-view-{:03}.png", i);
+    try {
+        writeImage(chosen, window_.pixels());
+    } catch (const Error& error) {
+        if (!path.empty()) throw;
+        say(error.what(), true);
+        return;
+    }
+    if (path.empty()) say("Written: " + chosen.string());
+}
+
+void ViewSession::say(std::string text, bool fault) {
+    if (fault) fault_ = text;
+    if (fault && !quiet_ && options_.frames == 0) fmt::print(stderr, "defocus: {}\n", text);
+    state_.messages.push_back({std::move(text), fault, now() + (fault ? 9.0 : 3.0)});
+    if (state_.messages.size() > 4) state_.messages.pop_front();
+}
+
+void ViewSession::writeStats() {
+    if (options_.stats.empty() || (statsWrittenAt_ >= 0 && now() - statsWrittenAt_ < statsEvery)) return;
+    statsWrittenAt_ = now();
+    const PictureArea picture = area();
+    const glm::dvec3 position = state_.camera.position();
+    nlohmann::ordered_json passes = {{"interface", interfaceMilliseconds_}};
+    if (picture_)
+        for (const PassShare& pass : picture_->passes()) passes[pass.name] = pass.milliseconds;
+    const InputLatency::Summary latency = latency_.summary();
+    nlohmann::ordered_json json = {
+        {"scene", frame_ ? frame_->sceneName : ""},
+        {"loading", loader_.busy()},
+        {"draft", draft_},
+        {"fault", fault_},
+        {"samples", picture_ ? picture_->samples() : 0},
+        {"moving", picture_ && picture_->moving()},
+        {"changes", picture_ ? picture_->changes() : 0},
+        {"frameMilliseconds", frameMilliseconds_},
+        {"passMilliseconds", passes},
+        {"inputMilliseconds",
+         {{"count", latency.count}, {"latest", latency.latest}, {"median", latency.median}, {"worst", latency.worst}}},
+        {"budgetMilliseconds", state_.budget.milliseconds},
+        {"quality", state_.budget.rung},
+        {"picture", {picture.origin.x, picture.origin.y, picture.size.x, picture.size.y}},
+        {"scale", scale()},
+        {"cameraPosition", {position.x, position.y, position.z}},
+        {"focusDistance",
+         std::isfinite(state_.lens.focusDistance) ? nlohmann::ordered_json(state_.lens.focusDistance) : nullptr},
+        {"focusTilt", state_.lens.focusTilt},
+        {"focusSwing", state_.lens.focusSwing},
+        {"fStop", state_.lens.fStop},
+        {"focalLength", state_.lens.focalLength},
+        {"selected", frame_ && state_.selected >= 0
+                         ? frame_->world.pose.objects[static_cast<std::size_t>(state_.selected)].name
+                         : ""},
+        {"time", state_.animation.time},
+        {"playing", state_.animation.playing},
+        {"overlay", static_cast<int>(state_.display.overlay)},
+        {"workSamples", picture_ ? picture_->workSamples() : 0},
+        {"comparison", static_cast<int>(state_.comparison)},
+        {"divider", state_.display.divider},
+        {"psnr", picture_ && picture_->psnr() && std::isfinite(*picture_->psnr())
+                     ? nlohmann::ordered_json(*picture_->psnr())
+                     : nullptr},
+        {"dark", state_.dark},
+        {"help", state_.help},
+        {"poppingTest", state_.poppingSince.has_value()},
+        {"shotKeys", state_.shotKeys.size()},
+        {"exporting", export_.has_value()},
+        {"device", window_.device()},
+    };
+    writeFile(options_.stats, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace defocus

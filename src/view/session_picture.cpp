@@ -1,0 +1,95 @@
+// The picture of a view: what the state asks for.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "frame/reference_image.h"
+#include "view/session.h"
+
+namespace defocus {
+
+PictureRequest ViewSession::request() const {
+    PictureRequest result;
+    result.view = currentView();
+    result.settings = chosenSettings(state_.options);
+    result.thresholdsFollow = !state_.options.blurThreshold && !state_.options.sizeThreshold;
+    result.poseVersion = poseVersion_;
+    result.first = {chosenMethod(state_.options), state_.options.lod, 0};
+    result.display = state_.display;
+    result.display.exposure = shownExposure(state_);
+    result.mostSamples = state_.mostSamples;
+    result.restOfFrame = interfaceMilliseconds_;
+    const MethodUse accumulation = parseMethodUse("accumulation");
+    switch (state_.comparison) {
+        case Comparison::none:
+            break;
+        case Comparison::fullDetail:
+            result.second = {result.first.method, LodMode::off, 0};
+            break;
+        case Comparison::nearest:
+            result.second = {result.first.method, LodMode::nearest, 0};
+            break;
+        case Comparison::reference:
+            result.second = {accumulation, LodMode::off, referenceOffset};
+            break;
+        case Comparison::method:
+            result.second = {parseMethodUse(state_.comparedMethod), state_.options.lod, 0};
+            break;
+    }
+    if (state_.poppingSince) {
+        // From the nearest to the farthest object and back, evenly in 1/distance.
+        double nearest = 1e6;
+        double farthest = 1e-3;
+        for (const ObjectPlan& object : picture_->plan().objects) {
+            nearest = std::min(nearest, std::max(object.nearestDepth, 2 * result.view.nearPlane));
+            farthest = std::max(farthest, object.farthestDepth);
+        }
+        const double share =
+            0.5 - 0.5 * std::cos(2 * std::numbers::pi * (now() - *state_.poppingSince) / poppingDuration);
+        result.view.lens.focusDistance = 1 / ((1 - share) / nearest + share / std::max(nearest, farthest));
+        result.first = {accumulation, LodMode::fractional, 0};
+        result.second = {accumulation, LodMode::nearest, 0};
+        result.fixedQuality = FrameQuality{window_.software() ? 0.5 : 1.0, 16, 1};
+    }
+    return result;
+}
+
+void ViewSession::makePicture() {
+    RendererOptions options;
+    options.layerFormat = state_.options.layerFormat;
+    options.shaderFolder = shaderFolder_;
+    options.wave = window_.software() ? 1 : 8;
+    picture_.emplace(frame_->world, options, window_.software());
+}
+
+void ViewSession::updatePicture() {
+    if (!picture_) return;
+    try {
+        picture_->update(request(), state_.budget);
+    } catch (const Error& error) {
+        // A request that can't be drawn: back to what can.
+        say(error.what(), true);
+        if (state_.comparison != Comparison::none || state_.poppingSince) {
+            state_.comparison = Comparison::none;
+            state_.poppingSince.reset();
+        } else if (state_.options.method != "accumulation") {
+            state_.options.method = "accumulation";
+            state_.options.methodSettings.clear();
+        } else {
+            throw;
+        }
+        makePicture();
+        picture_->update(request(), state_.budget);
+    }
+}
+
+std::string ViewSession::sideLabel(const PictureSide& side) const {
+    if (side.firstSample == referenceOffset) return "reference";
+    const std::string method = side.method.text();
+    if (method != "accumulation") return method;
+    return side.lod == LodMode::off ? "full detail" : std::string(lodModeName(side.lod)) + " levels";
+}
+
+}  // namespace defocus

@@ -1,0 +1,41 @@
+#include "view/still_export.h"
+
+#include "core/file.h"
+#include "frame/render_report.h"
+
+namespace defocus {
+
+StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request)
+    : frame_(&frame), request_(request), use_(chosenMethod(request.options)), begin_(std::chrono::steady_clock::now()) {
+    checkImageExtension(request.output);
+    checkWritable(request.output);
+    plan_ = planFrame(frame.world, request.view, chosenSettings(request.options));
+    RendererOptions options;
+    options.layerFormat = request.options.layerFormat;
+    options.wave = request.options.wave > 0 ? request.options.wave : (request.software ? 2 : 8);
+    options.shaderFolder = request.shaderFolder;
+    options.settings = use_.settings;
+    renderer_ = use_.method->make(frame.world, options);
+    renderer_->start(plan_);
+}
+
+bool StillExport::step() {
+    if (renderer_->advance()) return true;
+    write();
+    return false;
+}
+
+double StillExport::share() const {
+    return static_cast<double>(renderer_->samples()) / renderer_->sampleTotal();
+}
+
+void StillExport::write() {
+    const Image image = renderer_->image();
+    const double milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    const RenderReport report{request_.options,   use_.text(),       *frame_,     plan_,
+                              renderer_->stats(), request_.software, milliseconds};
+    writeImage(request_.output, image, renderMetadata(report), request_.write);
+}
+
+}  // namespace defocus

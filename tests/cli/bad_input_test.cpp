@@ -1,0 +1,282 @@
+// Whatever is wrong gives one line and an exit code, and leaves no file behind.
+
+#include <array>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "cli/two_quads.h"
+#include "image/image_io.h"
+#include "models.h"
+#include "scene/gltf/builder.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BadInput : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        writeTwoQuads(folder() / "quads.gltf");
+    }
+
+    // A render of the quads with more `arguments` fails with this line's part, before anything is written.
+    void expectFault(int exitCode, const std::string& part, std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {"render", "quads.gltf"});
+        const Outcome outcome = run(arguments);
+        SCOPED_TRACE(arguments.back());
+        expectOneLine(outcome, exitCode);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_EQ(fileCount(), 1u);
+    }
+};
+
+TEST_F(BadInput, valuesOutOfRange) {
+    expectFault(2, "1 to 65536", {"--samples", "0"});
+    expectFault(2, "1 to 65536", {"--samples", "10000000"});
+    expectFault(2, "1 to 65536", {"--samples", "-4"});
+    expectFault(2, "1 to 65536", {"--samples", "1.5"});
+    expectFault(2, "--fstop", {"--fstop", "0"});
+    expectFault(2, "--fstop", {"--fstop", "-1"});
+    expectFault(2, "--focus-distance", {"--focus-distance", "0"});
+    expectFault(2, "--focus-distance", {"--focus-distance", "-2"});
+    expectFault(2, "--focal-length", {"--focal-length", "0"});
+    expectFault(2, "--horizontal-aperture", {"--horizontal-aperture", "0"});
+    expectFault(2, "--anamorphic-ratio", {"--anamorphic-ratio", "0"});
+    expectFault(2, "--blur-scale", {"--blur-scale", "-1"});
+    expectFault(2, "--blades", {"--blades", "1"});
+    expectFault(2, "--blades", {"--blades", "2"});
+    expectFault(2, "--focus-tilt", {"--focus-tilt", "90"});  // the focus plane through the camera
+    expectFault(2, "--focus-swing", {"--focus-swing=-90"});
+    expectFault(2, "--exposure-time", {"--exposure-time=-1"});
+    expectFault(2, "--exposure-time", {"--exposure-time", "1/0"});
+    expectFault(2, "--iso", {"--iso", "0"});
+    expectFault(2, "excludes", {"--exposure-time", "1", "--exposure", "2"});
+    expectFault(2, "--wave", {"--wave", "65"});
+    expectFault(2, "--seed", {"--seed", "4294967296"});
+    expectFault(2, "--background", {"--background", "1,2"});
+    expectFault(2, "--background", {"--background", "1,-2,3"});
+}
+
+TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
+    expectFault(2, "did you mean 'circular'", {"--method", "circulr"});
+    expectFault(2, "no settings", {"--taps", "16"});  // of scheuermann, but accumulation was meant
+    expectFault(2, "far-components is a whole number from 1 to 9", {"--method", "circular", "--far-components", "10"});
+    expectFault(2, "storage is one of", {"--method", "circular:storage=double"});
+    expectFault(2, "no setting 'taps'", {"--method", "circular:taps=8"});
+    expectFault(2, "SETTING=VALUE", {"--method", "circular:half"});
+    expectFault(1, "accumulation", {"--method", "circular", "--background", "none"});
+    expectFault(1, "layer format", {"--method", "scheuermann", "--layer-format", "rgb9e5"});
+}
+
+TEST_F(BadInput, numbersThatAreNoneOrInfinite) {
+    for (const char* option :
+         {"--fstop", "--focal-length", "--horizontal-aperture", "--focus-distance", "--blade-rotation",
+          "--anamorphic-ratio", "--blur-scale", "--time", "--blur-threshold", "--size-threshold", "--exposure"})
+        expectFault(2, option, {std::string(option) + "=nan"});
+    expectFault(2, "--focus-distance", {"--focus-distance=inf"});
+    expectFault(2, "--exposure", {"--exposure=-inf"});
+}
+
+TEST_F(BadInput, sizes) {
+    for (const char* size : {"0x768", "100000x100000", "1024x16385", "1024"})
+        expectFault(2, "--size", {"--size", size});
+}
+
+TEST_F(BadInput, wordsThatAreNotKnown) {
+    expectFault(2, "did you mean '--samples'", {"--smaples", "10"});
+    expectFault(2, "did you mean 'fractional'", {"--lod", "fractoinal"});
+    expectFault(2, "did you mean 'halton'", {"--sequence", "haltno"});
+    expectFault(2, "size, error", {"--lod-metric", "speed"});
+    expectFault(2, "did you mean 'accumulation'", {"--method", "acumulation"});
+    expectFault(2, "none, aces, agx", {"--tonemap", "filmic"});
+    expectFault(2, "depth, coc, level, work", {"--aov", "depth,normal"});
+    expectFault(2, "another.gltf", {"another.gltf"});
+    expectFault(2, "excludes", {"--fish", "3"});
+    expectFault(2, "excludes", {"--focus-distance", "1", "--focus-node", "Near"});
+}
+
+TEST_F(BadInput, wrongCommands) {
+    expectOneLine(run({}), 2);
+    const Outcome mistyped = run({"rendr", "quads.gltf"});
+    expectOneLine(mistyped, 2);
+    EXPECT_NE(mistyped.err.find("did you mean 'render'"), std::string::npos) << mistyped.err;
+    const Outcome unknown = run({"xyzzy"});
+    expectOneLine(unknown, 2);
+    for (const char* name : {"render", "plan", "info", "pyramid", "compare", "bench", "cache"})
+        EXPECT_NE(unknown.err.find(name), std::string::npos) << unknown.err;
+}
+
+TEST_F(BadInput, wrongCommandsWithinACommand) {
+    const Outcome none = run({"bench"});
+    expectOneLine(none, 2);
+    EXPECT_NE(none.err.find("speedup"), std::string::npos) << none.err;
+    const Outcome mistyped = run({"bench", "speedip"});
+    expectOneLine(mistyped, 2);
+    EXPECT_NE(mistyped.err.find("did you mean 'speedup'"), std::string::npos) << mistyped.err;
+    expectOneLine(run({"bench", "speedup", "--counts", "0"}), 2);
+    expectOneLine(run({"bench", "speedup", "--runs", "0"}), 2);
+    expectOneLine(run({"bench", "speedup", "--fstops", "-1"}), 2);
+}
+
+TEST_F(BadInput, namesThatAreNotInTheFileListThoseThatAre) {
+    expectFault(1, "Main", {"--camera", "Second"});
+    expectFault(1, "Near, Far, Tripod", {"--focus-node", "Middle"});
+    const Outcome inTheSchool = run({"plan", "--fish", "1", "--fish-triangles", "200", "--camera", "Second"});
+    expectOneLine(inTheSchool, 1);
+    EXPECT_NE(inTheSchool.err.find("Camera"), std::string::npos) << inTheSchool.err;
+}
+
+TEST_F(BadInput, focusThatTheSceneDoesNotHave) {
+    expectFault(1, "no surface", {"--focus-pixel", "0,767"});
+    expectFault(1, "outside", {"--focus-pixel", "1024,0"});
+    expectFault(2, "--focus-pixel", {"--focus-pixel", "-1,0"});
+    expectFault(1, "behind the camera", {"--focus-node", "Tripod"});
+    expectFault(1, "focus breathing", {"--focus-breathing", "--focal-length", "50", "--focus-distance", "0.05"});
+}
+
+TEST_F(BadInput, focusPlanesThatNoLensHas) {
+    expectFault(1, "line", {"--focus-points", "512,160,512,170,512,180"});
+    expectFault(1, "no surface", {"--focus-points", "0,767,512,170,512,180"});
+    // One point 0.3 m above the view axis on the near quad, two as high on the far one: the plane never meets the axis.
+    expectFault(1, "view axis", {"--focus-points", "512,170,956,330,832,330"});
+    expectFault(2, "--focus-points", {"--focus-points", "1,2,3,4"});
+}
+
+TEST_F(BadInput, whatOnlyMakesLittleSenseIsALine) {
+    const auto warning = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"info", "quads.gltf", "--camera"});
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        return outcome.err;
+    };
+    EXPECT_NE(warning({"--focal-length", "50", "--focus-distance", "0.05"}).find("inside the focal length of 50 mm"),
+              std::string::npos);
+    EXPECT_NE(warning({"--iso", "400"}).find("--exposure-time"), std::string::npos);
+}
+
+TEST_F(BadInput, questionsAboutACamera) {
+    const auto expectInfoFault = [&](int exitCode, const std::string& part, std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"info", "quads.gltf"});
+        const Outcome outcome = run(arguments);
+        SCOPED_TRACE(arguments.back());
+        expectOneLine(outcome, exitCode);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    };
+    expectInfoFault(2, "--camera", {"--depths", "1"});
+    expectInfoFault(2, "--camera", {"--fstop", "2"});
+    expectInfoFault(2, "--depths", {"--camera", "--depths", "1,,2"});
+    expectInfoFault(2, "--depths", {"--camera", "--depths", "0"});
+    expectInfoFault(2, "--acceptable-coc", {"--camera", "--acceptable-coc", "0"});
+    expectInfoFault(1, "Main", {"--camera=Second"});
+    expectInfoFault(1, "focus breathing",
+                    {"--camera", "--focus-breathing", "--focal-length", "50", "--focus-distance", "0.05"});
+}
+
+TEST_F(BadInput, outputsThatCannotBeWritten) {
+    expectFault(1, "missing/out.exr", {"-o", "missing/out.exr"});
+    expectFault(1, "quads.gltf/out.exr", {"-o", "quads.gltf/out.exr"});
+    expectFault(1, ".exr, .png", {"-o", "out.gif"});
+    expectFault(1, ".exr, .png", {"-o", "out"});
+    expectFault(1, "missing/stats.json", {"--stats", "missing/stats.json"});
+    fs::create_directory(folder() / "images.png");
+    const Outcome outcome = run({"render", "quads.gltf", "-o", "images.png"});
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("directory"), std::string::npos) << outcome.err;
+    EXPECT_EQ(fileCount(), 2u);
+}
+
+TEST_F(BadInput, filesThatAreNoScene) {
+    std::ofstream(folder() / "text.gltf") << "not JSON";
+    std::ofstream(folder() / "picture.png") << "not a picture";
+    for (const char* command : {"render", "plan", "info"})
+        for (const char* name : {"missing.glb", ".", "text.gltf", "picture.png"}) {
+            const Outcome outcome = run({command, name});
+            SCOPED_TRACE(name);
+            expectOneLine(outcome, 1);
+            EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+        }
+    EXPECT_EQ(fileCount(), 3u);
+}
+
+TEST_F(BadInput, environmentsThatAreNone) {
+    expectFault(1, "missing.hdr", {"--environment", "missing.hdr"});
+    expectFault(1, "quads.gltf", {"--environment", "quads.gltf"});
+}
+
+TEST_F(BadInput, environmentsWithTexelsThatAreNoNumbers) {
+    Image image(4, 2, 3);
+    *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
+    writeImage(folder() / "nan.exr", image);
+    EXPECT_EQ(run({"plan", "quads.gltf", "--environment", "nan.exr"}).exitCode, 0);  // black there
+    *image.at(1, 1) = std::numeric_limits<float>::infinity();
+    writeImage(folder() / "infinite.exr", image);
+    const Outcome outcome = run({"plan", "quads.gltf", "--environment", "infinite.exr"});
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("infinite.exr: holds infinity"), std::string::npos) << outcome.err;
+}
+
+TEST_F(BadInput, apertureImagesThatPassNoLight) {
+    expectFault(1, "missing.png", {"--aperture-image", "missing.png"});
+    expectFault(1, "quads.gltf", {"--aperture-image", "quads.gltf"});
+    Image image(4, 4, 1);
+    writeImage(folder() / "black.exr", image);
+    *image.at(1, 1) = -1;
+    writeImage(folder() / "negative.exr", image);
+    *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
+    writeImage(folder() / "nan.exr", image);
+    for (const char* name : {"black.exr", "negative.exr", "nan.exr"}) {
+        const Outcome outcome = run({"render", "quads.gltf", "--aperture-image", name});
+        SCOPED_TRACE(name);
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("aperture"), std::string::npos) << outcome.err;
+    }
+    EXPECT_EQ(fileCount(), 4u);
+}
+
+TEST_F(BadInput, shaderFolderThatIsNone) {
+    expectFault(2, "--shader-dir", {"--shader-dir", "missing"});
+}
+
+// Each hostile file is refused with a line that names it, or loads; it never ends the program in another way.
+TEST_F(BadInput, hostileModels) {
+    DEFOCUS_MODEL_OR_SKIP(models, "invalid");
+    for (const fs::directory_entry& entry : fs::directory_iterator(models)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".gltf" && extension != ".glb") continue;
+        SCOPED_TRACE(entry.path());
+        for (const char* command : {"info", "plan"}) {
+            const Outcome outcome = run({"--quiet", command, entry.path().string()});
+            if (outcome.exitCode == 0) {
+                EXPECT_EQ(outcome.err, "");
+                EXPECT_NE(outcome.out, "");
+                continue;
+            }
+            expectOneLine(outcome, 1);
+            EXPECT_NE(outcome.err.find(entry.path().stem().string()), std::string::npos) << outcome.err;
+        }
+    }
+    EXPECT_EQ(fileCount(), 1u);
+}
+
+// What can be drawn of a damaged file is, and what can't is counted.
+TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    GltfBuilder builder;
+    builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, nan})}}},
+                   {"indices", builder.indices({0, 1, 2, 0, 1, 3, 1, 2, 3})}}});
+    GltfBuilder::save(folder() / "damaged.glb", builder.glb());
+    for (const char* command : {"plan", "pyramid"}) {
+        const Outcome outcome = run({command, "damaged.glb"});
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_EQ(outcome.err, "warning: 2 triangles left out: a corner's position is not finite (NaN or infinite)\n");
+        EXPECT_EQ(run({"--quiet", command, "damaged.glb"}).err, "");
+    }
+}
+
+}  // namespace
+}  // namespace defocus

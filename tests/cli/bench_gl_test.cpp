@@ -1,0 +1,208 @@
+// defocus bench convergence, whole: its files, a killed run taken up again, the report, and the difference of two runs.
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "cli/program.h"
+#include "cli/two_quads.h"
+#include "core/error.h"
+#include "gl/context.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class BenchConvergence : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        try {
+            createHeadlessContext();
+        } catch (const Error& error) {
+            GTEST_SKIP() << error.what();
+        }
+        writeTwoQuads(folder() / "quads.gltf");
+    }
+
+    Outcome bench(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {"--quiet", "bench", "convergence", "quads.gltf", "--size", "64x48",
+                                             "--fstop", "1", "--counts", "2,8", "--methods", "accumulation",
+                                             "--threshold-factors", "1", "--runs", "2", "--reference-samples", "16"});
+        return run(arguments);
+    }
+
+    // Rows of a CSV by their first `keys` columns; each key once.
+    std::map<std::string, std::vector<std::string>> rowsOf(const std::string& file, std::size_t first,
+                                                           std::size_t keys) const {
+        std::istringstream text(textOf(folder() / file));
+        std::map<std::string, std::vector<std::string>> rows;
+        std::string line;
+        for (std::getline(text, line); std::getline(text, line);) {
+            std::vector<std::string> cells;
+            std::istringstream values(line);
+            for (std::string cell; std::getline(values, cell, ',');) cells.push_back(cell);
+            std::string key;
+            for (std::size_t i = first; i < first + keys; ++i) key += cells.at(i) + ' ';
+            EXPECT_TRUE(rows.emplace(key, cells).second) << key << "is there twice in " << file;
+        }
+        return rows;
+    }
+};
+
+TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
+    const Outcome outcome = bench({"-o", "out"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("bias floor of accumulation"), std::string::npos) << outcome.out;
+    EXPECT_EQ(rowsOf("out/results.csv", 0, 3).size(), 4u);  // two settings, two numbers of samples
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 4).size(), 8u);     // two runs of each
+    const json results = json::parse(textOf(folder() / "out/results.json"));
+    EXPECT_TRUE(results.at("commands").at(0).get<std::string>().starts_with("defocus --quiet bench convergence"));
+    EXPECT_FALSE(results.at("machine").at("system").get<std::string>().empty());
+    EXPECT_GT(results.at("reference").at("remaining").at("mse").get<double>(), 0);
+    EXPECT_EQ(results.at("crops").size(), 2u);
+    EXPECT_TRUE(fs::exists(folder() / "out/reference.exr"));
+    EXPECT_TRUE(fs::exists(folder() / "out" / results.at("reference").at("image").get<std::string>()));
+    for (const json& row : results.at("rows")) {
+        EXPECT_EQ(row.at("fault"), "");
+        EXPECT_EQ(row.at("runs"), 2);
+        for (const char* key : {"image", "errorMap"})
+            EXPECT_TRUE(fs::exists(folder() / "out" / row.at(key).get<std::string>())) << row.at(key);
+    }
+}
+
+TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
+    ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
+    const auto whole = rowsOf("out/runs.csv", 1, 4);
+    const std::string journal = textOf(folder() / "out/runs.csv");
+    for (const double share : {0.1, 0.43, 0.77, 0.999, 1.0}) {
+        const auto length = static_cast<std::size_t>(share * static_cast<double>(journal.size()));
+        std::ofstream(folder() / "out/runs.csv") << journal.substr(0, length);
+        const Outcome outcome = bench({"-o", "out", "--resume"});
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const auto rows = rowsOf("out/runs.csv", 1, 4);
+        ASSERT_EQ(rows.size(), whole.size()) << share;
+        for (const auto& [key, cells] : whole) {
+            ASSERT_TRUE(rows.contains(key)) << key;
+            EXPECT_EQ(rows.at(key).at(13), cells.at(13)) << key;  // mse
+        }
+        EXPECT_EQ(rowsOf("out/results.csv", 0, 3).size(), 4u);
+    }
+    EXPECT_EQ(json::parse(textOf(folder() / "out/results.json")).at("commands").size(), 6u);
+}
+
+TEST_F(BenchConvergence, resumesNothingButTheSame) {
+    ASSERT_EQ(bench({"-o", "out", "--runs", "1"}).exitCode, 2);  // twice given
+    ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
+    const std::string journal = textOf(folder() / "out/runs.csv");
+    const Outcome other = bench({"-o", "out", "--resume", "--focus-distance", "3"});
+    expectOneLine(other, 1);
+    EXPECT_NE(other.err.find("out/runs.csv"), std::string::npos) << other.err;
+    EXPECT_EQ(textOf(folder() / "out/runs.csv"), journal);
+}
+
+// What took long to make is lost only to those who say so.
+TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
+    ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
+    const auto contents = [&] {
+        std::vector<std::string> texts;
+        for (const char* file : {"reference.exr", "runs.csv", "results.csv", "results.json", "images/reference.png"})
+            texts.push_back(textOf(folder() / "out" / file));
+        return texts;
+    };
+    const std::vector<std::string> before = contents();
+    const auto expectRefused = [&](const std::string& part, const std::vector<std::string>& arguments) {
+        std::vector<std::string> words = {"-o", "out"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const Outcome outcome = bench(words);
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_TRUE(contents() == before) << outcome.err;
+    };
+    expectRefused("holds 8 frames of an earlier run: --resume goes on from them, --overwrite begins anew", {});
+    expectRefused("holds another scene", {"--focus-distance", "3"});
+    expectRefused("holds another scene", {"--resume", "--focus-distance", "3"});
+    expectRefused("holds another scene", {"--resume", "--seed", "7"});  // whose reference is the same
+
+    // A reference without frames, as a run leaves that was killed between the two.
+    fs::remove(folder() / "out/runs.csv");
+    const std::string reference = textOf(folder() / "out/reference.exr");
+    const Outcome other = bench({"-o", "out", "--focus-distance", "3"});
+    expectOneLine(other, 1);
+    EXPECT_NE(other.err.find("reference of another scene"), std::string::npos) << other.err;
+    EXPECT_TRUE(textOf(folder() / "out/reference.exr") == reference);
+
+    ASSERT_EQ(bench({"-o", "out", "--focus-distance", "3", "--overwrite"}).exitCode, 0);
+    EXPECT_FALSE(textOf(folder() / "out/reference.exr") == reference);
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 4).size(), 8u);
+    EXPECT_EQ(json::parse(textOf(folder() / "out/results.json")).at("commands").size(), 1u);
+    expectOneLine(bench({"-o", "out", "--resume", "--overwrite"}), 2);
+}
+
+TEST_F(BenchConvergence, diffOfARunWithItselfIsNothing) {
+    ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
+    const Outcome outcome = run({"bench", "diff", "out/results.json", "out/results.csv"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("unknown: 2 runs"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("errors: 0 closer, 0 farther, "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("4 rows: 0 faster, 0 slower, 0 within noise, 4 unknown"), std::string::npos)
+        << outcome.out;
+}
+
+// Nothing is fetched from elsewhere, and every picture has a text in its place.
+void expectWholePage(const std::string& page) {
+    const std::regex outside("(src|href)=\"(?!data:|#)|url\\((?!#)|@import|<script|<link");
+    const std::regex picture("<img (?![^>]*alt=\"[^\"]+\")|<svg (?![^>]*role=\"img\")");
+    std::smatch found;
+    EXPECT_FALSE(std::regex_search(page, found, outside)) << found.str();
+    EXPECT_FALSE(std::regex_search(page, found, picture)) << found.str();
+}
+
+TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
+    const Outcome outcome = bench({"-o", "out", "--report", "page"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder() / "page/results.csv"));
+    if (outcome.err.find("no report") != std::string::npos) GTEST_SKIP() << outcome.err;
+    const std::string page = textOf(folder() / "page/index.html");
+    expectWholePage(page);
+    EXPECT_NE(page.find("accumulation, full detail"), std::string::npos);
+    EXPECT_NE(page.find("defocus --quiet bench convergence quads.gltf"), std::string::npos);
+
+    // Pictures to show beside.
+    std::ofstream(folder() / "page/strips.json")
+        << R"([{"title": "A leak", "text": "of <colour>", "images": [{"label": "one", "file": "one.png"}]}])";
+    fs::copy(folder() / "out/images/reference.png", folder() / "page/one.png");
+    ASSERT_EQ(bench({"-o", "out", "--report", "page", "--resume"}).exitCode, 0);
+    const std::string strips = textOf(folder() / "page/index.html");
+    EXPECT_NE(strips.find("of &lt;colour&gt;"), std::string::npos);
+    EXPECT_GT(strips.size(), page.size());
+}
+
+// One page of all benches that wrote into the folder: two that run, two of committed runs.
+TEST_F(BenchConvergence, reportHasASectionForEachBench) {
+    fs::create_directory(folder() / "page");
+    for (const char* name : {"scaling", "stability"})
+        fs::copy(fs::path(DEFOCUS_SOURCE_DIR) / "bench/results" / (std::string("llvmpipe-") + name + ".json"),
+                 folder() / "page" / (std::string(name) + ".json"));
+    ASSERT_EQ(run({"--quiet", "bench", "speedup", "quads.gltf", "--counts", "2,4", "--size", "32x24", "--runs", "1",
+                   "--report", "page"})
+                  .exitCode,
+              0);
+    const Outcome outcome = run({"--quiet", "bench", "popping", "quads.gltf", "--counts", "2", "--size", "32x24",
+                                 "--frames", "3", "--report", "page"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    for (const char* file : {"speedup.csv", "speedup.json", "popping.csv", "popping.json"})
+        EXPECT_TRUE(fs::exists(folder() / "page" / file)) << file;
+    if (outcome.err.find("no report") != std::string::npos) GTEST_SKIP() << outcome.err;
+    const std::string page = textOf(folder() / "page/index.html");
+    expectWholePage(page);
+    for (const char* section : {"Speed-up", "Popping", "Scaling", "Stiff and extreme cases", "Blur against the lens"})
+        EXPECT_NE(page.find(std::string(">") + section + "</h"), std::string::npos) << section;
+    EXPECT_NE(page.find("defocus --quiet bench speedup quads.gltf --counts 2,4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,229 @@
+// defocus capture, whole: frames, their order, resuming, sharing, and what goes wrong.
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "capture/frame_files.h"
+#include "cli/shots.h"
+#include "image/image_io.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string name(int frame) {
+    return "frames/000" + std::to_string(frame) + ".exr";
+}
+
+TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
+    const Outcome outcome = capture({"--frame-rate", "10"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    for (int frame = 0; frame < 8; ++frame) {
+        Metadata metadata;
+        const Image image = readImage(folder() / name(frame), &metadata);
+        EXPECT_EQ(image.width, 64);
+        EXPECT_EQ(std::get<int>(metadata.at("defocus:frame")), frame);
+        EXPECT_DOUBLE_EQ(std::get<double>(metadata.at("defocus:time")), frame / 10.0);
+        EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 8);
+        EXPECT_FALSE(metadata.contains("defocus:seconds"));
+        // fStop: the smooth step in stops, from f/1.4 to f/2.8 a factor of two.
+        const double t = frame / 7.0;
+        EXPECT_NEAR(std::get<double>(metadata.at("aperture")), 1.4 * std::exp2(t * t * (3 - 2 * t)), 1e-5);
+        if (frame == 0) {
+            EXPECT_NEAR(std::get<double>(metadata.at("focus")), 2, 1e-6);
+        }
+        if (frame == 7) {
+            EXPECT_NEAR(std::get<double>(metadata.at("focus")), 8, 1e-5);
+        }
+    }
+    const std::string times = bytesOf("frames/timings.jsonl");
+    EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), 8);
+    EXPECT_GT(json::parse(times.substr(0, times.find('\n'))).at("renderMilliseconds").get<double>(), 0);
+}
+
+// The same bits alone, in the sequence, from another shard, in another format's company, and whatever the wave.
+TEST_F(Capture, aFrameIsTheSameBitsHoweverItIsRendered) {
+    ASSERT_EQ(capture({}).exitCode, 0);
+    ASSERT_EQ(capture({"--range", "5", "-o", "alone/####.exr"}).exitCode, 0);
+    ASSERT_EQ(capture({"--shard", "2/3", "-o", "shard/####.exr", "-o", "shard/####.png", "--wave", "3"}).exitCode, 0);
+    for (const char* other : {"alone/0005.exr", "shard/0005.exr"})
+        EXPECT_TRUE(bytesOf(other) == bytesOf(name(5))) << other;
+    EXPECT_TRUE(bytesOf("shard/0002.exr") == bytesOf(name(2)));
+    EXPECT_FALSE(fs::exists(folder() / "shard/0003.exr"));
+    EXPECT_FALSE(bytesOf(name(4)) == bytesOf(name(5)));
+}
+
+TEST_F(Capture, shardsShareAllFrames) {
+    for (const char* shard : {"0/3", "1/3", "2/3"}) ASSERT_EQ(capture({"--shard", shard}).exitCode, 0);
+    for (int frame = 0; frame < 8; ++frame) EXPECT_TRUE(fs::exists(folder() / name(frame)));
+    expectOneLine(run({"capture", "shot.json", "--shard", "3/3"}), 2);
+}
+
+TEST_F(Capture, resumeKeepsFinishedFramesOnly) {
+    ASSERT_EQ(capture({}).exitCode, 0);
+    const std::string second = bytesOf(name(2));
+    const std::string fifth = bytesOf(name(5));
+    fs::remove(folder() / name(2));
+    std::ofstream(folder() / name(5), std::ios::binary) << fifth.substr(0, fifth.size() / 2);
+    std::ofstream(folder() / name(6), std::ios::binary) << "not an image";
+    std::ofstream(folder() / "frames/.0002.4711-0.exr") << "left by a killed process";
+    const auto before = fs::last_write_time(folder() / name(3));
+    const Outcome outcome = run({"capture", "shot.json", "--resume"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("8 frames, 5 of them there before: 3 rendered"), std::string::npos) << outcome.err;
+    EXPECT_EQ(fs::last_write_time(folder() / name(3)), before);
+    EXPECT_TRUE(bytesOf(name(2)) == second);
+    EXPECT_TRUE(bytesOf(name(5)) == fifth);
+    EXPECT_FALSE(fs::exists(folder() / "frames/.0002.4711-0.exr"));
+}
+
+TEST_F(Capture, resumeRendersAnewWhatHasOtherSettings) {
+    ASSERT_EQ(capture({"--range", "0:1", "-o", "a#.png", "-o", "b#.jpg"}).exitCode, 0);
+    const auto rendered = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> words = {"capture", "shot.json", "--range", "0:1",   "--resume",
+                                          "-o",      "a#.png",    "-o",      "b#.jpg"};
+        words.insert(words.end(), options.begin(), options.end());
+        const std::string text = run(words).err;
+        return text.find("rendered") == std::string::npos ? 0 : std::atoi(text.c_str() + text.find(": ") + 2);
+    };
+    EXPECT_EQ(rendered({}), 0) << "PNG and JPEG say of what they were made, too";
+    EXPECT_EQ(rendered({"--samples", "9"}), 2);
+    EXPECT_EQ(rendered({"--samples", "9"}), 0);
+    EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1"}), 2);
+    EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1", "--fstop", "2"}), 2);
+}
+
+TEST_F(Capture, optionsReplaceWhatTheShotSays) {
+    ASSERT_EQ(capture({"--range", "3", "--size", "32x24", "--samples", "4", "--fstop", "4", "--focus-node", "Far",
+                       "--camera", "Main", "--set", "/lens/bladeCount=7", "-o", "x#.exr"})
+                  .exitCode,
+              0);
+    Metadata metadata;
+    EXPECT_EQ(readImage(folder() / "x3.exr", &metadata).width, 32);
+    EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 4);
+    EXPECT_EQ(std::get<double>(metadata.at("aperture")), 4);
+    EXPECT_NEAR(std::get<double>(metadata.at("focus")), 8, 1e-6) << "the camera stands still again";
+    EXPECT_EQ(std::get<double>(metadata.at("defocus:bladeCount")), 7);
+}
+
+// The camera goes 0.6 m nearer to the square in the image's middle: its focus is that of each frame's moment, whichever
+// frames are rendered with it.
+TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
+    json dolly = shot();
+    dolly.erase("focus");
+    dolly["camera"] = json::parse(R"({"dolly": {"distance": 0.6, "interpolation": "linear"}})");
+    writeShot(dolly);
+    const auto focusOf = [&](const char* output, int frame) {
+        Metadata metadata;
+        readImage(folder() / framePath(output, frame), &metadata);
+        return std::get<double>(metadata.at("focus"));
+    };
+    ASSERT_EQ(capture({"--focus-pixel", "32,14", "-o", "p#.exr"}).exitCode, 0);
+    ASSERT_EQ(capture({"--focus-auto", "-o", "a#.exr"}).exitCode, 0);
+    for (int frame = 0; frame < 8; ++frame) {
+        EXPECT_NEAR(focusOf("p#.exr", frame), 2 - 0.6 * frame / 7, 1e-5) << frame;
+        EXPECT_NEAR(focusOf("a#.exr", frame), 2 - 0.6 * frame / 7, 1e-5) << frame;
+    }
+    dolly["focus"] = json::parse(R"({"pixel": [32, 14]})");
+    writeShot(dolly);
+    ASSERT_EQ(capture({"--range", "5", "-o", "alone#.exr"}).exitCode, 0);
+    EXPECT_TRUE(bytesOf("alone5.exr") == bytesOf("p5.exr"));
+    ASSERT_EQ(capture({"--shard", "1/3", "-o", "shard#.exr", "--focus-auto"}).exitCode, 0);
+    EXPECT_TRUE(bytesOf("shard4.exr") == bytesOf("a4.exr"));
+    // A shot's pixel is one of its own size.
+    ASSERT_EQ(capture({"--range", "5", "-o", "small#.exr", "--size", "32x24"}).exitCode, 0);
+    EXPECT_NEAR(focusOf("small#.exr", 5), 2 - 0.6 * 5 / 7, 1e-5);
+    expectOneLine(capture({"--range", "0", "--focus-pixel", "0,0"}), 1);
+}
+
+TEST_F(Capture, aCameraPlacedByHandStandsThere) {
+    ASSERT_EQ(capture({"--range", "3", "--camera-position", "0,0,2", "--focus-node", "Near", "-o", "x#.exr"}).exitCode,
+              0);
+    Metadata metadata;
+    readImage(folder() / "x3.exr", &metadata);
+    EXPECT_NEAR(std::get<double>(metadata.at("focus")), 4, 1e-5);
+}
+
+TEST_F(Capture, sampleSeedIsTheSameInEachFrameUnlessAskedFor) {
+    json still = shot();
+    still.erase("camera");
+    still.erase("focus");
+    still["lens"] = {{"fStop", 1.4}, {"focusDistance", 3}};
+    writeShot(still);
+    const auto pixels = [&](const char* file) { return readImage(folder() / file).pixels; };
+    ASSERT_EQ(capture({"--range", "0:1", "-o", "s#.exr"}).exitCode, 0);
+    EXPECT_EQ(pixels("s0.exr"), pixels("s1.exr"));
+    ASSERT_EQ(capture({"--range", "0:1", "-o", "a#.exr", "--animate-seed"}).exitCode, 0);
+    EXPECT_NE(pixels("a0.exr"), pixels("a1.exr"));
+}
+
+TEST_F(Capture, dryRunPrintsAndWritesNothing) {
+    const Outcome outcome = run({"capture", "shot.json", "--dry-run"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2 + 8) << outcome.out;
+    EXPECT_NE(outcome.out.find("frames/0007.exr"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder() / "frames"));
+}
+
+TEST_F(Capture, faultsAreOneLine) {
+    json wrong = shot();
+    wrong["focus"]["keys"][1] = {{"frame", 7}, {"node", "Nobody"}};
+    writeShot(wrong);
+    const Outcome node = capture({});
+    expectOneLine(node, 1);
+    EXPECT_NE(node.err.find("shot.json: frame 0: there is no node 'Nobody'"), std::string::npos) << node.err;
+    wrong["focus"] = 3;
+    writeShot(wrong);
+    const Outcome focus = capture({});
+    expectOneLine(focus, 1);
+    EXPECT_NE(focus.err.find("shot.json: /focus: expected an object, not 3"), std::string::npos) << focus.err;
+    writeShot(shot());
+    expectOneLine(capture({"-o", "frame.exr"}), 1);
+    expectOneLine(capture({"--range", "3:1"}), 2);
+    expectOneLine(capture({"--set", "fStop=2"}), 2);
+    expectOneLine(run({"capture", "missing.json"}), 1);
+    expectOneLine(run({"capture"}), 2);
+    EXPECT_EQ(std::count_if(fs::directory_iterator(folder()), fs::directory_iterator(),
+                            [](const auto& entry) { return entry.path().extension() == ".exr"; }),
+              0);
+}
+
+TEST_F(Capture, fullDiskIsOneLineAndKeepsWhatIsThere) {
+    ASSERT_EQ(capture({"--range", "0:2"}).exitCode, 0);
+    const std::string first = bytesOf(name(0));
+    const Outcome outcome = capture({"--resume", "--range", "0:5"}, 600);
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("--resume"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(bytesOf(name(0)) == first);
+    EXPECT_FALSE(fs::exists(folder() / name(3)));
+    EXPECT_EQ(fileCount(), 2u + 1 + 3 + 1) << "scene, shot, folder, frames, times";
+}
+
+TEST_F(Capture, withoutFfmpegAFilmIsRefusedBeforeTheWork) {
+    const std::string path = std::getenv("PATH");
+    ::setenv("PATH", "/nowhere", 1);
+    const Outcome outcome = capture({"--video", "film.mp4"});
+    ::setenv("PATH", path.c_str(), 1);
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("ffmpeg, which isn't installed"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Capture, filmHasTheFramesAtTheirRate) {
+    if (std::system("ffprobe -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
+    ASSERT_EQ(capture({"--video", "film.mp4", "--frame-rate", "8", "--range", "1:6", "--size", "65x49"}).exitCode, 0);
+    const fs::path facts = folder() / "facts";
+    const std::string command =
+        "ffprobe -v error -count_frames -show_entries stream=nb_read_frames,r_frame_rate,width "
+        "-of csv=p=0 '" +
+        (folder() / "film.mp4").string() + "' > '" + facts.string() + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_EQ(textOf(facts), "66,8/1,6\n");
+    expectOneLine(capture({"--video", "film.avi"}), 1);
+    expectOneLine(capture({"--video", "film.mp4", "--shard", "0/2"}), 1);
+}
+
+}  // namespace
+}  // namespace defocus

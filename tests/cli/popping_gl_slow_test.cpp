@@ -1,0 +1,141 @@
+// No popping: across a focus pull, a dolly and a walk cycle, split samples change the image from frame to frame by a
+// small part of what whole levels do, over the stretch of the movement where levels change most (eval/popping/popping.h
+// says what is measured).
+//
+// One sample's step is √(c/w)/N of a whole level's for a blur of c px and a level's deviation of w px, here at most
+// about 30/0.4 at N = 32: 0.27. Movements of 240 frames, and a walk at 24 frames a second, change at most three samples
+// a frame: √3 times that, 0.5.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "eval/popping/popping.h"
+#include "frame/prepared_frame.h"
+#include "gl/context.h"
+#include "models.h"
+
+namespace defocus {
+namespace {
+
+constexpr double mostOfALevel = 0.5;
+constexpr double mostPop = 1.5 / 255;  // display values, root mean square over the objects' pixels
+
+class NoPopping : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        try {
+            context_ = createHeadlessContext();
+        } catch (const Error&) {
+        }
+    }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+
+    void SetUp() override {
+        if (!context_) GTEST_SKIP() << "no GL context";
+        options_.width = 160;
+        options_.height = 120;
+        options_.noCache = true;
+    }
+
+    void expectNone(PoppingOptions popping) const {
+        PreparedFrame frame = prepareFrame(options_);
+        popping.sampleCounts = {32};
+        popping.plan = frame.settings;
+        double nearest = 0;
+        double fractional = 0;
+        PoppingVisitor visitor;
+        visitor.sampleStep = [](const SampleStep&) {};
+        visitor.frames = [&](std::span<const PoppingFrame> frames) {
+            for (const PoppingFrame& each : frames) {
+                double& worst = each.mode == LodMode::nearest ? nearest : fractional;
+                worst = std::max(worst, each.step.objects.rmse);
+            }
+        };
+        measurePopping(frame.world, frame.view, popping, visitor);
+        RecordProperty("nearest", std::to_string(nearest));
+        RecordProperty("fractional", std::to_string(fractional));
+        ASSERT_GT(nearest, 0.004) << "no level changes: the movement shows nothing";
+        EXPECT_GT(fractional, 0);
+        EXPECT_LT(fractional, mostOfALevel * nearest);
+        EXPECT_LT(fractional, mostPop);
+    }
+
+    // The busiest part of a movement that takes ten seconds.
+    void expectNoneAlong(Movement movement) const {
+        PoppingOptions popping;
+        popping.movements = {movement};
+        popping.frames = 8;
+        popping.pathFrames = 240;
+        expectNone(popping);
+    }
+
+    void school() {
+        options_.fishCount = 6;
+        options_.trianglesPerFish = 12'000;
+        options_.lens["blurScale"] = 4;  // at this size of the image, for the blur of a large one
+    }
+
+    // 576 triangles, 100 m long: few pixels and much blur bring its levels into play.
+    void fox(const std::filesystem::path& path) {
+        options_.path = path;
+        options_.clip = "Walk";
+        options_.time = 0.3;  // in the middle of a step
+        options_.lens["blurScale"] = 1000;
+    }
+
+    SceneOptions options_;
+};
+std::unique_ptr<GlContext> NoPopping::context_;
+
+TEST_F(NoPopping, ofTheSchoolOfFishInAFocusPull) {
+    school();
+    expectNoneAlong(Movement::focusPull);
+}
+
+TEST_F(NoPopping, ofTheSchoolOfFishInADolly) {
+    school();
+    expectNoneAlong(Movement::dolly);
+}
+
+TEST_F(NoPopping, ofTheFoxInAFocusPull) {
+    DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
+    fox(path);
+    options_.width = 32;
+    options_.height = 24;
+    options_.lens["fStop"] = 0.25;
+    options_.lodCocAtCentre = true;
+    expectNoneAlong(Movement::focusPull);
+}
+
+TEST_F(NoPopping, ofTheFoxInADolly) {
+    DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
+    fox(path);
+    options_.width = 32;
+    options_.height = 24;
+    options_.lens["fStop"] = 0.25;
+    options_.lodCocAtCentre = true;
+    expectNoneAlong(Movement::dolly);
+}
+
+// The whole cycle at 24 frames a second, focused in front of the fox: each step changes how near its nearest part is,
+// and with that its blur and its level.
+TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
+    DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
+    fox(path);
+    options_.width = 96;
+    options_.height = 72;
+    options_.lens["fStop"] = 0.4;
+    options_.lens["focusDistance"] = 125;
+    PoppingOptions popping;
+    popping.movements = {Movement::clip};
+    popping.clip = 1;  // Walk, 0.708 s
+    popping.frames = 17;
+    popping.pathFrames = 17;
+    expectNone(popping);
+}
+
+}  // namespace
+}  // namespace defocus

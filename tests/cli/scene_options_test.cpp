@@ -1,0 +1,113 @@
+// From options to camera and lens, through the program: defocus plan --json.
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "cli/two_quads.h"
+
+namespace defocus {
+namespace {
+
+using nlohmann::json;
+
+class SceneOptionsTest : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        writeTwoQuads(folder() / "two quads ❤.gltf");
+    }
+
+    json plan(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), {"plan", "two quads ❤.gltf", "--json"});
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return outcome.exitCode == 0 ? json::parse(outcome.out) : json();
+    }
+
+    double lens(const char* key, const std::vector<std::string>& arguments) const {
+        return plan(arguments)["lens"][key].get<double>();
+    }
+};
+
+TEST_F(SceneOptionsTest, camerasFieldOfViewGivesTheFocalLength) {
+    // tan(θx/2) = k·0.27; f = 36 mm / (2·tan(θx/2)).
+    EXPECT_NEAR(lens("focalLength", {"--size", "1024x768"}), 50, 1e-6);
+    EXPECT_NEAR(lens("focalLength", {"--size", "300x300"}), 36 / (2 * 0.27), 1e-6);
+    EXPECT_NEAR(lens("focalLength", {"--horizontal-aperture", "24"}), 24 / (2 * 0.36), 1e-6);
+    EXPECT_EQ(lens("focalLength", {"--focal-length", "85"}), 85);
+}
+
+TEST_F(SceneOptionsTest, lensValuesFallBackToTheDefaults) {
+    EXPECT_EQ(lens("fStop", {}), 2.8);
+    EXPECT_EQ(lens("horizontalAperture", {}), 36);
+    EXPECT_EQ(lens("fStop", {"--fstop", "1.4"}), 1.4);
+    // 50 mm at f/2 is 25 mm wide.
+    EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2"}), 0.025, 1e-9);
+    EXPECT_NEAR(lens("apertureDiameter", {"--fstop", "2", "--blur-scale", "3"}), 0.075, 1e-9);
+    EXPECT_EQ(lens("apertureDiameter", {"--no-dof"}), 0);
+}
+
+TEST_F(SceneOptionsTest, focusDefaultsToTheDepthOfTheScenesCentre) {
+    EXPECT_NEAR(lens("focusDistance", {}), 5, 1e-6);
+}
+
+TEST_F(SceneOptionsTest, focusOnANode) {
+    EXPECT_NEAR(lens("focusDistance", {"--focus-node", "Near"}), 2, 1e-6);
+    EXPECT_NEAR(lens("focusDistance", {"--focus-node", "Far"}), 8, 1e-6);
+}
+
+TEST_F(SceneOptionsTest, focusOnAPixelTakesTheDepthAndNotTheDistance) {
+    // Near's centre is at row (1 − 0.3/(2·0.27))/2 · 768 = 170.7, Far's at column (1 + 3/(8·0.36))/2 · 1024 = 1045: its
+    // left part is in the image.
+    EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,170"}), 2, 1e-6);
+    EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "1000,384"}), 8, 1e-6);
+    // Near's upper edge lies at y = 0.5, row 28.4; its left one at x = −0.2, column 369.8.
+    EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "511,29"}), 2, 1e-6);
+    EXPECT_EQ(run({"plan", "two quads ❤.gltf", "--focus-pixel", "511,27"}).exitCode, 1);
+    EXPECT_NEAR(lens("focusDistance", {"--focus-pixel", "370,170"}), 2, 1e-6);
+    EXPECT_EQ(run({"plan", "two quads ❤.gltf", "--focus-pixel", "368,170"}).exitCode, 1);
+}
+
+TEST_F(SceneOptionsTest, focusOnAPixelWithFocusBreathingHitsWhatThePictureShows) {
+    // The field of view narrows by 1 − f/s: at 2 m Near's left edge moves out to column 512 − 142.2/(1 − 0.025) =
+    // 366.1.
+    EXPECT_NEAR(lens("focusDistance", {"--focus-breathing", "--focus-pixel", "370,170"}), 2, 1e-6);
+}
+
+TEST_F(SceneOptionsTest, thresholdsReplaceTheirDefaultsOneByOne) {
+    const json standard = plan({})["lod"];
+    const json changed = plan({"--blur-threshold", "0.125"})["lod"];
+    EXPECT_EQ(changed["blurThreshold"], 0.125);
+    EXPECT_EQ(changed["sizeThreshold"], standard["sizeThreshold"]);
+    EXPECT_EQ(plan({"--lod", "nearest", "--lod-metric", "error"})["lod"]["mode"], "nearest");
+}
+
+TEST_F(SceneOptionsTest, largestSizeAndManySamplesAreAllowed) {
+    const json large = plan({"--size", "8192x8192", "--samples", "65536"});
+    EXPECT_EQ(large["image"]["width"], 8192);
+    EXPECT_EQ(large["samples"], 65536);
+}
+
+TEST_F(SceneOptionsTest, builtInSchoolIsScaledByItsOptions) {
+    const Outcome outcome =
+        run({"plan", "--fish", "2", "--fish-triangles", "500", "--lod", "off", "--json", "--samples", "8"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const json school = json::parse(outcome.out);
+    EXPECT_EQ(school["objects"].size(), 2u);
+    EXPECT_EQ(school["lens"]["focusDistance"], 2);
+}
+
+TEST_F(SceneOptionsTest, helpOfEachCommandHasAnExample) {
+    for (const char* command : {"render", "plan", "info", "compare"}) {
+        const Outcome outcome = run({command, "--help"});
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_EQ(outcome.err, "");
+        EXPECT_NE(outcome.out.find("Example"), std::string::npos) << command;
+        EXPECT_NE(outcome.out.find(std::string("defocus ") + command), std::string::npos) << command;
+    }
+    EXPECT_EQ(run({"--version"}).out.substr(0, 8), "defocus ");
+}
+
+}  // namespace
+}  // namespace defocus

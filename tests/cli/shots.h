@@ -1,0 +1,48 @@
+#pragma once
+// Shots of the two squares of two_quads.h: a focus pull from one to the other and a turn, small and quick.
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/program.h"
+#include "cli/two_quads.h"
+#include "core/error.h"
+#include "gl/context.h"
+
+namespace defocus {
+
+class Capture : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        try {
+            createHeadlessContext();
+        } catch (const Error& error) {
+            GTEST_SKIP() << error.what();
+        }
+        writeTwoQuads(folder() / "quads.gltf");
+        writeShot(shot());
+    }
+
+    static nlohmann::json shot() {
+        return {{"scene", "quads.gltf"},
+                {"range", {0, 7}},
+                {"size", {64, 48}},
+                {"samples", 8},
+                {"camera", {{"turntable", {{"turns", 0.1}, {"centre", "Near"}}}}},
+                {"lens", {{"fStop", {{"keys", {{{"frame", 0}, {"value", 1.4}}, {{"frame", 7}, {"value", 2.8}}}}}}}},
+                {"focus", {{"keys", {{{"frame", 0}, {"node", "Near"}}, {{"frame", 7}, {"distance", 8}}}}}}};
+    }
+
+    void writeShot(const nlohmann::json& document) const { std::ofstream(folder() / "shot.json") << document.dump(2); }
+
+    Outcome capture(std::vector<std::string> arguments, std::size_t mostFileBytes = 0) const {
+        arguments.insert(arguments.begin(), {"capture", "shot.json", "--quiet"});
+        return run(arguments, mostFileBytes);
+    }
+
+    [[nodiscard]] std::string bytesOf(const std::filesystem::path& name) const { return textOf(folder() / name); }
+};
+
+}  // namespace defocus

@@ -1,0 +1,160 @@
+// The reference image: what it is the mean of, how well it knows its own error, and when it is used again.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "frame/reference_image.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+#include "image/scratch_folder.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ConvergenceReference : public testing::Test {
+protected:
+    void SetUp() override {
+        small_->view.width = 64;
+        small_->view.height = 48;
+    }
+
+    ReferenceImage reference(std::uint32_t samples = 32, const Progress& progress = {}) {
+        return referenceImage(small_->world, small_->view, {samples, {}}, folder_.path(), progress);
+    }
+
+    std::unique_ptr<GlContext> context_ = createHeadlessContext();
+    std::unique_ptr<SmallWorld> small_ = fiveSpheres();
+    ScratchFolder folder_;
+};
+
+TEST_F(ConvergenceReference, isTheMeanOfAllItsSamplesAtFullDetail) {
+    const ReferenceImage mean = reference(31);
+    RenderSettings settings;
+    settings.sampleCount = 31;
+    settings.sequence = referenceSequence;
+    settings.firstSample = referenceOffset;
+    settings.lod = LodMode::off;
+    RendererOptions precise;
+    precise.layerFormat = LayerFormat::rgba32f;
+    const auto renderer = methodNamed("accumulation").make(small_->world, precise);
+    renderer->start(planFrame(small_->world, small_->view, settings));
+    while (renderer->advance()) {
+    }
+    const Image direct = renderer->image();
+    ASSERT_EQ(mean.image.pixels.size(), direct.pixels.size());
+    for (std::size_t i = 0; i < direct.pixels.size(); ++i)
+        ASSERT_NEAR(mean.image.pixels[i], direct.pixels[i], 1e-6 * std::max(1.0f, direct.pixels[i]));
+}
+
+// The estimate, half the difference between the halves, is the error itself where the halves err independently. They
+// don't quite: each fills the other's gaps, so that the mean is better.
+TEST_F(ConvergenceReference, knowsTheOrderOfItsOwnError) {
+    const ReferenceImage coarse = reference(16);
+    const ReferenceImage fine = reference(512);
+    const double error = compareImages(fine.image, coarse.image).rmse;
+    EXPECT_LE(error, 1.25 * coarse.remaining.rmse);
+    EXPECT_GE(error, 0.4 * coarse.remaining.rmse);
+    EXPECT_LT(fine.remaining.rmse, coarse.remaining.rmse / std::sqrt(32.0));  // better than random samples would
+    EXPECT_NEAR(coarse.remaining.psnr, -20 * std::log10(coarse.remaining.rmse), 1e-9);
+}
+
+TEST_F(ConvergenceReference, isUsedAgainWithAllItKnows) {
+    const ReferenceImage first = reference();
+    EXPECT_FALSE(first.reused);
+    EXPECT_TRUE(fs::exists(folder_ / "reference.exr"));
+    EXPECT_FALSE(fs::exists(folder_ / "reference-half.exr"));
+    const ReferenceImage again = reference();
+    EXPECT_TRUE(again.reused);
+    EXPECT_EQ(again.image.pixels, first.image.pixels);
+    EXPECT_EQ(again.hash, first.hash);
+    EXPECT_EQ(again.milliseconds, first.milliseconds);
+    EXPECT_EQ(again.remaining.rmse, first.remaining.rmse);
+    EXPECT_EQ(again.remaining.flip, first.remaining.flip);
+    EXPECT_NEAR(again.remaining.psnr, first.remaining.psnr, 1e-9);
+}
+
+TEST_F(ConvergenceReference, isRenderedAnewForAnythingElse) {
+    reference();
+    EXPECT_FALSE(reference(34).reused);
+    EXPECT_FALSE(reference().reused);
+    small_->view.lens.fStop *= 1.01;
+    EXPECT_FALSE(reference().reused);
+    small_->scene.meshes[0].vertices.positions[3].x += 0.01f;
+    EXPECT_FALSE(reference().reused);
+    EXPECT_TRUE(reference().reused);
+}
+
+TEST_F(ConvergenceReference, isToldFromOthersBeforeItIsReplaced) {
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), 0));
+    const std::uint64_t hash = referenceHash(small_->world, small_->view, {32, {}});
+    EXPECT_EQ(reference().hash, hash);
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash));
+    EXPECT_TRUE(holdsOtherReference(folder_.path(), referenceHash(small_->world, small_->view, {34, {}})));
+    fs::rename(folder_ / "reference.exr", folder_ / "reference-half.exr");
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash));
+    EXPECT_TRUE(holdsOtherReference(folder_.path(), hash + 1));
+    writeFile(folder_ / "reference-half.exr", "");
+    EXPECT_FALSE(holdsOtherReference(folder_.path(), hash + 1)) << "an empty file is no loss";
+    writeImage(folder_ / "reference.exr", Image(2, 2, 3));  // somebody's own
+    EXPECT_TRUE(holdsOtherReference(folder_.path(), hash));
+}
+
+TEST_F(ConvergenceReference, isRenderedAnewWhereTheFileIsDamaged) {
+    const ReferenceImage first = reference();
+    const fs::path path = folder_ / "reference.exr";
+    const std::vector<std::byte> whole = readFile(path);
+    for (const double share : {0.0, 0.01, 0.5, 0.99}) {
+        writeFile(path, std::span(whole).first(static_cast<std::size_t>(share * static_cast<double>(whole.size()))));
+        const ReferenceImage anew = reference();
+        EXPECT_FALSE(anew.reused) << share;
+        EXPECT_EQ(anew.image.pixels, first.image.pixels);
+    }
+    for (const double place : {0.3, 0.6, 0.9}) {
+        std::vector<std::byte> bytes = whole;
+        bytes[static_cast<std::size_t>(place * static_cast<double>(bytes.size()))] ^= std::byte{0x10};
+        writeFile(path, bytes);
+        EXPECT_EQ(reference().image.pixels, first.image.pixels) << place;
+    }
+}
+
+TEST_F(ConvergenceReference, isRenderedAnewWhereItsPixelsWereChanged) {
+    const ReferenceImage first = reference();
+    Metadata metadata;
+    Image image = readImage(folder_ / "reference.exr", &metadata);
+    image.pixels[100] += 0.25f;
+    writeImage(folder_ / "reference.exr", image, metadata);
+    const ReferenceImage anew = reference();
+    EXPECT_FALSE(anew.reused);
+    EXPECT_EQ(anew.image.pixels, first.image.pixels);
+}
+
+TEST_F(ConvergenceReference, takesUpTheHalfOfAKilledRun) {
+    const auto killed = [](std::string_view, std::uint64_t done, std::uint64_t) {
+        if (done >= 16) fail("killed");
+    };
+    EXPECT_THROW(reference(32, killed), Error);
+    EXPECT_TRUE(fs::exists(folder_ / "reference-half.exr"));
+    std::uint64_t least = 32;
+    const ReferenceImage rest =
+        reference(32, [&](std::string_view, std::uint64_t done, std::uint64_t) { least = std::min(least, done); });
+    EXPECT_EQ(least, 16u);
+    EXPECT_FALSE(fs::exists(folder_ / "reference-half.exr"));
+    fs::remove(folder_ / "reference.exr");
+    EXPECT_EQ(reference().image.pixels, rest.image.pixels);
+}
+
+TEST_F(ConvergenceReference, refusesImpossibleNumbersOfSamples) {
+    EXPECT_THROW(reference(1), Error);
+    EXPECT_THROW(reference(65'537), Error);
+}
+
+}  // namespace
+}  // namespace defocus

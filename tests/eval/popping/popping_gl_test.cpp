@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "eval/popping/popping.h"
+#include "gl/context.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class Popping : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+
+    Popping() : small_(fiveSpheres()) {
+        for (const Object& object : small_->world.pose.objects)
+            small_->world.pose.bounds.extend(glm::dvec3(object.worldFromObject[3]));
+        options_.movements = {Movement::focusPull};
+        options_.sampleCounts = {8};
+        options_.frames = 6;
+        options_.pathFrames = 40;
+    }
+
+    void measure() {
+        PoppingVisitor visitor;
+        visitor.frames = [&](std::span<const PoppingFrame> added) {
+            frames_.insert(frames_.end(), added.begin(), added.end());
+        };
+        visitor.sampleStep = [&](const SampleStep& step) { steps_.push_back(step); };
+        measurePopping(small_->world, small_->view, options_, visitor);
+    }
+
+    std::unique_ptr<SmallWorld> small_;
+    PoppingOptions options_;
+    std::vector<PoppingFrame> frames_;
+    std::vector<SampleStep> steps_;
+};
+std::unique_ptr<GlContext> Popping::context_;
+
+// Pyramids of one level leave nothing to choose: each mode is full detail, and differs from it by nothing.
+TEST_F(Popping, withoutCoarserLevelsThereIsNone) {
+    for (Pyramid& pyramid : small_->world.pyramids) pyramid = fullDetail(small_->scene.meshes[0]);
+    options_.movements = {Movement::focusPull, Movement::dolly, Movement::turntable};
+    options_.frames = 3;
+    measure();
+    ASSERT_EQ(frames_.size(), 3u * 2 * poppingModes.size());
+    for (const PoppingFrame& frame : frames_) {
+        EXPECT_LT(frame.change.image.rmse, 1e-7);  // float sums
+        EXPECT_EQ(frame.step.image.rmse, 0);
+        EXPECT_LT(frame.change.image.flip, 1e-6);  // display values there and back
+        EXPECT_EQ(frame.speed, 0);
+    }
+    EXPECT_TRUE(steps_.empty());
+}
+
+TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
+    options_.sampleCounts = {4, 8};
+    measure();
+    ASSERT_EQ(frames_.size(), 2u * 5 * poppingModes.size());
+    double fastest = 0;
+    double worst = 0;
+    for (const PoppingFrame& frame : frames_) {
+        EXPECT_GE(frame.frame, 1);
+        EXPECT_LE(frame.frame, 5);
+        EXPECT_GE(frame.change.objects.rmse, frame.change.image.rmse) << "what differs lies in the objects' pixels";
+        EXPECT_GE(frame.step.objects.rmse, frame.step.image.rmse);
+        fastest = std::max(fastest, frame.speed);
+        worst = std::max(worst, frame.step.image.rmse);
+    }
+    EXPECT_GT(fastest, 0);
+    EXPECT_GT(worst, 0);
+}
+
+// A full level's pop is the sum of the N steps: each is at least 1/N of it (the triangle inequality, in the mean), and
+// the steps of unlike samples add up as random ones do at most: 1/√N.
+TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
+    options_.sampleCounts = {8, 32};
+    options_.frames = 2;
+    measure();
+    ASSERT_EQ(steps_.size(), 2u);
+    for (const SampleStep& step : steps_) {
+        EXPECT_GE(step.measured, 1.0 / step.samples);
+        EXPECT_LE(step.measured, 1.2 / std::sqrt(step.samples));
+        EXPECT_GT(step.coc, 2);
+    }
+    EXPECT_LT(steps_[1].measured, 0.5 * steps_[0].measured);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,41 @@
+#include <gtest/gtest.h>
+
+#include "eval/scaling/scaling.h"
+#include "gl/context.h"
+
+namespace defocus {
+namespace {
+
+// The smallest scenes: one fish, up to 10,000 times.
+TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    ScalingOptions options;
+    options.axes = {ScalingAxis::instances};
+    options.runs = 1;
+    std::vector<ScalingRow> rows;
+    ScalingVisitor visitor;
+    visitor.row = [&](const ScalingRow& row) { rows.push_back(row); };
+    visitor.leftOut = [](const ScalingPoint&, const std::string& reason) { FAIL() << reason; };
+    measureScaling(options, visitor);
+    const std::vector<ScalingPoint> points = scalingPoints(ScalingAxis::instances, false);
+    ASSERT_EQ(rows.size(), 2 * points.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_EQ(rows[i].value, points[i / 2].value);
+        EXPECT_EQ(rows[i].mode, i % 2 == 0 ? LodMode::off : LodMode::fractional);
+        EXPECT_GT(rows[i].milliseconds.median, 0);
+        EXPECT_GT(rows[i].layers.median, 0);
+        EXPECT_GT(rows[i].vertices.median, 0);
+        EXPECT_GT(rows[i].gpuBytes, 640u * 480 * 4);
+        if (i % 2 == 1) {
+            EXPECT_LE(rows[i].triangles, rows[i - 1].triangles);
+        }
+        if (i >= 2) {
+            EXPECT_GT(rows[i].triangles, rows[i - 2].triangles);
+        }
+    }
+    // Full detail draws each instance whole, for each sample.
+    EXPECT_EQ(rows[2].triangles, 10 * rows[0].triangles);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,206 @@
+#include "eval/scaling/scaling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "eval/scaling/text.h"
+#include "eval/scaling/worlds.h"
+#include "plan/frame_plan.h"
+
+namespace defocus {
+namespace {
+
+using Points = std::vector<std::pair<double, double>>;
+
+// ---- power laws -----------------------------------------------------------------------------------------------------
+
+TEST(ScalingFit, ofAPowerIsItsExponent) {
+    for (const double exponent : {-1.0, 0.0, 0.2, 1.0, 2.5}) {
+        Points points;
+        for (double x = 3; x < 4e7; x *= 7) points.emplace_back(x, 42 * std::pow(x, exponent));
+        const std::optional<PowerLaw> law = fittedPowerLaw(points);
+        ASSERT_TRUE(law);
+        EXPECT_NEAR(law->exponent, exponent, 1e-12);
+        EXPECT_NEAR(law->residual, 0, 1e-12);
+    }
+}
+
+// 1, 10, 100, 1000: the upper half begins at √1000.
+TEST(ScalingFit, looksAtTheUpperHalfAlone) {
+    const std::optional<PowerLaw> law = fittedPowerLaw(Points{{1000, 50}, {1, 900}, {100, 5}, {10, 900}});
+    ASSERT_TRUE(law);
+    EXPECT_EQ(law->points, 2u);
+    EXPECT_NEAR(law->exponent, 1, 1e-12);
+}
+
+// Three points at ln x = 0, 1, 2 with ln y = 0, 3, 0: a level line at 1, from which they lie 1, 2 and 1 away.
+TEST(ScalingFit, leavesTheResidualOfLeastSquares) {
+    const double e = std::exp(1);
+    const std::optional<PowerLaw> law =
+        fittedPowerLaw(Points{{std::exp(-2.0), 1}, {1, 1}, {e, std::exp(3.0)}, {e * e, 1}});
+    ASSERT_TRUE(law);
+    EXPECT_EQ(law->points, 3u);
+    EXPECT_NEAR(law->exponent, 0, 1e-12);
+    EXPECT_NEAR(law->residual, std::sqrt(2.0), 1e-12);
+}
+
+TEST(ScalingFit, needsTwoDifferentPlaces) {
+    EXPECT_FALSE(fittedPowerLaw({}));
+    EXPECT_FALSE(fittedPowerLaw(Points{{5, 1}}));
+    EXPECT_FALSE(fittedPowerLaw(Points{{5, 1}, {5, 2}}));
+    EXPECT_FALSE(fittedPowerLaw(Points{{1, 1}, {100, 2}})) << "only one of them in the upper half";
+}
+
+// ---- what bounds a frame --------------------------------------------------------------------------------------------
+
+ScalingRow rowOf(double value, double frame, double layers, double vertices) {
+    ScalingRow row;
+    row.value = value;
+    setTimes(row, {{frame}, {layers}, {vertices}});
+    return row;
+}
+
+using Parts = std::vector<ScalingPart>;
+
+TEST(ScalingParts, theRestIsFill) {
+    EXPECT_EQ(rowOf(1, 10, 2, 3).fill.median, 5);
+    EXPECT_EQ(rowOf(1, 10, 2, 3).largestParts(), Parts{ScalingPart::fill});
+    EXPECT_EQ(rowOf(1, 10, 6, 3).largestParts(), Parts{ScalingPart::layers});
+    EXPECT_EQ(rowOf(1, 10, 1, 8).largestParts(), Parts{ScalingPart::vertices});
+    EXPECT_EQ(rowOf(1, 10, 4, 8).fill.median, 0) << "parts that overlap leave nothing";
+}
+
+// Each run leaves its own rest: 5, 7 and 6 ms.
+TEST(ScalingParts, spreadAsTheirRunsDo) {
+    ScalingRow row;
+    setTimes(row, {{10, 20, 15}, {2, 6, 4}, {3, 7, 5}});
+    EXPECT_EQ(row.runs, 3);
+    EXPECT_EQ(row.fill.median, 6);
+    EXPECT_DOUBLE_EQ(row.fill.low, 5.2);
+    EXPECT_DOUBLE_EQ(row.fill.high, 6.8);
+    EXPECT_EQ(row.layers.median, 4);
+}
+
+TEST(ScalingParts, areAlikeWhereNoneIsLargerBeyondDoubt) {
+    // One run, which says nothing about its noise: 23.5 against 24.1 ms of 60 is too close.
+    EXPECT_EQ(rowOf(1, 60, 12.4, 23.5).largestParts(), (Parts{ScalingPart::vertices, ScalingPart::fill}));
+    EXPECT_EQ(rowOf(1, 60, 12.4, 21).largestParts(), Parts{ScalingPart::fill});
+    EXPECT_EQ(rowOf(1, 60, 20, 20).largestParts(),
+              (Parts{ScalingPart::layers, ScalingPart::vertices, ScalingPart::fill}));
+
+    // Layers at 30 and fill at 40 ms, once far apart in all runs, once crossing.
+    ScalingRow row;
+    setTimes(row, {{72, 71, 73}, {30, 29, 31}, {2, 2, 2}});
+    EXPECT_EQ(row.largestParts(), Parts{ScalingPart::fill});
+    setTimes(row, {{72, 72, 72}, {30, 40, 20}, {2, 2, 2}});
+    EXPECT_EQ(row.largestParts(), (Parts{ScalingPart::layers, ScalingPart::fill}));
+}
+
+TEST(ScalingText, whatIsLeftOutIsNamedAsInTheTable) {
+    ScalingPoint point;
+    point.value = 5e7;
+    EXPECT_EQ(scalingLine(ScalingLeftOut{point, "too large"}), "triangles 50 M is left out: too large\n");
+}
+
+TEST(ScalingParts, areNamedWhereTheyChange) {
+    const ScalingRow fill = rowOf(100'000, 10, 1, 1);
+    const ScalingRow vertices = rowOf(1'000'000, 10, 1, 8);
+    ScalingRow more = vertices;
+    more.value = 3e6;
+    ScalingRow layers = rowOf(1e7, 10, 8, 1);
+    EXPECT_EQ(boundsAlong(std::vector{fill}), "fill throughout");
+    EXPECT_EQ(boundsAlong(std::vector{fill, vertices}), "fill up to 100 k, vertex work from 1 M");
+    EXPECT_EQ(boundsAlong(std::vector{fill, vertices, layers}),
+              "fill up to 100 k, vertex work at 1 M, adding layers from 10 M");
+    const ScalingRow both = rowOf(300'000, 10, 1, 4.5);
+    EXPECT_EQ(boundsAlong(std::vector{fill, both, vertices}),
+              "fill up to 100 k, vertex work and fill alike at 300 k, vertex work from 1 M");
+    EXPECT_NE(scalingCsv(std::vector{both}).find(",vertex work and fill alike,"), std::string::npos);
+    EXPECT_EQ(boundsAlong(std::vector{fill, vertices, more, layers}),
+              "fill up to 100 k, vertex work from 1 M to 3 M, adding layers from 10 M");
+}
+
+TEST(ScalingFiles, csvJsonAndSummaryHoldEveryCurve) {
+    std::vector<ScalingRow> rows;
+    for (const LodMode mode : {LodMode::off, LodMode::fractional})
+        for (const double triangles : {1e5, 1e6, 1e7}) {
+            rows.push_back(rowOf(triangles, mode == LodMode::off ? triangles / 1e4 : 20, 1, 2));
+            rows.back().mode = mode;
+        }
+    const std::string csv = scalingCsv(rows);
+    ASSERT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+    const auto commas = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 7 * commas);
+
+    const ScalingLeftOut leftOut{scalingPoints(ScalingAxis::triangles, true).back(), "no memory"};
+    const auto json = nlohmann::json::parse(scalingJson(rows, std::vector{leftOut}, {}));
+    EXPECT_EQ(json["rows"].size(), 6u);
+    ASSERT_EQ(json["curves"].size(), 2u);
+    EXPECT_NEAR(json["curves"][0]["time"]["exponent"].get<double>(), 1, 1e-9);
+    EXPECT_NEAR(json["curves"][1]["time"]["exponent"].get<double>(), 0, 1e-9);
+    EXPECT_EQ(json["leftOut"][0]["value"], 50e6);
+    EXPECT_TRUE(json["curves"][0]["gpuMemory"].is_null()) << "none was measured";
+    EXPECT_NE(scalingSummary(rows).find("exponent  1.00"), std::string::npos) << scalingSummary(rows);
+}
+
+// ---- points and worlds ----------------------------------------------------------------------------------------------
+
+TEST(ScalingPoints, changeOnlyWhatTheirAxisNames) {
+    for (const ScalingAxis axis : ScalingOptions().axes) {
+        const std::vector<ScalingPoint> points = scalingPoints(axis, false);
+        ASSERT_GE(points.size(), 4u);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const ScalingPoint& p = points[i];
+            const ScalingPoint standard;
+            EXPECT_EQ(p.axis, axis);
+            EXPECT_TRUE(p.triangles == standard.triangles || axis == ScalingAxis::triangles);
+            EXPECT_TRUE(p.instances == standard.instances || axis == ScalingAxis::instances);
+            EXPECT_TRUE(p.samples == standard.samples || axis == ScalingAxis::samples);
+            EXPECT_TRUE(p.width == standard.width || axis == ScalingAxis::pixels);
+            EXPECT_TRUE(!p.fStop || axis == ScalingAxis::blur);
+            if (i > 0 && axis != ScalingAxis::blur) {
+                EXPECT_GT(p.value, points[i - 1].value);
+            }
+        }
+    }
+    EXPECT_EQ(scalingPoints(ScalingAxis::triangles, false).back().value, 1e7);
+    EXPECT_EQ(scalingPoints(ScalingAxis::triangles, true).back().value, 5e7);
+}
+
+TEST(ScalingWorlds, aSchoolHasAboutTheTrianglesAskedFor) {
+    for (const std::uint64_t triangles : {20'000ull, 60'000ull}) {
+        const ScalingWorld school = schoolOf(triangles, {});
+        std::uint64_t total = 0;
+        for (const Pyramid& pyramid : school.world.pyramids) total += pyramid.levels[0].triangleCount;
+        EXPECT_NEAR(static_cast<double>(total) / static_cast<double>(triangles), 1, 0.15);
+        EXPECT_EQ(school.world.pose.objects.size(), 8u);
+    }
+}
+
+// Every instance lies whole within the view, as large as its cell, and the layers lie between 2 and 6 m.
+TEST(ScalingWorlds, aGridFillsTheSameView) {
+    for (const int instances : {1, 8, 100, 1000}) {
+        const ScalingWorld grid = gridOf(instances, 300, {});
+        ASSERT_EQ(grid.world.pose.objects.size(), static_cast<std::size_t>(instances));
+        const int side = static_cast<int>(std::ceil(std::cbrt(instances) - 1e-9));
+        const glm::dmat4 viewFromWorld = glm::inverse(grid.view.worldFromCamera);
+        const double tanX = tanHalfHorizontalFov(grid.view.lens);
+        const Bounds& box = grid.world.pyramids[0].bounds;
+        for (const Object& object : grid.world.pose.objects) {
+            const glm::dvec3 middle(viewFromWorld * object.worldFromObject * glm::dvec4(box.centre(), 1));
+            EXPECT_LE(std::abs(middle.x), -middle.z * tanX);
+            EXPECT_LE(std::abs(middle.y), -middle.z * tanX * 0.75);
+            EXPECT_GE(-middle.z, 2);
+            EXPECT_LE(-middle.z, 6);
+            const Bounds placed = transformed(box, viewFromWorld * object.worldFromObject);
+            const double longest = std::max({placed.size().x, placed.size().y, placed.size().z});
+            EXPECT_LE(longest, 2 * 0.8 * tanX * 0.75 * -middle.z / side * 1.8) << "it stays by its cell";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace defocus

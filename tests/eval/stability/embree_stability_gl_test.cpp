@@ -1,0 +1,35 @@
+// The cases of the stability benchmark whose truth is the ray tracer, where it is built.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "embree/embree_renderer.h"
+#include "eval/stability/lens_honesty.h"
+#include "eval/stability/stability.h"
+#include "gl/context.h"
+
+namespace defocus {
+namespace {
+
+TEST(EmbreeStability, extremesAreWhatTheRayTracerSees) {
+    registerEmbree();
+    const auto context = createHeadlessContext();
+    int count = 0;
+    for (const StabilityCase& subject : stabilityCases()) {
+        if (subject.method.empty()) continue;
+        EXPECT_LE(subject.error(), subject.limit) << subject.name;
+        ++count;
+    }
+    EXPECT_GE(count, 7);
+}
+
+TEST(EmbreeStability, lensHonestyHasTheRayTracers) {
+    registerEmbree();
+    const std::vector<std::string> uses = honestyMethods();
+    for (const char* use : {"embree", "embree-shared", "embree-planned"})
+        EXPECT_EQ(std::ranges::count(uses, use), 1) << use;
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,42 @@
+// Holds every case of the stability benchmark to its limit.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "eval/stability/lens_honesty.h"
+#include "eval/stability/stability.h"
+#include "gl/context.h"
+
+namespace defocus {
+namespace {
+
+TEST(Stability, everyCaseStaysWithinItsLimit) {
+    const auto context = createHeadlessContext();
+    int count = 0;
+    measureStability([&](const StabilityRow& row) {
+        EXPECT_TRUE(!row.failed()) << row.subject.area << ": " << row.subject.name << ": " << row.subject.measured
+                                   << " is " << row.error << ", at most " << row.subject.limit;
+        ++count;
+    });
+    EXPECT_GT(count, 90);
+}
+
+TEST(Stability, notANumberFails) {
+    EXPECT_TRUE((StabilityRow{{}, std::nan("")}).failed());
+}
+
+TEST(LensHonesty, theAccumulationFollowsTheLens) {
+    const auto context = createHeadlessContext();
+    int count = 0;
+    measureHonesty({"accumulation"}, [&](const HonestyRow& row) {
+        if (row.varied == "16 samples") return;
+        EXPECT_NEAR(row.measured, row.expected, 0.5) << row.varied;
+        EXPECT_NEAR(row.energy, 1, 0.005) << row.varied;
+        ++count;
+    });
+    EXPECT_GT(count, 10);
+}
+
+}  // namespace
+}  // namespace defocus

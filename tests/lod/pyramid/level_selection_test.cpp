@@ -1,0 +1,140 @@
+#include "lod/pyramid/level_selection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "lod/invariants.h"
+#include "special_values.h"
+
+namespace defocus {
+namespace {
+
+// Edges 1, √2, 2, 2√2, 4; errors 0, 0.01, 0.02, 0.04, 0.08.
+Pyramid uniformPyramid() {
+    Pyramid pyramid;
+    for (int l = 0; l < 5; ++l) {
+        PyramidLevel level;
+        level.meanEdge = std::pow(2.0, 0.5 * l);
+        level.error = l == 0 ? 0 : 0.01 * std::pow(2.0, l - 1);
+        pyramid.levels.push_back(level);
+    }
+    return pyramid;
+}
+
+TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
+    const Pyramid pyramid = uniformPyramid();
+    const double pixelsPerUnit = 3;  // d = 3 px
+    for (double coc = 0.5; coc < 40; coc *= 1.1) {
+        const double target = std::max(0.7 * coc, 1.5);
+        const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
+        EXPECT_NEAR(levelOfDetail(pyramid, {pixelsPerUnit, coc}, LodMetric::size, {0.7, 1.5}), expected, 1e-12);
+    }
+}
+
+TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
+    const Pyramid pyramid = uniformPyramid();
+    const auto lambda = [&](double target) {
+        return levelOfDetail(pyramid, {100, 0}, LodMetric::error, {0, target});  // errors project to 0, 1, 2, 4, 8 px
+    };
+    EXPECT_DOUBLE_EQ(lambda(0.25), 0.25);
+    EXPECT_DOUBLE_EQ(lambda(1), 1);
+    EXPECT_DOUBLE_EQ(lambda(1.5), 1.5);
+    EXPECT_DOUBLE_EQ(lambda(3), 2.5);
+    EXPECT_DOUBLE_EQ(lambda(5), 3.25);
+    EXPECT_DOUBLE_EQ(lambda(8), 4);
+    EXPECT_DOUBLE_EQ(lambda(1e9), 4);
+}
+
+TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
+    Pyramid pyramid = uniformPyramid();
+    expectContinuousLevels(pyramid);
+    // Plateaus as tight as they are allowed.
+    pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
+    pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
+    expectContinuousLevels(pyramid);
+}
+
+TEST(LevelOfDetail, IsZeroWhereNothingCanBeSaid) {
+    const Pyramid pyramid = uniformPyramid();
+    for (const LodMetric metric : {LodMetric::size, LodMetric::error}) {
+        for (const double bad : {double(infinity), -double(infinity), std::nan(""), -1.0})
+            EXPECT_EQ(levelOfDetail(pyramid, {bad, 10}, metric, {1, 1}), 0) << bad;
+        EXPECT_EQ(levelOfDetail(pyramid, {1, std::nan("")}, metric, {1, 0}), 0);
+        EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {0, 0}), 0) << "thresholds of 0 mean full detail";
+        EXPECT_EQ(levelOfDetail(pyramid, {1, 10}, metric, {std::nan(""), std::nan("")}), 0);
+        EXPECT_EQ(levelOfDetail(Pyramid{}, {1, 10}, metric, {1, 1}), 0);
+        EXPECT_EQ(levelOfDetail(pyramid, {0, 0}, metric, {1, 1}), 4) << "a point may be as coarse as it gets";
+    }
+}
+
+TEST(DefaultThresholds, ShrinkSteadilyToNothingAndStayModestForFewSamples) {
+    for (const LodMetric metric : {LodMetric::size, LodMetric::error}) {
+        const LodThresholds at64 = defaultThresholds(metric, 64);
+        LodThresholds last = defaultThresholds(metric, 0);
+        EXPECT_DOUBLE_EQ(last.blur, 2 * at64.blur);
+        EXPECT_DOUBLE_EQ(last.size, at64.size);
+        for (std::uint32_t count = 1; count <= 65'536; count *= 2) {
+            const LodThresholds thresholds = defaultThresholds(metric, count);
+            EXPECT_LE(thresholds.blur, last.blur);
+            EXPECT_LE(thresholds.size, last.size);
+            EXPECT_GT(thresholds.blur, 0);
+            last = thresholds;
+        }
+        EXPECT_NEAR(last.size / at64.size, 0.0098, 1e-4);  // 1024^(−2/3)
+    }
+}
+
+TEST(SplitSamples, SharesSumToAllAndFollowTheFractionByOneSampleAtATime) {
+    for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
+        std::uint32_t last = 0;
+        for (std::uint32_t i = 0; i < 4 * count; ++i) {
+            const double fraction = i / (4.0 * count);
+            const SampleSplit split = splitSamples(2 + fraction, count, LodMode::fractional);
+            ASSERT_EQ(split.level, 2u);
+            ASSERT_LE(split.coarseCount, count);
+            ASSERT_NEAR(split.coarseCount, fraction * count, 0.5 + 1e-9);
+            ASSERT_GE(split.coarseCount, last);
+            ASSERT_LE(split.coarseCount - last, 1u);
+            last = split.coarseCount;
+        }
+        EXPECT_EQ(last, count) << "just below the next level all samples draw it";
+    }
+}
+
+// Coarse samples and the share of the boundary sample are f·N together, whatever λ.
+TEST(SplitSamples, ContinuousSharesAreExactlyTheFraction) {
+    for (const std::uint32_t count : {1u, 7u, 64u, 1000u}) {
+        for (double lambda = 0; lambda < 5; lambda += 0.00731) {
+            const SampleSplit split = splitSamples(lambda, count, LodMode::continuous);
+            ASSERT_GE(split.boundaryShare, 0);
+            ASSERT_LT(split.boundaryShare, 1);
+            ASSERT_LE(split.coarseCount + (split.boundaryShare > 0 ? 1u : 0u), count);
+            ASSERT_NEAR(split.level + (split.coarseCount + split.boundaryShare) / count, lambda, 1e-12);
+        }
+        const SampleSplit whole = splitSamples(3, count, LodMode::continuous);
+        EXPECT_EQ(whole.level, 3u);
+        EXPECT_EQ(whole.coarseCount, 0u);
+        EXPECT_EQ(whole.boundaryShare, 0);
+        const SampleSplit justBelow = splitSamples(std::nextafter(1.0, 0.0), count, LodMode::continuous);
+        EXPECT_LE(justBelow.coarseCount, count);
+    }
+    EXPECT_EQ(splitSamples(2.3, 64, LodMode::fractional).boundaryShare, 0);
+}
+
+TEST(SplitSamples, OtherModesDrawOneLevel) {
+    for (double lambda = 0; lambda < 5; lambda += 0.05) {
+        const SampleSplit nearest = splitSamples(lambda, 64, LodMode::nearest);
+        EXPECT_EQ(nearest.coarseCount, 0u);
+        EXPECT_LE(std::abs(nearest.level - lambda), 0.5 + 1e-12);
+        const SampleSplit off = splitSamples(lambda, 64, LodMode::off);
+        EXPECT_EQ(off.level, 0u);
+        EXPECT_EQ(off.coarseCount, 0u);
+    }
+    EXPECT_EQ(splitSamples(std::nan(""), 64, LodMode::fractional).level, 0u);
+    EXPECT_EQ(splitSamples(3, 64, LodMode::fractional).coarseCount, 0u);
+}
+
+}  // namespace
+}  // namespace defocus

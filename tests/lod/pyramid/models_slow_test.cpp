@@ -1,0 +1,143 @@
+// Real models: every one must become a pyramid, whatever its surface.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lod/invariants.h"
+#include "lod/pyramid/pyramid.h"
+#include "lod/pyramid/surface_distance.h"
+#include "lod/simplify/repairs.h"
+#include "models.h"
+#include "scene/gltf/gltf.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isModel(const fs::path& path) {
+    return path.extension() == ".glb" || path.extension() == ".gltf";
+}
+
+std::vector<fs::path> publicModels() {
+    std::vector<fs::path> models;
+    if (!fs::exists(modelsDirectory())) return models;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(modelsDirectory()))
+        if (isModel(entry.path()) && entry.path().parent_path().filename() != "invalid") models.push_back(entry.path());
+    std::sort(models.begin(), models.end());
+    return models;
+}
+
+TEST(RealModels, AllBecomePyramids) {
+    const std::vector<fs::path> models = publicModels();
+    if (models.empty()) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
+    for (const fs::path& path : models) {
+        SCOPED_TRACE(path.filename().string());
+        const Scene scene = loadGltf(path);
+        const std::vector<Pyramid> pyramids = buildPyramids(scene.meshes);
+        ASSERT_EQ(pyramids.size(), scene.meshes.size());
+        for (std::size_t m = 0; m < pyramids.size(); ++m) {
+            SCOPED_TRACE(testing::Message() << "mesh " << m << " " << scene.meshes[m].name);
+            expectPyramidInvariants(scene.meshes[m], pyramids[m]);
+            EXPECT_EQ(pyramids[m].repairedFaces, repairsOf(scene.meshes[m]).faces);
+        }
+    }
+}
+
+// What a level stores is no less than 0.9 of what a far denser measurement finds, and rarely far more.
+TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
+    constexpr std::size_t points = 8'192;
+    const std::vector<fs::path> models = publicModels();
+    if (models.empty()) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
+    std::vector<double> ratios;
+    for (const fs::path& path : models) {
+        const Scene scene = loadGltf(path);
+        const std::vector<Pyramid> pyramids = buildPyramids(scene.meshes);
+        for (std::size_t m = 0; m < pyramids.size(); ++m) {
+            const Pyramid& pyramid = pyramids[m];
+            const Surface mesh = prepareSurface(pyramid.levels[0].positions, levelIndices(pyramid, 0));
+            for (const std::size_t l : {1u, 2u, 5u, 8u}) {
+                if (l >= pyramid.levels.size()) continue;
+                const PyramidLevel& level = pyramid.levels[l];
+                const Surface surface = prepareSurface(level.positions, levelIndices(pyramid, l));
+                const double measured = surfaceDistance(mesh, surface, points).both.percentile99;
+                EXPECT_GE(level.error, 0.9 * measured)
+                    << path.filename().string() << " mesh " << m << " " << scene.meshes[m].name << " level " << l;
+                if (measured > 0) ratios.push_back(level.error / measured);
+            }
+        }
+    }
+    ASSERT_FALSE(ratios.empty());
+    std::sort(ratios.begin(), ratios.end());
+    const double median = ratios[ratios.size() / 2];
+    RecordProperty("median_stored_to_measured", std::to_string(median));
+    EXPECT_LT(median, 1.3);
+}
+
+TEST(RealModels, ClosedScansComeDownToTheFloor) {
+    for (const char* name : {"skull.glb", "hammer.glb"}) {
+        DEFOCUS_MODEL_OR_SKIP(path, name);
+        const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+        ASSERT_TRUE(isClosed(pyramid.vertices.positions, levelIndices(pyramid, 0))) << name;
+        EXPECT_EQ(pyramid.levels.back().triangleCount, 64u) << name;
+    }
+}
+
+TEST(RealModels, ClosedMeshesStayClosed) {
+    const std::vector<fs::path> models = publicModels();
+    if (models.empty()) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
+    std::size_t closed = 0;
+    for (const fs::path& path : models) {
+        const Scene scene = loadGltf(path);
+        for (const Mesh& mesh : scene.meshes) {
+            std::vector<std::uint32_t> indices;
+            for (const Primitive& primitive : mesh.primitives)
+                indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
+            if (indices.empty() || !isClosed(mesh.vertices.positions, indices)) continue;
+            ++closed;
+            const Pyramid pyramid = buildPyramid(mesh);
+            for (std::size_t l = 1; l < pyramid.levels.size(); ++l)
+                EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l)))
+                    << path.filename().string() << " mesh " << mesh.name << " level " << l;
+        }
+    }
+    RecordProperty("closed_meshes", std::to_string(closed));
+    EXPECT_GT(closed, 0u);
+}
+
+// Its cap has four fifths of the area, and straps of many handles have the most triangles.
+TEST(RealModels, LeatherCapOutlastsItsStraps) {
+    DEFOCUS_MODEL_OR_SKIP(path, "FlightHelmet/FlightHelmet.gltf");
+    const Scene scene = loadGltf(path);
+    const auto leather = std::find_if(scene.meshes.begin(), scene.meshes.end(),
+                                      [](const Mesh& mesh) { return mesh.name == "LeatherParts_low"; });
+    ASSERT_NE(leather, scene.meshes.end());
+    expectMainPartLasts(*leather, buildPyramid(*leather));
+}
+
+TEST(RealModels, OpenMountainKeepsItsOutline) {
+    // The outline shrinks by no more than what the stored error allows along its length.
+    DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
+    const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        Bounds bounds;
+        for (const std::uint32_t v : levelIndices(pyramid, l)) bounds.extend(glm::dvec3(pyramid.vertices.positions[v]));
+        const glm::dvec3 lost = pyramid.bounds.size() - bounds.size();
+        EXPECT_LE(std::max(lost.x, lost.z), 2 * pyramid.levels[l].error) << "level " << l;
+    }
+}
+
+TEST(RealModels, SoupOfHundredLooseTrianglesLosesWholeOnes) {
+    DEFOCUS_MODEL_OR_SKIP(path, "nasty/soup.glb");
+    const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+    EXPECT_EQ(pyramid.levels[0].triangleCount, 100u);
+    ASSERT_EQ(pyramid.levels.size(), 2u);
+    EXPECT_EQ(pyramid.levels[1].triangleCount, 64u);
+}
+
+}  // namespace
+}  // namespace defocus

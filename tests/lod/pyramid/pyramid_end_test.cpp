@@ -1,0 +1,70 @@
+// Where pyramids end, and why.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lod/shapes.h"
+
+namespace defocus {
+namespace {
+
+// Triangles of the smallest closed surface of this genus (Jungerman and Ringel 1980; genus 2 needs a vertex more).
+std::uint32_t leastOfGenus(std::uint32_t genus) {
+    const auto vertices = static_cast<std::uint32_t>(std::ceil((7 + std::sqrt(1 + 48.0 * genus)) / 2));
+    return 2 * (vertices + (genus == 2 ? 1 : 0)) + 4 * genus - 4;
+}
+
+TEST(PyramidEnd, SurfacesOfUpToFourHandlesComeDownToTheLeast) {
+    for (const std::uint32_t genus : {1u, 2u, 3u, 4u}) {
+        const Pyramid pyramid = buildPyramid(slab(genus, 4));
+        EXPECT_LE(pyramid.levels.back().triangleCount, 64u) << genus;
+        EXPECT_EQ(pyramid.end, PyramidEnd::leastTriangles) << genus;
+    }
+    EXPECT_EQ(buildPyramid(sphere(48, 32)).end, PyramidEnd::leastTriangles);
+}
+
+TEST(PyramidEnd, MoreHandlesEndWithinTwiceWhatTheyNeed) {
+    for (const std::uint32_t genus : {8u, 20u, 40u}) {
+        const Pyramid pyramid = buildPyramid(slab(genus, 4));
+        EXPECT_GE(pyramid.levels.back().triangleCount, leastOfGenus(genus)) << genus;
+        EXPECT_LE(pyramid.levels.back().triangleCount, 2 * leastOfGenus(genus)) << genus;
+        EXPECT_EQ(pyramid.end, PyramidEnd::topology) << genus;
+    }
+}
+
+TEST(PyramidEnd, ALevelThatSavesLessThanAQuarterIsNotMade) {
+    const Mesh mesh = torus(24, 16);
+    PyramidOptions options;
+    options.leastTriangles = static_cast<std::uint32_t>(mesh.triangleCount()) * 4 / 5;
+    const Pyramid pyramid = buildPyramid(mesh, options);
+    EXPECT_EQ(pyramid.levels.size(), 1u);
+    EXPECT_EQ(pyramid.end, PyramidEnd::smallSaving);
+}
+
+// The slab is the widest part and can become no smaller, and the ball has most of the area.
+TEST(PyramidEnd, NeitherTheWidestNorTheLargestPartGoes) {
+    Mesh mesh;
+    addPart(mesh, sphere(96, 48), 1, {});
+    addPart(mesh, slab(30, 3), 4, {2, 0, 0});
+    const Pyramid pyramid = buildPyramid(mesh);
+    EXPECT_EQ(pyramid.end, PyramidEnd::largestParts);
+    EXPECT_GT(pyramid.levels.back().triangleCount, leastOfGenus(30) + 20);
+}
+
+TEST(PyramidEnd, WithoutASurfaceThereIsNothingToSimplify) {
+    Mesh mesh = sphere(12, 8);
+    for (glm::vec3& p : mesh.vertices.positions) p = glm::vec3(1);
+    EXPECT_EQ(buildPyramid(mesh).end, PyramidEnd::noSurface);
+    EXPECT_EQ(buildPyramid(Mesh{}).end, PyramidEnd::leastTriangles);
+}
+
+TEST(PyramidEnd, AsManyLevelsAsAskedFor) {
+    PyramidOptions options;
+    options.mostLevels = 3;
+    EXPECT_EQ(buildPyramid(sphere(48, 32), options).end, PyramidEnd::mostLevels);
+    EXPECT_EQ(fullDetail(sphere(48, 32)).end, PyramidEnd::mostLevels);
+}
+
+}  // namespace
+}  // namespace defocus

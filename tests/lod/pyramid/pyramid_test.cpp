@@ -1,0 +1,448 @@
+#include "lod/pyramid/pyramid.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "core/error.h"
+#include "likeness.h"
+#include "lod/invariants.h"
+#include "lod/shapes.h"
+
+namespace defocus {
+namespace {
+
+// Every attribute takes part: what a level draws at a position must be a vertex of the mesh.
+Mesh decorated(Mesh mesh) {
+    const std::size_t count = mesh.vertices.count();
+    for (std::size_t v = 0; v < count; ++v) {
+        const auto byte = static_cast<std::uint8_t>(v % 251);
+        mesh.vertices.tangents.push_back({1, 0, 0, v % 2 == 0 ? 1.0f : -1.0f});
+        mesh.vertices.uv1.push_back(0.5f * mesh.vertices.uv0[v]);
+        mesh.vertices.colors.push_back({byte, 128, 255, 255});
+        mesh.vertices.joints.push_back({byte, 0, 0, 0});
+        mesh.vertices.weights.push_back({1, 0, 0, 0});
+    }
+    return mesh;
+}
+
+TEST(Pyramid, EmptyMeshHasOneEmptyLevel) {
+    const Pyramid pyramid = buildPyramid(Mesh{});
+    ASSERT_EQ(pyramid.levels.size(), 1u);
+    EXPECT_EQ(pyramid.levels[0].triangleCount, 0u);
+    EXPECT_TRUE(pyramid.indices.empty());
+    EXPECT_TRUE(pyramid.bounds.empty());
+}
+
+TEST(Pyramid, SingleTriangleStaysAlone) {
+    Vertices vertices;
+    vertices.positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+    const Mesh mesh = singlePrimitive(vertices, {0, 1, 2});
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    ASSERT_EQ(pyramid.levels.size(), 1u);
+    EXPECT_DOUBLE_EQ(pyramid.levels[0].meanEdge, 4);  // (3 + 4 + 5) / 3
+    EXPECT_EQ(pyramid.bounds.maximum, glm::dvec3(3, 4, 0));
+}
+
+TEST(Pyramid, IndexBeyondTheVerticesIsAnError) {
+    Vertices vertices;
+    vertices.positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+    vertices.normals.assign(3, {0, 0, 1});
+    EXPECT_THROW(buildPyramid(singlePrimitive(vertices, {0, 1, 3})), Error);
+}
+
+TEST(Pyramid, HalvesAClosedSphereWithASeamDownToItsFloorAndKeepsItClosed) {
+    const Mesh mesh = sphere(64, 32, 0.1);
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    EXPECT_EQ(pyramid.repairedFaces, 0u);
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
+        EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l))) << "level " << l;
+    // 3968, 1984, 992, 496, 248, 124, 64
+    ASSERT_EQ(pyramid.levels.size(), 7u);
+    EXPECT_EQ(pyramid.levels[3].triangleCount, 496u);
+    EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
+}
+
+TEST(Pyramid, KeepsATorusWithTwoSeamsClosed) {
+    const Mesh mesh = torus(48, 24);
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
+        const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+        EXPECT_TRUE(isClosed(pyramid.levels[l].positions, indices)) << "level " << l;
+        // V − E + F = 0 as for every torus.
+        std::map<PositionKey, int> positions;
+        for (const std::uint32_t v : indices) ++positions[keyOf(pyramid.vertices.positions[v])];
+        EXPECT_EQ(positions.size(), indices.size() / 6) << "level " << l;
+    }
+    EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
+}
+
+double volume(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
+    double sum = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3)
+        sum += glm::dot(glm::dvec3(positions[indices[i]]),
+                        glm::cross(glm::dvec3(positions[indices[i + 1]]), glm::dvec3(positions[indices[i + 2]]))) /
+               6;
+    return sum;
+}
+
+// A polyhedron whose vertices lie on a sphere is inside of it: fitted, it loses at most a third of that volume.
+TEST(Pyramid, LevelsOfASphereKeepItsVolume) {
+    const Pyramid pyramid = buildPyramid(sphere(96, 48));
+    const double whole = volume(pyramid.vertices.positions, levelIndices(pyramid, 0));
+    ASSERT_GT(pyramid.levels.size(), 5u);
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+        const double inscribed = whole - volume(pyramid.vertices.positions, indices);
+        EXPECT_LT(std::abs(whole - volume(pyramid.levels[l].positions, indices)), inscribed / 3) << "level " << l;
+    }
+}
+
+// A square sheet of thickness 0.004 with both sides and its rim in smooth normals, as scans and sculpted fins have
+// them.
+Mesh thinSheet(std::uint32_t cells) {
+    Mesh mesh = parametricSurface(2 * cells + 2, cells, [=](std::uint32_t i, std::uint32_t j) {
+        const std::uint32_t around = i % (2 * cells + 2);
+        const bool front = around <= cells;
+        const double x = front ? around : 2.0 * cells + 1 - around;
+        return glm::dvec3(x / cells, static_cast<double>(j) / cells, front ? 0.002 : -0.002);
+    });
+    mesh.vertices.normals = smoothNormals(mesh.vertices.positions, mesh.primitives[0].indices);
+    return mesh;
+}
+
+TEST(Pyramid, BothSidesOfAThinSheetKeepTheirNormals) {
+    for (std::uint32_t cells = 44; cells <= 84; cells += 2) {
+        const Pyramid pyramid = buildPyramid(thinSheet(cells));
+        ASSERT_LE(pyramid.levels.back().triangleCount, 256u);
+        for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+            const PyramidLevel& level = pyramid.levels[l];
+            const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+            for (std::size_t i = 0; i < indices.size(); i += 3) {
+                const glm::vec3& a = level.positions[indices[i]];
+                const glm::vec3 cross =
+                    glm::cross(level.positions[indices[i + 1]] - a, level.positions[indices[i + 2]] - a);
+                if (glm::length(cross) < 1e-3f || std::abs(glm::normalize(cross).z) < 0.9f) continue;  // of the rim
+                glm::vec3 mean(0);
+                for (std::size_t k = 0; k < 3; ++k) mean += level.normals[indices[i + k]] / 3.0f;
+                EXPECT_GT(glm::dot(mean, glm::normalize(cross)), 0.6f) << cells << " cells, level " << l;
+            }
+        }
+    }
+}
+
+// The rim is next to no area, but all of the outline.
+TEST(Pyramid, AThinSheetIsNotCutBackAtItsRim) {
+    const Pyramid pyramid = buildPyramid(thinSheet(64));
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, levelIndices(pyramid, l)), 2, 0.04) << "level " << l;
+}
+
+TEST(Pyramid, DrawsNoTriangleAcrossASeam) {
+    // A triangle with corners from both ends of the seam would span nearly all of the texture.
+    const Mesh mesh = torus(96, 48);
+    const Pyramid pyramid = buildPyramid(mesh);
+    for (std::size_t l = 0; l + 2 < pyramid.levels.size(); ++l) {
+        const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+        for (std::size_t i = 0; i < indices.size(); i += 3)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const glm::vec2 step =
+                    pyramid.vertices.uv0[indices[i + k]] - pyramid.vertices.uv0[indices[i + (k + 1) % 3]];
+                ASSERT_LT(std::max(std::abs(step.x), std::abs(step.y)), 0.75f) << "level " << l;
+            }
+    }
+}
+
+TEST(Pyramid, BorderBetweenTwoPrimitivesStaysShut) {
+    // One sphere, its southern half in one primitive and its northern half, with vertices of its own, in another.
+    Mesh mesh = sphere(48, 24);
+    const Mesh whole = mesh;
+    const auto count = static_cast<std::uint32_t>(mesh.vertices.count());
+    const auto appendAgain = [&](auto& values) {
+        auto copy = values;
+        values.insert(values.end(), copy.begin(), copy.end());
+    };
+    appendAgain(mesh.vertices.positions);
+    appendAgain(mesh.vertices.normals);
+    appendAgain(mesh.vertices.uv0);
+    for (std::size_t v = count; v < mesh.vertices.count(); ++v) mesh.vertices.uv0[v].x += 2;  // else they are joined
+    mesh.primitives = {{0, {}}, {1, {}}};
+    for (std::size_t i = 0; i < whole.primitives[0].indices.size(); i += 3) {
+        const std::uint32_t* v = &whole.primitives[0].indices[i];
+        const float z =
+            mesh.vertices.positions[v[0]].z + mesh.vertices.positions[v[1]].z + mesh.vertices.positions[v[2]].z;
+        for (std::size_t k = 0; k < 3; ++k) mesh.primitives[z > 0].indices.push_back(z > 0 ? v[k] + count : v[k]);
+    }
+
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
+        SCOPED_TRACE(testing::Message() << "level " << l);
+        EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l)));
+        for (std::size_t p = 0; p < 2; ++p) {
+            const IndexRange& range = pyramid.levels[l].primitives[p];
+            EXPECT_GT(range.count, 0u);
+            for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+                ASSERT_EQ(pyramid.source[pyramid.indices[i]] >= count, p == 1) << "a vertex of the other primitive";
+        }
+    }
+}
+
+TEST(Pyramid, FlatSquareIsTiledAtEveryLevel) {
+    const Mesh mesh = flatGrid(48);
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    EXPECT_LE(pyramid.levels.back().triangleCount, 64u);
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
+        SCOPED_TRACE(testing::Message() << "level " << l);
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, levelIndices(pyramid, l)), 1, 1e-6);
+        for (const glm::vec3& normal : pyramid.levels[l].normals) ASSERT_NEAR(normal.z, 1, 1e-6);
+        if (l == 0) continue;
+        EXPECT_NEAR(pyramid.levels[l].error, std::sqrt(2.0) * 1e-6 * std::pow(1.25, l - 1), 1e-12);
+    }
+}
+
+TEST(Pyramid, FlatSquareGetsEvenTriangles) {
+    // A square of n triangles has edges of about √(2/n)·1.14 (right-angled) at least; slivers would have far longer
+    // ones.
+    const Pyramid pyramid = buildPyramid(flatGrid(64));
+    for (const PyramidLevel& level : pyramid.levels)
+        EXPECT_LT(level.meanEdge, 2.2 * std::sqrt(2.0 / level.triangleCount)) << level.triangleCount;
+}
+
+TEST(Pyramid, StoredErrorOfASphereCoversTheDistanceOfItsFaces) {
+    // A fitted face cuts the unit sphere: it is farthest outside at its corners, | |p| − 1 |, and inside near its
+    // middle.
+    const Pyramid pyramid = buildPyramid(sphere(128, 64));
+    for (std::size_t l = 3; l < pyramid.levels.size(); ++l) {
+        std::vector<double> distances;
+        const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+        const auto& p = pyramid.levels[l].positions;
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            for (std::size_t k = 0; k < 3; ++k) distances.push_back(std::abs(glm::length(p[indices[i + k]]) - 1));
+            distances.push_back(1 - glm::length(p[indices[i]] + p[indices[i + 1]] + p[indices[i + 2]]) / 3);
+        }
+        std::sort(distances.begin(), distances.end());
+        const double median = distances[distances.size() / 2];
+        EXPECT_GT(pyramid.levels[l].error, median) << "level " << l;
+        EXPECT_LT(pyramid.levels[l].error, 6 * median) << "level " << l;
+    }
+}
+
+TEST(Pyramid, NormalsOfASphereStayRadial) {
+    const Pyramid pyramid = buildPyramid(sphere(64, 32));
+    for (std::size_t l = 0; l + 1 < pyramid.levels.size(); ++l) {
+        const PyramidLevel& level = pyramid.levels[l];
+        double worst = 1;
+        for (const std::uint32_t v : levelIndices(pyramid, l))
+            worst = std::min<double>(worst, glm::dot(level.normals[v], glm::normalize(pyramid.vertices.positions[v])));
+        EXPECT_GT(worst, l < 4 ? 0.95 : 0.85) << "level " << l;
+    }
+}
+
+TEST(Pyramid, CubeWithHardEdgesStaysACube) {
+    // Six grids of 12 × 12 cells that share positions but not normals along the edges.
+    Mesh mesh;
+    mesh.primitives.resize(1);
+    for (int face = 0; face < 6; ++face) {
+        const Mesh grid = flatGrid(12);
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.count());
+        const int axis = face / 2;
+        for (std::size_t v = 0; v < grid.vertices.count(); ++v) {
+            const glm::vec3& g = grid.vertices.positions[v];
+            glm::vec3 p(0);
+            p[(axis + 1) % 3] = face % 2 == 0 ? g.y : g.x;
+            p[(axis + 2) % 3] = face % 2 == 0 ? g.x : g.y;
+            p[axis] = face % 2 == 0 ? 0.0f : 1.0f;
+            glm::vec3 normal(0);
+            normal[axis] = face % 2 == 0 ? -1.0f : 1.0f;
+            mesh.vertices.positions.push_back(p);
+            mesh.vertices.normals.push_back(normal);
+            mesh.vertices.uv0.push_back(grid.vertices.uv0[v]);
+        }
+        for (const std::uint32_t index : grid.primitives[0].indices)
+            mesh.primitives[0].indices.push_back(first + index);
+    }
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {
+        const std::vector<std::uint32_t> indices = levelIndices(pyramid, l);
+        EXPECT_TRUE(isClosed(pyramid.levels[l].positions, indices)) << "level " << l;
+        EXPECT_NEAR(surfaceArea(pyramid.levels[l].positions, indices), 6, 1e-5) << "level " << l;
+        for (const std::uint32_t v : indices)
+            ASSERT_NEAR(glm::dot(pyramid.levels[l].normals[v], pyramid.vertices.normals[v]), 1, 1e-5) << "level " << l;
+    }
+}
+
+TEST(Pyramid, SoupOfLooseTrianglesComesDownToTheFloor) {
+    Vertices vertices;
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        const std::uint32_t triangle = i / 3;
+        const auto x = static_cast<float>(2 * triangle);
+        vertices.positions.push_back({x + static_cast<float>(i % 3 == 1), static_cast<float>(i % 3 == 2), x});
+        indices.push_back(i);
+    }
+    const Mesh mesh = singlePrimitive(vertices, indices);
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    // Only whole triangles can go; half of the 100 would be too near the floor.
+    ASSERT_EQ(pyramid.levels.size(), 2u);
+    EXPECT_EQ(pyramid.levels[1].triangleCount, 64u);
+}
+
+TEST(Pyramid, SurvivesWhatHalfEdgesCannotHold) {
+    // A sphere to which are added: a fin on one of its edges, a repeated face, a face of no area, a reversed copy of
+    // everything (a sheet with two faces), and a corner that is nowhere.
+    Mesh mesh = sphere(32, 16);
+    std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
+    const std::vector<std::uint32_t> clean = indices;
+    const auto apex = static_cast<std::uint32_t>(mesh.vertices.count());
+    mesh.vertices.positions.insert(mesh.vertices.positions.end(),
+                                   {{3, 0, 0}, {std::numeric_limits<float>::quiet_NaN(), 0, 0}});
+    mesh.vertices.normals.insert(mesh.vertices.normals.end(), 2, {1, 0, 0});
+    mesh.vertices.uv0.insert(mesh.vertices.uv0.end(), 2, {0, 0});
+    const std::uint32_t a = clean[300];
+    const std::uint32_t b = clean[301];
+    indices.insert(indices.end(), {a, b, apex});
+    indices.insert(indices.end(), {clean[300], clean[301], clean[302]});
+    indices.insert(indices.end(), {a, a, b});
+    for (std::size_t i = 0; i < clean.size(); i += 3)
+        indices.insert(indices.end(), {clean[i], clean[i + 2], clean[i + 1]});
+    const Mesh withoutNaN = mesh;
+    const Pyramid pyramid = buildPyramid(withoutNaN);
+    expectPyramidInvariants(withoutNaN, pyramid);
+    EXPECT_GT(pyramid.repairedFaces, 2u);
+    EXPECT_GT(pyramid.levels.size(), 3u);
+
+    indices.insert(indices.end(), {a, b, apex + 1});
+    const Pyramid withNaN = buildPyramid(mesh);
+    EXPECT_EQ(withNaN.levels[0].triangleCount, mesh.triangleCount());
+    EXPECT_EQ(withNaN.bounds.maximum.x, 3);
+    for (std::size_t l = 1; l < withNaN.levels.size(); ++l)
+        for (const std::uint32_t v : levelIndices(withNaN, l))
+            ASSERT_TRUE(std::isfinite(withNaN.vertices.positions[v].x));
+}
+
+TEST(Pyramid, WindingAgainstTheNeighboursIsKeptAsItIs) {
+    // Every third triangle is wound the other way; at every level a triangle is still an edge-to-edge part of the
+    // surface.
+    Mesh mesh = sphere(32, 16);
+    std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
+    for (std::size_t i = 0; i < indices.size(); i += 9) std::swap(indices[i], indices[i + 1]);
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    EXPECT_EQ(pyramid.repairedFaces, (indices.size() / 3 + 2) / 3);
+    for (std::size_t l = 0; l < pyramid.levels.size(); ++l)
+        for (const auto& [edge, use] : edgeUses(pyramid.vertices.positions, levelIndices(pyramid, l)))
+            ASSERT_EQ(use.count, 2) << "level " << l;
+}
+
+TEST(Pyramid, ScaleAndPlaceOfTheUnitDoNotMatter) {
+    const Mesh mesh = sphere(48, 24, 0.1);
+    const Pyramid pyramid = buildPyramid(mesh);
+    for (const int exponent : {-20, 20}) {  // about 1e-6 and 1e6; powers of two are exact
+        Mesh scaled = mesh;
+        for (glm::vec3& p : scaled.vertices.positions) p *= std::ldexp(1.0f, exponent);
+        const Pyramid other = buildPyramid(scaled);
+        EXPECT_TRUE(sameBits(other.indices, pyramid.indices)) << exponent;
+        ASSERT_EQ(other.levels.size(), pyramid.levels.size());
+        for (std::size_t l = 0; l < other.levels.size(); ++l) {
+            EXPECT_DOUBLE_EQ(other.levels[l].meanEdge, std::ldexp(pyramid.levels[l].meanEdge, exponent));
+            EXPECT_DOUBLE_EQ(other.levels[l].error, std::ldexp(pyramid.levels[l].error, exponent));
+        }
+    }
+}
+
+TEST(Pyramid, SameMeshGivesTheSameBitsAloneAndAmongOthers) {
+    const Mesh mesh = decorated(sphere(48, 24, 0.1));
+    const Pyramid first = buildPyramid(mesh);
+    std::uint64_t reported = 0;
+    std::vector<Pyramid> many = buildPyramids({torus(24, 12), mesh, Mesh{}, mesh, sphere(16, 8)}, {},
+                                              [&](std::string_view, std::uint64_t done, std::uint64_t total) {
+                                                  EXPECT_EQ(total, 5u);
+                                                  EXPECT_EQ(done, ++reported);
+                                              });
+    EXPECT_EQ(reported, 5u);
+    ASSERT_EQ(many.size(), 5u);
+    EXPECT_EQ(many[0].levels[0].triangleCount, 576u);
+    // The last one alone, with all cores for its levels.
+    many.push_back(std::move(buildPyramids({mesh}).front()));
+    many.push_back(buildPyramid(mesh, {}, 3));
+    for (const std::size_t i : {1u, 3u, 5u, 6u}) {
+        EXPECT_TRUE(sameBits(many[i].indices, first.indices));
+        EXPECT_TRUE(sameBits(many[i].vertices.positions, first.vertices.positions));
+        EXPECT_TRUE(sameBits(many[i].source, first.source));
+        ASSERT_EQ(many[i].levels.size(), first.levels.size());
+        for (std::size_t l = 0; l < first.levels.size(); ++l) {
+            EXPECT_TRUE(sameBits(many[i].levels[l].normals, first.levels[l].normals));
+            EXPECT_EQ(many[i].levels[l].error, first.levels[l].error);
+            EXPECT_EQ(many[i].levels[l].meanEdge, first.levels[l].meanEdge);
+        }
+    }
+}
+
+TEST(Pyramid, AttributesFollowTheirVertices) {
+    const Mesh mesh = decorated(sphere(24, 12));
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    for (std::size_t v = 0; v < pyramid.vertices.count(); ++v) {
+        const std::uint32_t s = pyramid.source[v];
+        ASSERT_EQ(pyramid.vertices.normals[v], mesh.vertices.normals[s]);
+        ASSERT_EQ(pyramid.vertices.tangents[v], mesh.vertices.tangents[s]);
+        ASSERT_EQ(pyramid.vertices.uv0[v], mesh.vertices.uv0[s]);
+        ASSERT_EQ(pyramid.vertices.uv1[v], mesh.vertices.uv1[s]);
+        ASSERT_EQ(pyramid.vertices.colors[v], mesh.vertices.colors[s]);
+        ASSERT_EQ(pyramid.vertices.joints[v], mesh.vertices.joints[s]);
+        ASSERT_EQ(pyramid.vertices.weights[v], mesh.vertices.weights[s]);
+    }
+}
+
+TEST(Pyramid, UnsharedVerticesAreJoinedAndUnusedOnesDropped) {
+    const Mesh shared = sphere(24, 12);
+    Mesh mesh;
+    mesh.primitives.resize(1);
+    mesh.vertices.positions.push_back({9, 9, 9});
+    mesh.vertices.normals.push_back({0, 0, 1});
+    mesh.vertices.uv0.push_back({0, 0});
+    for (const std::uint32_t v : shared.primitives[0].indices) {
+        mesh.primitives[0].indices.push_back(static_cast<std::uint32_t>(mesh.vertices.count()));
+        mesh.vertices.positions.push_back(shared.vertices.positions[v]);
+        mesh.vertices.normals.push_back(shared.vertices.normals[v]);
+        mesh.vertices.uv0.push_back(shared.vertices.uv0[v]);
+    }
+    const Pyramid pyramid = buildPyramid(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    EXPECT_EQ(pyramid.vertices.count(), buildPyramid(shared).vertices.count());
+    EXPECT_LE(pyramid.bounds.maximum.x, 1);
+    EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
+}
+
+TEST(Pyramid, VerticesThatDifferOnlyInAMorphTargetStayApart) {
+    Mesh mesh = flatGrid(1);
+    mesh.vertices.uv0.clear();
+    mesh.vertices.positions.push_back(mesh.vertices.positions[0]);
+    mesh.vertices.normals.push_back(mesh.vertices.normals[0]);
+    mesh.primitives[0].indices[0] = 4;  // the first triangle's corner at vertex 0
+    mesh.morphTargets.push_back({std::vector<glm::vec3>(5, {0, 0, 0}), {}, {}});
+    EXPECT_EQ(buildPyramid(mesh).vertices.count(), 4u);
+    mesh.morphTargets[0].positions[4] = {0, 0, 1};
+    EXPECT_EQ(buildPyramid(mesh).vertices.count(), 5u);
+}
+
+TEST(FullDetail, HasEveryTriangleAndNoFurtherLevel) {
+    const Mesh mesh = sphere(32, 16);
+    const Pyramid pyramid = fullDetail(mesh);
+    expectPyramidInvariants(mesh, pyramid);
+    EXPECT_EQ(pyramid.levels.size(), 1u);
+    EXPECT_EQ(pyramid.levels[0].triangleCount, mesh.triangleCount());
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,434 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "likeness.h"
+#include "render/aov/aov.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class Accumulation : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> Accumulation::context_;
+
+RenderSettings settingsFor(std::uint32_t samples, LodMode lod = LodMode::fractional) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = lod;
+    settings.thresholds = {0.5, 2};
+    return settings;
+}
+
+Image rendered(const SmallWorld& small, const RenderSettings& settings, const RendererOptions& options = {}) {
+    const auto renderer = methodNamed("accumulation").make(small.world, options);
+    renderer->start(planFrame(small.world, small.view, settings));
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+// A green quad that fills the frame at `depth`, in front of a uniform red background.
+std::unique_ptr<SmallWorld> wall(double depth, double halfSize) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
+    small->scene.meshes.push_back(quad(0));
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -depth)), glm::dvec3(halfSize)));
+    small->world.environment = {EnvironmentType::uniform, {0.8f, 0.1f, 0.1f}, {}, {}, nullptr, 1};
+    small->view.width = 96;
+    small->view.height = 64;
+    small->view.lens.fStop = 1;
+    small->view.lens.focusDistance = 2;
+    finish(*small);
+    return small;
+}
+
+TEST_F(Accumulation, waveSizeChangesNoBit) {
+    const auto small = fiveSpheres();
+    for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5}) {
+        Image first;
+        for (const std::uint32_t k : {1u, 3u, 8u, 64u}) {
+            RendererOptions options;
+            options.wave = k;
+            options.layerFormat = format;
+            const Image image = rendered(*small, settingsFor(100), options);
+            if (first.empty())
+                first = image;
+            else
+                EXPECT_TRUE(sameBits(first, image)) << "K = " << k << ": " << largestDifference(first, image);
+        }
+    }
+}
+
+TEST_F(Accumulation, geometryShaderLayersGiveTheSameImage) {
+    const auto small = fiveSpheres();
+    RendererOptions options;
+    options.geometryShaderLayers = true;
+    const Image expected = rendered(*small, settingsFor(16));
+    const Image image = rendered(*small, settingsFor(16), options);
+    EXPECT_LT(largestDifference(expected, image),
+              1e-3);  // another vertex program: rounding may differ, coverage may not
+}
+
+TEST_F(Accumulation, keepingEverythingGivesTheSameImage) {
+    const auto small = fiveSpheres();
+    RenderSettings everything = settingsFor(32);
+    everything.keepAll = true;
+    EXPECT_TRUE(sameBits(rendered(*small, settingsFor(32)), rendered(*small, everything)));
+}
+
+TEST_F(Accumulation, leavingOutTheLensChangesLessThanHalfAPixelOfBlurMay) {
+    const auto small = fiveSpheres();
+    small->view.lens.fStop = 120;
+    RenderSettings everything = settingsFor(64, LodMode::off);
+    everything.keepAll = true;
+    ASSERT_FALSE(planFrame(small->world, small->view, settingsFor(64)).usesLens);
+    const Difference difference =
+        compareImages(rendered(*small, everything), rendered(*small, settingsFor(64, LodMode::off)));
+    EXPECT_GT(difference.psnr, 36);
+    EXPECT_LT(std::abs(difference.mae), 0.004);
+}
+
+TEST_F(Accumulation, apertureZeroIsThePinhole) {
+    const auto small = fiveSpheres();
+    RenderSettings settings = settingsFor(16, LodMode::off);
+    settings.keepAll = true;
+    small->view.lens.dofEnabled = false;
+    const Image pinhole = rendered(*small, settings);
+    small->view.lens.dofEnabled = true;
+    small->view.lens.blurScale = 0;
+    EXPECT_TRUE(sameBits(pinhole, rendered(*small, settings)));
+    small->view.lens.blurScale = 1e-9;
+    EXPECT_LT(largestDifference(pinhole, rendered(*small, settings)), 1e-3);
+}
+
+TEST_F(Accumulation, focusPlaneIsUnchangedByTheAperture) {
+    const auto small = wall(2, 0.4);  // in focus: its edges stay where they are
+    RenderSettings settings = settingsFor(64);
+    settings.keepAll = true;  // nothing is blurred here: the lens would be left out
+    const Image wide = rendered(*small, settings);
+    small->view.lens.dofEnabled = false;
+    EXPECT_LT(largestDifference(wide, rendered(*small, settings)), 1e-3);
+}
+
+TEST_F(Accumulation, blurredEdgeSpreadsOverTheCircleOfConfusion) {
+    const auto small = wall(1, 0.2);
+    const double c = 0.05 * 0.5 * 96 / 0.72;  // px
+    const Image image = rendered(*small, settingsFor(512));
+    // Along the middle row the left edge of the quad lies at 48 − 0.2/0.36·48 px; it mixes over ± c/2.
+    const double edge = 48 - 0.2 / 0.36 * 48;
+    for (int x = 0; x < 48; ++x) {
+        const double green = image.at(x, 32)[1];
+        // A half-plane's profile under a uniform disk of radius r at distance d: 1/2 + (asin(d/r) + d/r·√(1 −
+        // (d/r)²))/π
+        const double d = std::clamp((x + 0.5 - edge) / (c / 2), -1.0, 1.0);
+        const double covered = 0.5 + (std::asin(d) + d * std::sqrt(1 - d * d)) / std::numbers::pi;
+        EXPECT_NEAR(green, 0.1 + 0.6 * covered, 0.04) << x;
+    }
+}
+
+TEST_F(Accumulation, constantSceneStaysConstant) {
+    const auto small = wall(1, 4);
+    for (const std::uint32_t n : {1u, 2u, 3u, 7u, 64u, 65u, 200u}) {
+        RendererOptions exact;
+        exact.layerFormat = LayerFormat::rgba32f;
+        const Image image = rendered(*small, settingsFor(n), exact);
+        const glm::vec3 expected(0.1f, 0.7f, 1.0f / 3);
+        for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
+            for (glm::length_t c = 0; c < 3; ++c)
+                ASSERT_NEAR(image.pixels[i * 4 + static_cast<std::size_t>(c)], expected[c], 1e-6 * expected[c]) << n;
+    }
+}
+
+TEST_F(Accumulation, layerFormatsErrNoMoreThanStated) {
+    const auto small = wall(1, 4);
+    for (const auto& [format, relative] :
+         {std::pair{LayerFormat::rgba16f, 0x1p-11}, std::pair{LayerFormat::rgb9e5, 0x1p-9}}) {
+        RendererOptions options;
+        options.layerFormat = format;
+        const Image image = rendered(*small, settingsFor(64), options);
+        for (glm::length_t c = 0; c < 3; ++c) {
+            const double expected[3] = {0.1, 0.7, 1.0 / 3};
+            // A shared exponent is exact to its largest channel, and 64 dithered samples average most of it away.
+            const double scale = format == LayerFormat::rgb9e5 ? 0.7 / 16 : expected[c];
+            EXPECT_NEAR(image.at(48, 32)[c], expected[c], relative * scale);
+        }
+    }
+}
+
+// The compensated sum of layers against a double-precision sum of the same layers.
+TEST_F(Accumulation, summationErrsLessThanOneInAMillion) {
+    const auto small = fiveSpheres();
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const std::uint32_t n = 150;
+    std::vector<double> sum;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        RenderSettings one = settingsFor(1, LodMode::off);
+        one.firstSample = i;
+        one.keepAll = true;
+        const Image layer = rendered(*small, one, options);
+        sum.resize(layer.pixels.size());
+        for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += double(layer.pixels[p]);
+    }
+    RenderSettings all = settingsFor(n, LodMode::off);
+    all.keepAll = true;
+    const Image image = rendered(*small, all, options);
+    double worst = 0;
+    for (std::size_t p = 0; p < sum.size(); ++p)
+        if (sum[p] > 1e-3) worst = std::max(worst, std::abs(image.pixels[p] * double(n) / sum[p] - 1));
+    EXPECT_LT(worst, 1e-6);
+}
+
+TEST_F(Accumulation, transparentBackgroundIsPremultipliedCoverage) {
+    const auto small = wall(1, 0.2);
+    const Image over = rendered(*small, settingsFor(64));
+    small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};
+    const Image alone = rendered(*small, settingsFor(64));
+    EXPECT_EQ(alone.at(0, 0)[3], 0);
+    EXPECT_NEAR(alone.at(48, 32)[3], 1, 1e-6);
+    const glm::vec3 background(0.8f, 0.1f, 0.1f);
+    for (int y = 0; y < over.height; ++y)
+        for (int x = 0; x < over.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(over.at(x, y)[c], alone.at(x, y)[c] + (1 - alone.at(x, y)[3]) * background[c], 1e-3);
+}
+
+TEST_F(Accumulation, invisibleEnvironmentStillLights) {
+    const auto small = fiveSpheres();
+    const Image over = rendered(*small, settingsFor(16));
+    small->world.environment.visible = false;
+    const Image alone = rendered(*small, settingsFor(16));
+    EXPECT_EQ(alone.at(0, 0)[3], 0);
+    int covered = 0;
+    for (int y = 0; y < over.height; ++y)
+        for (int x = 0; x < over.width; ++x) {
+            if (alone.at(x, y)[3] < 1) continue;
+            ++covered;
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(alone.at(x, y)[c], over.at(x, y)[c], 1e-4);
+        }
+    EXPECT_GT(covered, 100);
+}
+
+TEST_F(Accumulation, nearestRowIsTheTop) {
+    const auto small = wall(2, 0.1);
+    small->world.pose.objects[0].worldFromObject =
+        glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.3, 0.3, -2)), glm::dvec3(0.1));
+    const Image image = rendered(*small, settingsFor(4));
+    const int column = static_cast<int>(48 + 0.3 / 0.72 * 48);
+    EXPECT_GT(image.at(column, 32 - 20)[1], 0.5) << "up and right of the middle";
+    EXPECT_LT(image.at(column, 32 + 20)[1], 0.5);
+}
+
+TEST_F(Accumulation, blendedSurfacesAreDrawnBackToFront) {
+    auto small = std::make_unique<SmallWorld>();
+    for (const glm::vec4& color : {glm::vec4(1, 0, 0, 0.5f), glm::vec4(0, 1, 0, 0.5f), glm::vec4(0, 0, 1, 1)}) {
+        Material material = unlitMaterial(color);
+        material.alphaMode = color.a < 1 ? AlphaMode::blend : AlphaMode::opaque;
+        small->scene.materials.push_back(material);
+        small->scene.meshes.push_back(quad(static_cast<int>(small->scene.materials.size()) - 1));
+    }
+    const auto at = [](double z) {
+        return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(9));
+    };
+    place(*small, 0, at(2));  // red in front of green in front of blue
+    place(*small, 2, at(4));
+    place(*small, 1, at(3));
+    small->world.environment.type = EnvironmentType::uniform;
+    small->view.width = small->view.height = 16;
+    small->view.lens.dofEnabled = false;
+    finish(*small);
+    const Image image = rendered(*small, settingsFor(4));
+    EXPECT_NEAR(image.at(8, 8)[0], 0.5, 1e-3);
+    EXPECT_NEAR(image.at(8, 8)[1], 0.25, 1e-3);
+    EXPECT_NEAR(image.at(8, 8)[2], 0.25, 1e-3);
+}
+
+// A pinhole shows L(d) of each pixel's direction; an environment at infinity lies still when only the focus is at
+// infinity.
+TEST_F(Accumulation, gradientSkyIsItsFormula) {
+    SmallWorld small;
+    small.world.environment = {
+        EnvironmentType::gradient, {0.2f, 0.4f, 0.9f}, {0.6f, 0.6f, 0.5f}, {0.1f, 0.2f, 0.1f}, nullptr, 1};
+    small.view.width = 64;
+    small.view.height = 48;
+    small.view.lens.dofEnabled = false;
+    small.view.worldFromCamera = glm::rotate(glm::dmat4(1), 0.3, glm::dvec3(1, 0, 0));
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const Image image = rendered(small, settingsFor(1), options);
+    const double tanX = 0.36;
+    for (int y = 0; y < 48; y += 5)
+        for (int x = 0; x < 64; x += 7) {
+            const glm::dvec3 view((2 * (x + 0.5) / 64 - 1) * tanX, (1 - 2 * (y + 0.5) / 48) * tanX * 0.75, -1);
+            const double height = glm::normalize(glm::dmat3(small.view.worldFromCamera) * view).y;
+            const glm::dvec3 pole = height > 0 ? glm::dvec3(0.2, 0.4, 0.9) : glm::dvec3(0.1, 0.2, 0.1);
+            const glm::dvec3 expected = glm::mix(glm::dvec3(0.6, 0.6, 0.5), pole, std::abs(height));
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(x, y)[c], expected[c], 1e-5) << x << ' ' << y;
+        }
+}
+
+TEST_F(Accumulation, environmentMapOfOneColourIsTheUniformEnvironment) {
+    const auto small = fiveSpheres();
+    auto map = std::make_shared<Image>(32, 16, 3);
+    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = i % 3 == 0 ? 0.25f : 0.5f;
+    small->world.environment = {EnvironmentType::map, {}, {}, {}, map, 1};
+    const Image mapped = rendered(*small, settingsFor(8));
+    small->world.environment = {EnvironmentType::uniform, {0.25f, 0.5f, 0.5f}, {}, {}, nullptr, 1};
+    EXPECT_LT(largestDifference(mapped, rendered(*small, settingsFor(8))), 5e-3);
+}
+
+// Radiance leaving a white Lambert-like wall under a white uniform sky is the sky's: the furnace.
+TEST_F(Accumulation, whiteRoughSurfaceVanishesInAUniformSky) {
+    const auto small = wall(1, 0.2);
+    small->scene.materials[0] = Material{};
+    small->scene.materials[0].metallicFactor = 0;
+    small->world.environment = {EnvironmentType::uniform, {1, 1, 1}, {}, {}, nullptr, 1};
+    const Image image = rendered(*small, settingsFor(4));
+    EXPECT_NEAR(image.at(48, 32)[0], 1, 0.06);
+}
+
+// A directional light of E lux on a rough white wall head-on: E/π, and cos θ of it at an angle.
+TEST_F(Accumulation, lambertUnderADirectionalLight) {
+    const auto small = wall(1, 4);
+    small->scene.materials[0] = Material{};
+    small->scene.materials[0].metallicFactor = 0;
+    small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
+    PlacedLight sun;
+    sun.light.intensity = 3;
+    for (const double angle : {0.0, 0.5, 1.0}) {
+        sun.direction = glm::dvec3(std::sin(angle), 0, -std::cos(angle));
+        small->world.lights = {sun};
+        const double radiance = rendered(*small, settingsFor(1)).at(48, 32)[0];
+        EXPECT_NEAR(radiance, 3 * std::cos(angle) / std::numbers::pi, 0.05) << angle;
+    }
+}
+
+// A lamp and a spotlight beside the sun.
+void addLocalLights(SmallWorld& small) {
+    PlacedLight lamp;
+    lamp.light.type = LightType::point;
+    lamp.light.color = {1, 0.6f, 0.3f};
+    lamp.light.intensity = 6;
+    lamp.light.range = 8;
+    lamp.position = {-1, 1.5, -2};
+    PlacedLight spot = lamp;
+    spot.light.type = LightType::spot;
+    spot.light.color = {0.3f, 0.6f, 1};
+    spot.position = {2, 2, -1};
+    spot.direction = glm::normalize(glm::dvec3(-1, -1, -1));
+    small.world.lights.insert(small.world.lights.end(), {lamp, spot});
+}
+
+// A few lights are constants of the shaders, many are uniforms: dark ones make many of a few.
+TEST_F(Accumulation, constantLightsLightAsUniformOnes) {
+    const auto small = fiveSpheres();
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const Image sunOnly = rendered(*small, settingsFor(4), options);
+    addLocalLights(*small);
+    const Image constant = rendered(*small, settingsFor(4), options);
+    EXPECT_GT(largestDifference(sunOnly, constant), 0.1);
+    PlacedLight dark;
+    dark.light.intensity = 0;
+    small->world.lights.resize(small->world.lights.size() + 3, dark);
+    EXPECT_LT(largestDifference(constant, rendered(*small, settingsFor(4), options)), 1e-4);
+}
+
+// Numbers that no shader could hold as constants: a light beyond all bounds leaves the image its largest values.
+TEST_F(Accumulation, infiniteLightIsDrawn) {
+    const auto small = wall(1, 4);
+    small->scene.materials[0] = Material{};
+    PlacedLight sun;
+    sun.light.intensity = std::numeric_limits<float>::infinity();
+    small->world.lights = {sun};
+    const Image image = rendered(*small, settingsFor(1));
+    for (const float value : image.pixels) EXPECT_TRUE(std::isfinite(value));
+}
+
+// Surfaces are shaded along the world's axes: where camera, objects and lights turn about the vertical and move
+// together, nothing changes.
+TEST_F(Accumulation, turningTheWholeWorldChangesNothing) {
+    const auto small = fiveSpheres();
+    addLocalLights(*small);
+    const Image before = rendered(*small, settingsFor(4));
+    const glm::dmat4 turn = glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(5, -2, 7)), 1.1, glm::dvec3(0, 1, 0));
+    for (Object& object : small->world.pose.objects) object.worldFromObject = turn * object.worldFromObject;
+    for (PlacedLight& light : small->world.lights) {
+        light.position = glm::dvec3(turn * glm::dvec4(light.position, 1));
+        light.direction = glm::dmat3(turn) * light.direction;
+    }
+    EXPECT_LT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);  // the camera has stayed behind
+    small->view.worldFromCamera = turn * small->view.worldFromCamera;
+    EXPECT_GT(compareImages(before, rendered(*small, settingsFor(4))).psnr, 60);
+}
+
+// Interpolated normals can look away from the eye: the half vector's cosine must not leave [0, 1], whatever the light.
+TEST_F(Accumulation, normalsThatLookAwayDoNotGlare) {
+    const auto small = wall(1, 4);
+    small->scene.materials[0] = Material{};
+    small->scene.materials[0].metallicFactor = 0;
+    small->scene.materials[0].roughnessFactor = 0.3f;
+    small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
+    PlacedLight lamp;
+    lamp.light.intensity = 1;
+    lamp.direction = {0, 0, 1};  // from behind the wall
+    small->world.lights = {lamp};
+    for (const float tilt : {-0.9f, -0.5f, -0.1f, -0.01f}) {
+        for (glm::vec3& normal : small->world.pyramids[0].levels[0].normals)
+            normal = glm::vec3(std::sqrt(1 - tilt * tilt), 0, tilt);
+        EXPECT_LT(rendered(*small, settingsFor(1)).at(48, 32)[0], 1) << tilt;
+    }
+}
+
+TEST_F(Accumulation, encodedLayersRefuseAlpha) {
+    const auto small = wall(1, 1);
+    small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgb9e5;
+    EXPECT_THROW(rendered(*small, settingsFor(1), options), Error);
+}
+
+TEST_F(Accumulation, statsCountWhatThePlanSays) {
+    const auto small = fiveSpheres();
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(100));
+    RendererOptions options;
+    options.wave = 7;
+    const auto renderer = methodNamed("accumulation").make(small->world, options);
+    renderer->start(plan);
+    while (renderer->advance()) {
+    }
+    EXPECT_EQ(renderer->stats().trianglesDrawn, plan.trianglesDrawn);
+    EXPECT_EQ(renderer->stats().samples, 100u);
+    renderer->start(plan);
+    EXPECT_EQ(renderer->samples(), 0u);
+}
+
+TEST_F(Accumulation, aovsAreDepthBlurAndLevel) {
+    const auto small = wall(1.5, 0.2);
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(4));
+    const AovImages aovs = renderAovs(small->world, plan);
+    EXPECT_NEAR(aovs.depth.at(48, 32)[0], 1.5, 1e-5);
+    EXPECT_NEAR(aovs.coc.at(48, 32)[0], 0.05 * (1 / 2.0 - 1 / 1.5) * 96 / 0.72, 1e-4);
+    EXPECT_NEAR(aovs.level.at(48, 32)[0], plan.objects[0].lambda, 1e-6);
+    EXPECT_TRUE(std::isinf(aovs.depth.at(0, 0)[0]));
+    EXPECT_NEAR(aovs.coc.at(0, 0)[0], 0.05 / 2 * 96 / 0.72, 1e-4);
+    EXPECT_EQ(aovs.level.at(0, 0)[0], -1);
+    EXPECT_EQ(levelColourMap(aovs.level).at(0, 0)[0], 0);
+}
+
+}  // namespace
+}  // namespace defocus

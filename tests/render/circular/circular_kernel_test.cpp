@@ -1,0 +1,262 @@
+#include "render/circular/circular_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace defocus {
+namespace {
+
+using Kernel = std::vector<CircularComponent>;
+
+constexpr double pi = std::numbers::pi;
+
+Kernel copyOf(int components) {
+    const auto kernel = circularKernel(components);
+    return {kernel.begin(), kernel.end()};
+}
+
+// ∫ e^(−decay·r²) over the square.
+double gaussianOverSquare(double decay, double extent) {
+    const double line = std::sqrt(pi / decay) * std::erf(extent * std::sqrt(decay));
+    return line * line;
+}
+
+template <typename Function>
+double integralOverSquare(double extent, double edge, const Function& function) {
+    double sum = 0;
+    for (const RadialNode& node : squareNodes(extent, edge)) sum += node.weight * function(node.squaredRadius);
+    return sum;
+}
+
+TEST(CircularKernel, factorsOfTwoAxesMultiplyToACircle) {
+    for (int n = 1; n <= circularKernelLimit; ++n) {
+        for (const CircularComponent& c : circularKernel(n)) {
+            for (double x = -1; x <= 1; x += 0.125) {
+                for (double y = -1; y <= 1; y += 0.125) {
+                    const std::complex<double> product = circularFactor(c, x) * circularFactor(c, y);
+                    EXPECT_LT(std::abs(product - circularFactor(c, std::hypot(x, y))), 1e-13);
+                }
+            }
+        }
+    }
+}
+
+TEST(CircularKernel, profileIsTheWeightedSumOfRealAndImaginaryParts) {
+    const CircularComponent quarterTurn{0.5, pi / 2, 3, 7};  // F(1) = e^(−1/2)·i
+    EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 1), 7 * std::exp(-0.5), 1e-14);
+    EXPECT_NEAR(circularProfile({&quarterTurn, 1}, 0), 3, 1e-14);
+    EXPECT_NEAR(std::abs(circularFactor(quarterTurn, 1) - std::complex<double>(0, std::exp(-0.5))), 0, 1e-14);
+}
+
+TEST(CircularKernel, onlyTheNumbersOfComponentsThereAre) {
+    for (int n = 1; n <= circularKernelLimit; ++n) EXPECT_EQ(circularKernel(n).size(), static_cast<std::size_t>(n));
+    EXPECT_THROW(circularKernel(0), Error);
+    EXPECT_THROW(circularKernel(circularKernelLimit + 1), Error);
+}
+
+TEST(CircularKernel, nodesIntegrateOverTheSquare) {
+    for (const double extent : {1.0, 1.3}) {
+        for (const double edge : {0.5, 1.0, 1.2, 1.5, 2.5}) {  // inside, touching, through the corners, around
+            EXPECT_NEAR(integralOverSquare(extent, edge, [](double) { return 1; }), 4 * extent * extent, 1e-12);
+            EXPECT_NEAR(integralOverSquare(extent, edge, [](double u) { return u; }), 8.0 / 3 * std::pow(extent, 4),
+                        1e-12);
+        }
+    }
+    // The disk less four segments.
+    const double edge = 1.2;
+    const double angle = std::acos(1 / edge);
+    const double segment = edge * edge * angle - edge * std::sin(angle);
+    EXPECT_NEAR(integralOverSquare(1, edge, [&](double u) { return u < edge * edge ? 1 : 0; }),
+                pi * edge * edge - 4 * segment, 1e-12);
+}
+
+// A Gaussian of any weight: ∫K² and ∫K over the square by error functions, ∫K·D over a disk inside by e^(−a·ρ²).
+TEST(CircularKernel, errorOfAGaussianInClosedForm) {
+    for (const double decay : {0.7, 2.0}) {
+        for (const double extent : {1.0, 1.25}) {
+            const Kernel kernel = {{decay, 0, 5, 0}};
+            const double over = gaussianOverSquare(decay, extent);
+            const double square = gaussianOverSquare(2 * decay, extent);
+            const double radius = 0.9;
+            double disk = pi * radius * radius;
+            double gain = disk / over;
+            const double both = pi * (1 - std::exp(-decay * radius * radius)) / decay;
+            EXPECT_NEAR(energyGain(kernel, extent, radius), gain / 5, 1e-13);
+            EXPECT_NEAR(diskProfileError(kernel, extent, radius),
+                        std::sqrt((gain * gain * square - 2 * gain * both + disk) / disk), 1e-12);
+
+            // The square lies within the disk: what of the disk sticks out counts in full.
+            const double wide = 2 * extent;
+            disk = pi * wide * wide;
+            gain = disk / over;
+            EXPECT_NEAR(diskProfileError(kernel, extent, wide),
+                        std::sqrt((gain * gain * square - 2 * gain * over + disk) / disk), 1e-12);
+        }
+    }
+}
+
+// A Gaussian of positive weight passes the rounding on as it is; two that cancel in part raise it by their sum.
+TEST(CircularKernel, roundingIsAmplifiedWhereComponentsCancel) {
+    const Kernel one = {{1.5, 0, 4, 0}};
+    EXPECT_NEAR(roundingAmplification(one, 1, 1), 1, 1e-12);
+    const Kernel cancelling = {{1.5, 0, 4, 0}, {1.5, 0, 0, 9}, {1.5, 0, -3, 0}};
+    EXPECT_NEAR(roundingAmplification(cancelling, 1, 1), (4 + 9 + 3) / (4.0 - 3.0), 1e-11);
+}
+
+TEST(CircularKernel, energyIsTheDisks) {
+    for (int n = 1; n <= circularKernelLimit; ++n) {
+        EXPECT_NEAR(energyGain(circularKernel(n), circularKernelExtent, 1), 1, 2e-6) << n;
+    }
+}
+
+// Half floats round by 2⁻¹¹ = 0.05 %: less than 0.25 % of the brightest pixel for every kernel.
+TEST(CircularKernel, halfFloatsSuffice) {
+    for (int n = 1; n <= circularKernelLimit; ++n) {
+        EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
+    }
+}
+
+TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
+    double before = std::numeric_limits<double>::infinity();
+    for (int n = 1; n <= circularKernelLimit; ++n) {
+        const double error = diskProfileError(circularKernel(n), circularKernelExtent, 1);
+        EXPECT_LT(error, 0.95 * before) << n;
+        before = error;
+    }
+}
+
+// Niemitalo's kernels at the extent and the disk radius, in their own units, that suit them best.
+TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
+    const std::vector<Kernel> published = {
+        {{0.862325, 1.624835, 0.767583, 1.862321}},
+        {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}}};
+    for (const Kernel& kernel : published) {
+        double least = std::numeric_limits<double>::infinity();
+        for (double extent = 1; extent < 2; extent += 0.01) {
+            for (double radius = 0.9; radius < 1.4; radius += 0.005) {
+                least = std::min(least, diskProfileError(kernel, extent, radius));
+            }
+        }
+        const auto ours = circularKernel(static_cast<int>(kernel.size()));
+        EXPECT_LE(diskProfileError(ours, circularKernelExtent, 1), least) << kernel.size();
+        EXPECT_LT(least, 0.25) << "not a disk: a published constant is mistyped";
+    }
+}
+
+// What the kernels are the least of (see the header).
+double guardedSquares(const Kernel& kernel) {
+    const double error = diskProfileError(kernel, circularKernelExtent, 1);
+    const double gain = energyGain(kernel, circularKernelExtent, 1);
+    constexpr int steps = 500;
+    double corners = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double value = gain * circularProfile(kernel, 1 + (i + 0.5) / steps);
+        corners += value * value / steps;
+    }
+    return pi * error * error + circularCornerGuard * pi * corners;
+}
+
+TEST(CircularKernel, noSmallChangeComesCloser) {
+    double CircularComponent::*const fields[] = {&CircularComponent::decay, &CircularComponent::frequency,
+                                                 &CircularComponent::cosine, &CircularComponent::sine};
+    for (int n = 1; n <= circularKernelLimit; ++n) {
+        const double best = guardedSquares(copyOf(n));
+        for (std::size_t c = 0; c < static_cast<std::size_t>(n); ++c) {
+            for (double CircularComponent::*const field : fields) {
+                for (const double factor : {0.995, 1.005}) {
+                    Kernel changed = copyOf(n);
+                    changed[c].*field *= factor;
+                    EXPECT_GT(guardedSquares(changed), best - 1e-9) << n << ": component " << c;
+                }
+            }
+        }
+    }
+}
+
+// ---- the passes, tap by tap ------------------------------------------------------------------------------------
+
+constexpr int blurRadius = 40;  // px
+constexpr int side = 100;       // px
+using Field = std::vector<std::complex<double>>;
+
+std::size_t at(int x, int y) {
+    return static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x);
+}
+
+Field filtered(const Field& in, const CircularComponent& component, int stepX, int stepY) {
+    const int reach = static_cast<int>(circularKernelExtent * blurRadius);
+    Field out(in.size());
+    for (int tap = -reach; tap <= reach; ++tap) {
+        const std::complex<double> weight = circularFactor(component, double(tap) / blurRadius);
+        for (int y = std::max(0, -tap * stepY); y < std::min(side, side - tap * stepY); ++y) {
+            for (int x = std::max(0, -tap * stepX); x < std::min(side, side - tap * stepX); ++x) {
+                out[at(x, y)] += weight * in[at(x + tap * stepX, y + tap * stepY)];
+            }
+        }
+    }
+    return out;
+}
+
+std::vector<double> blurredBySeparablePasses(const Field& in, int components) {
+    std::vector<double> out(in.size());
+    for (const CircularComponent& c : circularKernel(components)) {
+        const Field both = filtered(filtered(in, c, 1, 0), c, 0, 1);
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] += c.cosine * both[i].real() + c.sine * both[i].imag();
+    }
+    return out;
+}
+
+TEST(CircularKernel, rowsThenColumnsDrawTheKernelAroundEachPoint) {
+    struct Point {
+        int x, y;
+        double light;
+    };
+    const Point points[] = {{45, 52, 1}, {61, 20, 2.5}};  // their squares overlap; the second is cut by the border
+    Field in(side * side);
+    for (const Point& point : points) in[at(point.x, point.y)] = point.light;
+    for (const int n : {1, 2, 5, 9}) {
+        const std::vector<double> out = blurredBySeparablePasses(in, n);
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                double expected = 0;
+                for (const Point& point : points) {
+                    const double dx = double(x - point.x) / blurRadius;
+                    const double dy = double(y - point.y) / blurRadius;
+                    if (std::max(std::abs(dx), std::abs(dy)) > circularKernelExtent) continue;
+                    expected += point.light * circularProfile(circularKernel(n), dx * dx + dy * dy);
+                }
+                ASSERT_NEAR(out[at(x, y)], expected, 1e-11) << n << " components at " << x << ", " << y;
+            }
+        }
+    }
+}
+
+// The root mean square radius of the blur of a point, as of a lens's bokeh: the disk's is radius/√2.
+TEST(CircularKernel, blurIsAsWideAsTheDisk) {
+    Field in(side * side);
+    in[at(side / 2, side / 2)] = 1;
+    for (int n = 1; n <= circularKernelLimit; ++n) {
+        const std::vector<double> out = blurredBySeparablePasses(in, n);
+        double sum = 0;
+        double moment = 0;
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x) {
+                const int dx = x - side / 2;
+                const int dy = y - side / 2;
+                sum += out[at(x, y)];
+                moment += (dx * dx + dy * dy) * out[at(x, y)];
+            }
+        }
+        const double width = std::sqrt(moment / sum) / (blurRadius / std::numbers::sqrt2);
+        EXPECT_NEAR(width, 1, 0.001) << n;
+    }
+}
+
+}  // namespace
+}  // namespace defocus

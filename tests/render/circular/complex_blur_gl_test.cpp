@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "gl/context.h"
+#include "gl/read_back.h"
+#include "likeness.h"
+#include "render/circular/circular_kernel.h"
+#include "render/circular/complex_blur.h"
+
+namespace defocus {
+namespace {
+
+class ComplexBlurs : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> ComplexBlurs::context_;
+
+constexpr int width = 96;
+constexpr int height = 80;
+
+GlTexture textureOf(const Image& image, TextureFormat format) {
+    GlTexture texture({.format = format, .width = image.width, .height = image.height});
+    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    Image bottomUp = image;
+    const std::size_t row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+    for (int y = 0; y < image.height; ++y) std::copy_n(image.at(0, image.height - 1 - y), row, bottomUp.at(0, y));
+    texture.upload(0, image.width, image.height, bottomUp.pixels.data());
+    return texture;
+}
+
+Image filled(int channels, float value) {
+    Image image(width, height, channels);
+    std::fill(image.pixels.begin(), image.pixels.end(), value);
+    return image;
+}
+
+Image blurred(const ComplexBlurInfo& info, const Image& field, const Image& radius) {
+    ComplexBlur blur(info);
+    blur.blur(textureOf(field, TextureFormat::rgba32f), textureOf(radius, TextureFormat::r32f));
+    return readBack(blur.result(), 4);
+}
+
+ComplexBlurInfo infoOf(int components, ComplexStorage storage = ComplexStorage::half) {
+    return {.width = width, .height = height, .components = components, .storage = storage, .shaderFolder = {}};
+}
+
+// Blocks of colour between 0 and 1, weight 1: edges in every direction.
+Image blocks() {
+    Image image(width, height, 4);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            float* pixel = image.at(x, y);
+            pixel[0] = static_cast<float>((x / 9 + y / 7) % 2);
+            pixel[1] = static_cast<float>(x / 16 * 37 % 11) / 10.0f;
+            pixel[2] = x + y > 80 ? 0.9f : 0.05f;
+            pixel[3] = 1;
+        }
+    return image;
+}
+
+// Infinity where either holds a NaN.
+TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
+    for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight, ComplexTaps::sets})
+        for (int components = 1; components <= circularKernelLimit; ++components)
+            for (const float radius : {0.3f, 1.0f, 2.7f, 9.0f}) {
+                ComplexBlurInfo info = infoOf(components);
+                info.taps = taps;
+                const Image passes = blurred(info, blocks(), filled(1, radius));
+                info.direct = true;
+                const Image whole = blurred(info, blocks(), filled(1, radius));
+                EXPECT_LT(largestDifference(passes, whole), 1e-3)
+                    << components << " components, radius " << radius << ", taps " << static_cast<int>(taps);
+            }
+}
+
+TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
+    Image varying(width, height, 1);
+    for (int y = 0; y < height; ++y)  // a slope, and a step to it
+        for (int x = 0; x < width; ++x) *varying.at(x, y) = x + y < 90 ? 0.07f * static_cast<float>(x) : 11.0f;
+    for (const ComplexStorage storage : {ComplexStorage::float32, ComplexStorage::half})
+        for (int components = 1; components <= circularKernelLimit; ++components) {
+            // Half floats hold 11 bits of radiance and of weight, rounded or cut off, and the kernel amplifies that.
+            const double amplification =
+                roundingAmplification(circularKernel(components), circularKernelExtent, 1) * 4 / std::numbers::pi;
+            const double tolerance = storage == ComplexStorage::half ? amplification * 2 * 0x1p-10 : 1e-4;
+            for (const float value : {1.0f / 3, 1e-4f, 1e4f})
+                for (const Image& radius : {varying, filled(1, 6.3f)}) {
+                    Image field = filled(4, value);
+                    for (std::size_t i = 3; i < field.pixels.size(); i += 4) field.pixels[i] = 1;
+                    const Image image = blurred(infoOf(components, storage), field, radius);
+                    for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+                        ASSERT_NEAR(image.pixels[i] / image.pixels[i + 3] / value, 1, tolerance)
+                            << components << " components, " << value << ", weight " << image.pixels[i + 3];
+                }
+        }
+}
+
+TEST_F(ComplexBlurs, radiusZeroChangesNothing) {
+    const Image image = blurred(infoOf(3, ComplexStorage::float32), blocks(), filled(1, 0));
+    EXPECT_LT(largestDifference(image, blocks()), 1e-5);
+}
+
+TEST_F(ComplexBlurs, aPointBecomesADiskOfTheRadiusAndKeepsItsEnergy) {
+    Image point = filled(4, 0);
+    point.at(48, 40)[0] = 1000;
+    for (const float radius : {4.0f, 11.5f, 24.0f}) {
+        const Image image = blurred(infoOf(5), point, filled(1, radius));
+        double energy = 0;
+        double moment = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const double value = *image.at(x, y);
+                energy += value;
+                moment += value * (std::pow(x - 48, 2) + std::pow(y - 40, 2));
+            }
+        EXPECT_NEAR(energy, 1000, 1000 * 0.01);
+        EXPECT_NEAR(std::sqrt(2 * moment / energy), radius, 1);  // a disk's second moment is R²/2
+    }
+}
+
+TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
+    Image bright = blocks();
+    for (std::size_t i = 0; i < bright.pixels.size(); ++i)
+        if (i % 4 != 3) bright.pixels[i] *= 50;  // pre-exposed, so that nothing clips
+    for (const int components : {1, 2, 3}) {
+        const Image exact = blurred(infoOf(components, ComplexStorage::float32), bright, filled(1, 9));
+        const Image stored = blurred(infoOf(components, ComplexStorage::rgb10A2), bright, filled(1, 9));
+        double most = 0;
+        for (int c = 0; c < 4; ++c) {
+            double worst = 0;
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    worst = std::max<double>(worst, std::abs(exact.at(x, y)[c] - stored.at(x, y)[c]));
+            most = std::max(most, c == 3 ? worst : worst / 50);
+        }
+        EXPECT_GT(most, 1e-6);
+        EXPECT_LT(most, 0.03) << components;
+    }
+}
+
+TEST(Brackets, boundTheTapsOfEveryRadius) {
+    for (int n = 1; n <= circularKernelLimit; ++n)
+        for (const CircularComponent& component : circularKernel(n)) {
+            const Bracket bracket = bracketOf(component);
+            for (const double radius : {0.51, 1.3, 5.05, 17.71, 160.3})
+                for (int i = 0; i < radius + 0.5; ++i) {
+                    const std::complex<double> tap = circularFactor(component, i / radius);
+                    EXPECT_GE(tap.real(), bracket.leastReal - 1e-4);
+                    EXPECT_LE(tap.real(), bracket.greatestReal + 1e-4);
+                    EXPECT_GE(tap.imag(), bracket.leastImaginary - 1e-4);
+                    EXPECT_LE(tap.imag(), bracket.greatestImaginary + 1e-4);
+                }
+        }
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,94 @@
+#pragma once
+// Any options, lens and camera that a view may have, for tests that write them down and read them back.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <random>
+#include <string>
+
+#include "frame/scene_options.h"
+#include "lens/lens_fields.h"
+
+namespace defocus {
+
+class Dice {
+public:
+    explicit Dice(std::uint32_t seed) : engine_(seed) {}
+    bool coin() { return whole(0, 1) == 1; }
+    int whole(int least, int most) { return std::uniform_int_distribution<int>(least, most)(engine_); }
+    double number(double least, double most) { return std::uniform_real_distribution<double>(least, most)(engine_); }
+    std::string name() {
+        static const char* const names[] = {"plain",           "two words", "it's \"quoted\"",
+                                            "$HOME `ls` \\ *", "-dash",     "a=b;c"};
+        return names[whole(0, 5)];
+    }
+
+private:
+    std::mt19937 engine_;
+};
+
+inline SceneOptions randomOptions(Dice& dice) {
+    SceneOptions options;
+    if (dice.coin()) {
+        options.path = dice.name() + ".glb";
+    } else {
+        options.fishCount = dice.whole(1, 30);
+        options.trianglesPerFish = dice.whole(200, 5000);
+    }
+    if (dice.coin()) options.clip = dice.name();
+    if (dice.coin()) options.time = dice.number(-2, 9);
+    options.loop = dice.coin();
+    if (dice.coin()) options.shutter.seconds = dice.number(0, 0.1);
+    options.shutter.position = static_cast<ShutterPosition>(dice.whole(0, 2));
+    options.shutter.exactMotion = dice.coin();
+    if (!options.shutter.exactMotion) options.shutter.motionSegments = static_cast<std::uint32_t>(dice.whole(1, 64));
+    if (dice.coin()) options.environment = dice.name() + ".hdr";
+    options.background = static_cast<Background>(dice.whole(0, 2));
+    if (options.background == Background::uniform) options.backgroundColor = glm::vec3(dice.number(0, 2), 0.1f, 3);
+    if (dice.coin()) options.camera = dice.name();
+    if (dice.coin()) options.apertureImage = dice.name() + ".png";
+    if (dice.coin()) options.nodeBlur = {{dice.name(), dice.number(0, 3)}, {"another", 0}};
+    if (dice.coin()) options.cocTolerance = dice.number(0.01, 3);
+    options.samples = static_cast<std::uint32_t>(dice.whole(1, 4096));
+    options.sequence = allSequences[static_cast<std::size_t>(dice.whole(0, 3))];
+    if (dice.coin()) options.seed = static_cast<std::uint32_t>(dice.whole(0, 1'000'000));
+    options.lod = static_cast<LodMode>(dice.whole(0, 3));
+    options.metric = dice.coin() ? LodMetric::size : LodMetric::error;
+    options.lodCocAtCentre = dice.coin();
+    if (dice.coin()) options.blurThreshold = dice.number(0, 2);
+    if (dice.coin()) options.sizeThreshold = dice.number(0, 9);
+    options.keepAll = dice.coin();
+    options.noCache = dice.coin();
+    if (!options.noCache && dice.coin()) options.cacheFolder = dice.name();
+    if (dice.coin()) options.method = "circular:far-components=3";
+    if (dice.coin()) options.layerFormat = LayerFormat::rgba32f;
+    if (dice.coin()) options.wave = static_cast<std::uint32_t>(dice.whole(0, 64));
+    return options;
+}
+
+// Half of the fields, to any value that they may have.
+inline void changeFields(Lens& lens, Dice& dice) {
+    for (const LensField& field : lensFields()) {
+        if (dice.coin()) continue;
+        const double least = std::max(field.least, -50.0);
+        const double most = std::min(field.most, 60.0);
+        double value = dice.number(least, most);
+        if (!std::holds_alternative<double Lens::*>(field.member)) value = std::round(value);
+        if (field.name == std::string_view("bladeCount")) value = dice.whole(3, 9);
+        if (field.name == std::string_view("exposureTime") && dice.coin()) value = 0;
+        setLensField(lens, field, value);
+    }
+}
+
+// From anywhere towards the origin, upright or rolled.
+inline glm::dmat4 randomCamera(Dice& dice) {
+    const glm::dvec3 eye(dice.number(-9, 9), dice.number(-9, 9), dice.number(-9, 9));
+    const glm::dmat4 upright = glm::inverse(glm::lookAt(eye, glm::dvec3(0.1, 0.2, 0.3), glm::dvec3(0, 1, 0)));
+    const double roll = dice.coin() ? dice.number(-3, 3) : 0;
+    return glm::rotate(upright, roll, glm::dvec3(0, 0, 1));
+}
+
+}  // namespace defocus

@@ -1,0 +1,257 @@
+// The command of a view, read back by the command line, is the same view.
+
+#include "frame/render_command_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "cli/render_options.h"
+#include "lens/lens_fields.h"
+#include "lens/photographic_exposure.h"
+#include "view/camera_controls.h"
+#include "view/random_view.h"
+
+namespace defocus {
+namespace {
+
+SceneOptions smallSchool() {
+    SceneOptions options;
+    options.fishCount = 2;
+    options.trianglesPerFish = 300;
+    options.noCache = true;
+    return options;
+}
+
+// As a shell reads it: its words.
+std::vector<std::string> shellWords(const std::string& command) {
+    const std::string line = "for word in " + command + "; do printf '%s\\n' \"$word\"; done";
+    std::FILE* shell = ::popen(line.c_str(), "r");
+    std::vector<std::string> words(1);
+    for (int letter = std::fgetc(shell); letter != EOF; letter = std::fgetc(shell)) {
+        if (letter == '\n')
+            words.emplace_back();
+        else
+            words.back() += static_cast<char>(letter);
+    }
+    words.pop_back();
+    EXPECT_EQ(::pclose(shell), 0) << command;
+    return words;
+}
+
+// What `defocus render` is asked for.
+RenderArguments argumentsOf(const std::string& command) {
+    CLI::App program;
+    RenderArguments arguments;
+    addRenderOptions(*program.add_subcommand("render"), arguments);
+    std::vector<std::string> words = shellWords(command);
+    std::reverse(words.begin() + 1, words.end());  // as CLI11 takes them, without the program's name
+    words.erase(words.begin());
+    program.parse(words);
+    return arguments;
+}
+
+PreparedFrame placedBy(const std::string& command) {
+    return placeFrame(argumentsOf(command).scene);
+}
+
+struct ShotRequest {
+    SceneOptions options = smallSchool();
+    PreparedFrame frame = placeFrame(options);
+    View view = frame.view;
+    double pivotDistance = 2;
+    [[nodiscard]] std::string command() const {
+        return renderCommand({options, frame, view, pivotDistance, {ToneMap::agx, -1.5}, "a picture.png"});
+    }
+};
+
+void expectSameView(const View& a, const View& b) {
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            EXPECT_NEAR(a.worldFromCamera[column][row], b.worldFromCamera[column][row], 1e-11);
+    for (const LensField& field : lensFields())
+        EXPECT_DOUBLE_EQ(lensFieldValue(a.lens, field), lensFieldValue(b.lens, field)) << field.name;
+}
+
+TEST(RenderCommandText, isTheViewAgain) {
+    ShotRequest shot;
+    const ViewCamera camera = orbited(panned({shot.view.worldFromCamera, 2}, -0.4, 0.1), 0.7, -0.2);
+    shot.view.worldFromCamera = camera.worldFromCamera;
+    shot.view.width = 320;
+    shot.view.height = 200;
+    shot.view.lens.fStop = 1.4;
+    shot.view.lens.focusDistance = 1.2345678901234567;
+    shot.view.lens.bladeCount = 7;
+    shot.view.lens.bladeRotation = 0.3;
+    shot.view.lens.foregroundLimit = 12.5;
+    shot.view.lens.focusTilt = -0.2;
+    shot.view.lens.focusBreathing = true;
+    expectSameView(placedBy(shot.command()).view, shot.view);
+}
+
+TEST(RenderCommandText, everyLensFieldArrives) {
+    for (const LensField& field : lensFields()) {
+        ShotRequest shot;
+        shot.view.lens.focusDistance = 3;
+        if (field.name == std::string_view("iso")) shot.view.lens.exposureTime = 0.01;  // else it says nothing
+        const double before = lensFieldValue(shot.view.lens, field);
+        const bool flag = std::holds_alternative<bool Lens::*>(field.member);
+        const bool count = std::holds_alternative<int Lens::*>(field.member);
+        const double value = flag    ? 1 - before
+                             : count ? 6
+                                     : std::min(field.most, std::isfinite(before) ? before + 0.25 : 9.5);
+        setLensField(shot.view.lens, field, value);
+        SCOPED_TRACE(field.name);
+        expectSameView(placedBy(shot.command()).view, shot.view);
+    }
+}
+
+TEST(RenderCommandText, aRolledCameraStaysRolled) {
+    ShotRequest shot;
+    shot.view.worldFromCamera = shot.view.worldFromCamera * glm::rotate(glm::dmat4(1.0), 2.5, glm::dvec3(0, 0, 1));
+    expectSameView(placedBy(shot.command()).view, shot.view);
+}
+
+TEST(RenderCommandText, aCameraThatLooksStraightDownStaysSo) {
+    ShotRequest shot;
+    shot.view.worldFromCamera = glm::inverse(glm::lookAt(glm::dvec3(0, 4, 1), glm::dvec3(0, 1, 1), {0, 0, -1}));
+    expectSameView(placedBy(shot.command()).view, shot.view);
+}
+
+// Extras of a camera may switch on or off what is off or on by default.
+TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
+    ShotRequest shot;
+    shot.frame.cameraLens.dofEnabled = false;
+    shot.frame.cameraLens.focusBreathing = true;
+    const std::string command = shot.command();
+    EXPECT_NE(command.find(" --dof"), std::string::npos) << command;
+    EXPECT_NE(command.find(" --no-focus-breathing"), std::string::npos) << command;
+    const Lens lens = placedBy(command).view.lens;
+    EXPECT_TRUE(lens.dofEnabled);
+    EXPECT_FALSE(lens.focusBreathing);
+}
+
+// A camera that moves while the shutter is open is left to the file.
+TEST(RenderCommandText, aCameraThatMovesDuringTheExposureIsTheFiles) {
+    ShotRequest shot;
+    shot.view.shutterCameras = {shot.view.worldFromCamera, shot.view.worldFromCamera};
+    shot.options.camera = "Flying camera";
+    const RenderArguments arguments = argumentsOf(shot.command());
+    EXPECT_FALSE(arguments.scene.cameraPosition);
+    EXPECT_EQ(arguments.scene.camera, "Flying camera");
+}
+
+TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
+    ShotRequest shot;
+    shot.options.lod = LodMode::nearest;
+    shot.options.samples = 12;
+    shot.options.method = "circular:far-components=5";
+    const std::string command = shot.command();
+    for (const char* part :
+         {"defocus render", "--fish 2", "--fish-triangles 300", "-o 'a picture.png'", "--lod nearest", "--samples 12",
+          "--method circular:far-components=5", "--exposure=-1.5", "--tonemap agx"})
+        EXPECT_NE(command.find(part), std::string::npos) << part << " in " << command;
+    EXPECT_EQ(command.find("--seed"), std::string::npos);
+    EXPECT_EQ(command.find("--blades"), std::string::npos);
+}
+
+// ---- any view
+
+void expectSameOptions(const SceneOptions& a, const SceneOptions& b) {
+    const auto path = [](const std::filesystem::path& p) { return p.lexically_normal(); };  // ./-x is -x
+    EXPECT_EQ(path(a.path), b.path);
+    EXPECT_EQ(a.fishCount, b.fishCount);
+    EXPECT_EQ(a.trianglesPerFish, b.trianglesPerFish);
+    EXPECT_EQ(a.clip, b.clip);
+    EXPECT_EQ(a.time, b.time);
+    EXPECT_EQ(a.loop, b.loop);
+    EXPECT_EQ(a.shutter, b.shutter);
+    EXPECT_EQ(path(a.environment), b.environment);
+    EXPECT_EQ(a.background, b.background);
+    EXPECT_EQ(a.backgroundColor, b.backgroundColor);
+    EXPECT_EQ(a.camera, b.camera);
+    EXPECT_EQ(path(a.apertureImage), b.apertureImage);
+    EXPECT_EQ(a.nodeBlur, b.nodeBlur);
+    EXPECT_EQ(a.cocTolerance, b.cocTolerance);
+    EXPECT_EQ(a.samples, b.samples);
+    EXPECT_EQ(a.sequence, b.sequence);
+    EXPECT_EQ(a.seed, b.seed);
+    EXPECT_EQ(a.lod, b.lod);
+    EXPECT_EQ(a.metric, b.metric);
+    EXPECT_EQ(a.lodCocAtCentre, b.lodCocAtCentre);
+    EXPECT_EQ(a.blurThreshold, b.blurThreshold);
+    EXPECT_EQ(a.sizeThreshold, b.sizeThreshold);
+    EXPECT_EQ(a.keepAll, b.keepAll);
+    EXPECT_EQ(path(a.cacheFolder), b.cacheFolder);
+    EXPECT_EQ(a.noCache, b.noCache);
+    EXPECT_EQ(chosenMethod(a).text(), chosenMethod(b).text());
+    EXPECT_EQ(a.layerFormat, b.layerFormat);
+    EXPECT_EQ(a.wave, b.wave);
+}
+
+TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
+    for (std::uint32_t seed = 0; seed < 60; ++seed) {
+        Dice dice(seed);
+        const SceneOptions options = randomOptions(dice);
+        PreparedFrame frame;
+        changeFields(frame.cameraLens, dice);
+        View view;
+        view.lens = frame.cameraLens;
+        changeFields(view.lens, dice);
+        view.width = dice.whole(1, 4000);
+        view.height = dice.whole(1, 4000);
+        view.worldFromCamera = randomCamera(dice);
+        WriteOptions write{static_cast<ToneMap>(dice.whole(0, 2)), dice.coin() ? dice.number(-5, 5) : 0};
+        if (view.lens.exposureTime > 0) write.exposure = photographicExposure(view.lens);
+        const std::string command = renderCommand({options, frame, view, dice.number(0.1, 20), write, "-out.png"});
+        SCOPED_TRACE(command);
+
+        const RenderArguments read = argumentsOf(command);
+        expectSameOptions(read.scene, options);
+        EXPECT_EQ(read.outputs, std::vector<std::filesystem::path>{"./-out.png"});
+        EXPECT_EQ(read.toneMap, write.toneMap);
+        Lens lens = frame.cameraLens;
+        EXPECT_TRUE(setLensFields(lens, read.scene.lens).empty());
+        EXPECT_DOUBLE_EQ(read.exposure.value_or(photographicExposure(lens)), write.exposure);
+        if (!(view.lens.exposureTime > 0)) {  // what the exposure replaces
+            lens.exposureTime = view.lens.exposureTime;
+            lens.iso = view.lens.iso;
+        }
+        View again;
+        again.lens = lens;
+        again.width = read.scene.width;
+        again.height = read.scene.height;
+        again.worldFromCamera =
+            glm::inverse(glm::lookAt(read.scene.cameraPosition.value(), read.scene.cameraTarget.value(),
+                                     read.scene.cameraUp.value_or(glm::dvec3(0, 1, 0))));
+        expectSameView(again, view);
+    }
+}
+
+TEST(CaptureCommand, saysWhatNoShotFileSays) {
+    SceneOptions options;
+    options.apertureImage = "my star.png";
+    options.nodeBlur = {{"Fish 3", 0}};
+    options.samples = 9;  // the shot says it
+    EXPECT_EQ(captureCommand("-a shot.json", options),
+              "defocus capture './-a shot.json' --aperture-image 'my star.png' --node-blur 'Fish 3=0'");
+    EXPECT_EQ(captureCommand("shot.json", {}), "defocus capture shot.json");
+}
+
+TEST(ShellWord, quotesWhatAShellWouldRead) {
+    EXPECT_EQ(shellWord("out-1.png"), "out-1.png");
+    EXPECT_EQ(shellWord("my file"), "'my file'");
+    EXPECT_EQ(shellWord("it's"), "'it'\\''s'");
+    EXPECT_EQ(shellWord("$(rm)"), "'$(rm)'");
+    EXPECT_EQ(shellWord(""), "''");
+}
+
+}  // namespace
+}  // namespace defocus
