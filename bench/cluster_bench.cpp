@@ -77,8 +77,8 @@ std::string differences(const Image& a, const Image& b) {
 }
 
 void measure(const std::filesystem::path& path) {
-    SceneOptions options;
-    options.path = path;
+    Request options;
+    options.scene = path;
     const PreparedFrame frame = prepareFrame(options);
     std::vector<Variant> variants;
     for (const LodMode lod : {LodMode::off, LodMode::fractional}) {

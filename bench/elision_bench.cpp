@@ -46,7 +46,6 @@ void prepare(Fish& fish) {
     fish.view.lens.fStop = placed.camera.lensValue("fStop").value();
     fish.view.lens.focusDistance = placed.camera.lensValue("focusDistance").value();
     fish.settings.sequence = Sequence::halton;  // as in the committed table
-    fish.settings.thresholds = defaultThresholds(LodMetric::size, fish.settings.sampleCount);
 }
 
 struct Measured {

@@ -50,8 +50,8 @@ void renderOnce(const World& world, Row& row) {
 
 int run() {
     const auto context = createHeadlessContext();
-    SceneOptions options;
-    options.path = DEFOCUS_SOURCE_DIR "/meshes/thicket.gltf";
+    Request options;
+    options.scene = DEFOCUS_SOURCE_DIR "/meshes/thicket.gltf";
     options.width = 512;
     options.height = 384;
     PreparedFrame frame = prepareFrame(options);

@@ -66,7 +66,6 @@ void planOfFrame(benchmark::State& state) {
     view.worldFromCamera = placed.worldFromCamera;
     view.lens.focusDistance = placed.camera.lensValue("focusDistance").value_or(2.5);
     RenderSettings settings;
-    settings.thresholds = defaultThresholds(settings.metric, settings.sampleCount);
     FramePlan plan;
     for (auto _ : state) {
         plan = planFrame(world, view, settings);

@@ -276,7 +276,7 @@ Errors errorsOf(const Pattern& pattern, Renderer& renderer, const PreparedFrame&
     return errors;
 }
 
-void measureImages(const SceneOptions& options) {
+void measureImages(const Request& options) {
     const PreparedFrame frame = prepareFrame(options);
     const auto renderer = methodNamed("accumulation").make(frame.world, precise());
     RenderSettings settings = fullDetailSettings(frame, referenceSamples);
@@ -305,17 +305,17 @@ void run(int argc, char** argv) {
     fmt::print("{}, {}\n\n", context->device(), context->driver());
     measurePoints();
     std::fflush(stdout);
-    SceneOptions options;
+    Request options;
     options.width = 160;
     options.height = 120;
     options.fishCount = 8;
     options.trianglesPerFish = 2000;
-    options.lens["fStop"] = 0.95;
+    options.lens.fStop = 0.95;
     std::vector<std::filesystem::path> scenes(argv + 1, argv + argc);
     if (scenes.empty())
         scenes = {"", DEFOCUS_SOURCE_DIR "/meshes/bokeh.gltf", DEFOCUS_SOURCE_DIR "/meshes/staircase.gltf"};
     for (const std::filesystem::path& scene : scenes) {
-        options.path = scene;
+        options.scene = scene;
         measureImages(options);
     }
 }

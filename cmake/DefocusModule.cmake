@@ -31,7 +31,7 @@ function(defocus_module NAME)
     add_library(defocus_${NAME} STATIC ${SOURCES})
     add_library(defocus::${NAME} ALIAS defocus_${NAME})
     set_target_properties(defocus_${NAME} PROPERTIES EXPORT_NAME ${NAME} POSITION_INDEPENDENT_CODE ON)
-    target_include_directories(defocus_${NAME} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}>"
+    target_include_directories(defocus_${NAME} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/include>"
                                                       "$<INSTALL_INTERFACE:include/defocus>")
     target_link_libraries(defocus_${NAME} PUBLIC ${ARG_LINK} PRIVATE "$<BUILD_INTERFACE:defocus_options>"
                                           ${ARG_PRIVATE_LINK})

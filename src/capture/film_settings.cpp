@@ -6,7 +6,7 @@
 
 namespace defocus {
 
-FilmSettings filmSettings(const PreparedFrame& frame, const SceneOptions& options, const MethodUse& use,
+FilmSettings filmSettings(const PreparedFrame& frame, const Request& options, const MethodUse& use,
                           const std::filesystem::path& shaderFolder) {
     return {.world = worldHash(frame.world, frame.view, shaderFolder),
             .program = programVersion(),

@@ -5,13 +5,13 @@
 
 #include "capture/frame_settings.h"
 #include "frame/prepared_frame.h"
-#include "frame/scene_options.h"
+#include "frame/request.h"
 #include "render/methods.h"
 
 namespace defocus {
 
 // `frame` with its pyramids or without.
-FilmSettings filmSettings(const PreparedFrame& frame, const SceneOptions& options, const MethodUse& use,
+FilmSettings filmSettings(const PreparedFrame& frame, const Request& options, const MethodUse& use,
                           const std::filesystem::path& shaderFolder);
 
 }  // namespace defocus

@@ -38,7 +38,7 @@ bool isFinishedFrame(const fs::path& path, int width, int height, const std::str
     if (!fs::is_regular_file(path, fault)) return false;
     try {
         Metadata metadata;
-        const Image image = readImage(path, &metadata);
+        const Image image = readImage(path, metadata);
         if (image.width != width || image.height != height) return false;
         // A JPEG holds one comment and nothing else.
         for (const char* name : {settingsAttribute, "comments"}) {

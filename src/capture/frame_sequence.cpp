@@ -54,18 +54,18 @@ View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, dou
     const Scene& scene = *base.scene;
     if (const auto placed = cameraOfFile(base, pose); placed && !base.cameraStands)
         view.worldFromCamera = placed->worldFromCamera;
-    if (const auto* keys = std::get_if<CameraKeys>(&shot.camera.movement)) {
+    if (const auto* keys = std::get_if<CameraKeys>(&shot.movement)) {
         const glm::dmat4 upright = lookingAt(valueAt(pointsOf(keys->positions, scene, pose), keys->easing, frame),
                                              valueAt(pointsOf(keys->targets, scene, pose), keys->easing, frame));
         const double roll = glm::radians(valueAt(keys->rolls, keys->easing, frame));
         view.worldFromCamera = roll == 0 ? upright : glm::rotate(upright, roll, glm::dvec3(0, 0, 1));
     }
-    if (const auto* turntable = std::get_if<Turntable>(&shot.camera.movement)) {
+    if (const auto* turntable = std::get_if<Turntable>(&shot.movement)) {
         const glm::dvec3 centre = turntable->centre ? pointOf(*turntable->centre, scene, pose) : base.centre;
         const double turns = turntable->turns * placeIn(turntable->frames, shot.range, frame);
         view = carriedAround(view, centre, 2 * std::numbers::pi * turns);
     }
-    if (const auto* dolly = std::get_if<Dolly>(&shot.camera.movement)) {
+    if (const auto* dolly = std::get_if<Dolly>(&shot.movement)) {
         const std::vector<Key<double>> ends = {{0, 0}, {1, dolly->distance}};
         view = dollied(view, valueAt(ends, dolly->easing, placeIn(dolly->frames, shot.range, frame)));
     }
@@ -159,12 +159,12 @@ Lens lensAt(const Shot& shot, const SequenceBase& base, const SequenceFrame& fra
 // −1 where the scene has none.
 int clipOf(const Shot& shot, const Scene& scene) {
     if (scene.clips.empty()) return -1;
-    return shot.animation.clip.empty() ? 0 : clipNamed(scene, shot.animation.clip);
+    return shot.request.clip.empty() ? 0 : clipNamed(scene, shot.request.clip);
 }
 
-double timeAt(const ShotAnimation& animation, const Scene& scene, int clip, double seconds) {
-    const double time = animation.start + animation.speed * seconds;
-    return animation.loop && clip >= 0 ? loopedTime(scene.clips[static_cast<std::size_t>(clip)], time) : time;
+double timeAt(const Shot& shot, const Scene& scene, int clip, double seconds) {
+    const double time = shot.request.time + shot.animationSpeed * seconds;
+    return shot.request.loop && clip >= 0 ? loopedTime(scene.clips[static_cast<std::size_t>(clip)], time) : time;
 }
 
 // Another well mixed seed for each frame (finaliser of MurmurHash3, Appleby).
@@ -181,9 +181,9 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     const int clip = clipOf(shot, *base.scene);
     SequenceFrame result;
     result.frame = frame;
-    result.time = timeAt(shot.animation, *base.scene, clip, frame / shot.frameRate);
+    result.time = timeAt(shot, *base.scene, clip, frame / shot.frameRate);
     const double middle = shutterMiddle(base.shutter);
-    result.pose = poseAt(*base.scene, timeAt(shot.animation, *base.scene, clip, frame / shot.frameRate + middle), clip);
+    result.pose = poseAt(*base.scene, timeAt(shot, *base.scene, clip, frame / shot.frameRate + middle), clip);
     result.lights = result.pose.lights.empty() ? base.lights : result.pose.lights;
     result.view = movedView(shot, base, result.pose, frame + middle * shot.frameRate);
     result.view.lens = lensAt(shot, base, result);
@@ -194,7 +194,7 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     const auto momentAt = [&](double offset) {
         ShutterMoment moment;
         const double seconds = frame / shot.frameRate + offset;
-        moment.pose = unmeasuredPoseAt(*base.scene, timeAt(shot.animation, *base.scene, clip, seconds), clip);
+        moment.pose = unmeasuredPoseAt(*base.scene, timeAt(shot, *base.scene, clip, seconds), clip);
         moment.worldFromCamera = movedView(shot, base, moment.pose, seconds * shot.frameRate).worldFromCamera;
         return moment;
     };

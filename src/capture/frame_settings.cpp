@@ -69,9 +69,10 @@ std::string frameSettings(const FilmSettings& film, const SequenceFrame& frame) 
     settings.add(frame.view.nearPlane, frame.view.width, frame.view.height);
     addLens(settings, frame.view.lens);
     const RenderSettings& render = frame.settings;
+    const LodThresholds thresholds = chosenThresholds(render.thresholds, render.metric, render.sampleCount);
     settings.add(render.sampleCount, sequenceName(render.sequence), render.seed, render.firstSample,
-                 lodModeName(render.lod), render.metric == LodMetric::size, render.lodCocAtCentre,
-                 render.thresholds.blur, render.thresholds.size, render.keepAll, render.cocTolerance);
+                 lodModeName(render.lod), render.metric == LodMetric::size, render.lodCocAtCentre, thresholds.blur,
+                 thresholds.size, render.keepAll, render.cocTolerance);
     return settings.hash();
 }
 

@@ -1,23 +1,19 @@
 #pragma once
 // A shot: what is filmed, from where and through which lens, frame by frame, as a shot file says it
-// (docs/shot.schema.json). Plain data; what a file leaves out is empty and falls back to the scene's camera or the
-// program's defaults. Frames are counted from 0 at time 0.
+// (docs/shot.schema.json). Plain data; what a file leaves out falls back to the scene's camera or the program's
+// defaults. Frames are counted from 0 at time 0.
 
-#include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "capture/keyframes.h"
-#include "image/tone_map.h"
-#include "lens/sequences.h"
-#include "lod/pyramid/level_selection.h"
-#include "plan/shutter.h"
-#include "render/layer_format.h"
+#include "frame/request.h"
 
 namespace defocus {
 
@@ -74,50 +70,25 @@ struct Dolly {
     std::optional<FrameRange> frames;  // none: the shot's
 };
 
-struct ShotCamera {
-    std::string name;  // as --camera takes it
-    std::variant<std::monostate, CameraKeys, Turntable, Dolly> movement;
-};
-
-struct ShotAnimation {
-    std::string clip;  // by name or number; empty: the first, where the scene has one
-    double start = 0;  // s into the clip at frame 0
-    double speed = 1;  // of the clip's time; 0 holds it
-    bool loop = false;
-};
+// How the camera moves; which one it is stands in Shot::request.
+using ShotMovement = std::variant<std::monostate, CameraKeys, Turntable, Dolly>;
 
 struct Shot {
     std::filesystem::path file;  // for messages; paths in a shot are relative to its folder, outputs to the current one
-    std::filesystem::path scene;
-    std::optional<int> fishCount;  // of the built-in school, without a scene
-    std::optional<int> trianglesPerFish;
-    std::filesystem::path environment;
-    std::variant<std::monostate, std::string, glm::dvec3> background;  // "environment", "none" or a linear colour
+    // Its fixed values, and the names of the settings (frame/settings.h) that it gives; time is that of frame 0.
+    Request request;
+    std::set<std::string, std::less<>> given;
 
     double frameRate = 24;  // 1/s
     FrameRange range{0, 0};
-    ShotAnimation animation;
-    std::optional<ShutterSettings> shutter;
-    std::optional<double>
-        shutterAngle;  // degrees, in place of the shutter's seconds; 360: the time from frame to frame
-    ShotCamera camera;
+    double animationSpeed = 1;           // of the clip's time; 0 holds it
+    std::optional<double> shutterAngle;  // degrees, in place of the shutter's seconds; 360: from frame to frame
+    ShotMovement movement;
     std::optional<FocusTrack> focus;
     std::map<std::string, LensTrack, std::less<>> lens;  // by field
-
-    std::optional<int> width, height;  // px, both or none
-    std::optional<std::uint32_t> samples;
-    std::optional<Sequence> sequence;
-    std::optional<std::uint32_t> seed;
-    bool animateSeed = false;  // other sample positions in each frame: the noise moves
-    std::optional<LodMode> lod;
-    std::optional<LodMetric> lodMetric;
-    std::optional<double> blurThreshold, sizeThreshold;
-    std::optional<std::string> method;  // as --method takes it
-    std::optional<LayerFormat> layerFormat;
+    bool animateSeed = false;                            // other sample positions in each frame: the noise moves
 
     std::vector<std::string> outputs = {"frames/####.exr"};
-    std::optional<double> exposure;  // EV, of PNG, JPEG and video; none: what the lens's exposure time makes, else 0
-    ToneMap toneMap = ToneMap::none;
     std::filesystem::path video;  // none: empty
 };
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture/json_reader.h"
+#include "capture/setting_json.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "lens/lens_fields.h"
@@ -20,8 +21,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr double farthest = 1e12;  // m
-constexpr int mostPixels = 16'384;
-constexpr std::uint32_t mostSamples = 65'536;
 
 const std::vector<std::string> easings = {"linear", "smooth"};
 
@@ -108,18 +107,16 @@ Dolly dollyOf(const JsonReader& reader) {
     return dolly;
 }
 
-ShotCamera cameraOf(const JsonReader& reader) {
+ShotMovement movementOf(const JsonReader& reader) {
     reader.requireObject({"name", "keys", "interpolation", "turntable", "dolly"});
-    ShotCamera camera;
-    if (const auto name = reader.find("name")) camera.name = name->text();
     const int movements = int{reader.has("keys")} + int{reader.has("turntable")} + int{reader.has("dolly")};
     if (movements > 1) reader.failWith("give one of keys, turntable and dolly");
     if (reader.has("interpolation") && !reader.has("keys"))
         reader.at("interpolation").failWith("only keys are interpolated; a dolly has its own 'interpolation'");
-    if (reader.has("keys")) camera.movement = cameraKeysOf(reader);
-    if (reader.has("turntable")) camera.movement = turntableOf(reader.at("turntable"));
-    if (reader.has("dolly")) camera.movement = dollyOf(reader.at("dolly"));
-    return camera;
+    if (reader.has("keys")) return cameraKeysOf(reader);
+    if (reader.has("turntable")) return turntableOf(reader.at("turntable"));
+    if (reader.has("dolly")) return dollyOf(reader.at("dolly"));
+    return {};
 }
 
 const std::vector<std::string> focusTargets = {"node", "distance", "pixel", "auto"};
@@ -202,101 +199,47 @@ std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
 
 // ---- the rest
 
-ShotAnimation animationOf(const JsonReader& reader) {
-    reader.requireObject({"clip", "start", "speed", "loop"});
-    ShotAnimation animation;
-    if (const auto clip = reader.find("clip")) {
-        if (clip->value().is_string())
-            animation.clip = clip->text();
-        else if (clip->value().is_number())
-            animation.clip = std::to_string(clip->whole(0, 1'000'000));
-        else
-            clip->failExpecting("the number or the name of a clip");
+// The member at a JSON pointer, as far as it is there.
+std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view place) {
+    std::optional<JsonReader> found = reader;
+    while (found && !place.empty()) {
+        const std::size_t end = std::min(place.find('/', 1), place.size());
+        found = found->find(std::string(place.substr(1, end - 1)).c_str());
+        place.remove_prefix(end);
     }
-    if (const auto start = reader.find("start")) animation.start = start->number(-1e9, 1e9);
-    if (const auto speed = reader.find("speed")) animation.speed = speed->number(-1e3, 1e3);
-    if (const auto loop = reader.find("loop")) animation.loop = loop->truth();
-    return animation;
+    return found;
 }
 
-void readShutter(const JsonReader& reader, Shot& shot) {
-    reader.requireObject({"angle", "seconds", "position", "segments", "exact"});
-    if (reader.has("angle") == reader.has("seconds")) reader.failWith("give either 'angle' or 'seconds'");
-    if (const auto angle = reader.find("angle")) shot.shutterAngle = angle->number(0, 3600);
-    ShutterSettings shutter;
-    if (const auto seconds = reader.find("seconds")) shutter.seconds = seconds->number(0, 1e6);
-    if (const auto position = reader.find("position")) {
-        const ShutterPosition positions[] = {ShutterPosition::start, ShutterPosition::centre, ShutterPosition::end};
-        shutter.position = positions[position->choice({"start", "centre", "end"})];
-    }
-    if (const auto segments = reader.find("segments"))
-        shutter.motionSegments = static_cast<std::uint32_t>(segments->whole(1, 64));
-    if (const auto exact = reader.find("exact")) shutter.exactMotion = exact->truth();
-    shot.shutter = shutter;
+// Scene files beside the shot.
+std::string relativeToShot(const Setting& setting, const std::string& text, const Shot& shot) {
+    return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;
 }
 
-void readScene(const JsonReader& reader, Shot& shot) {
-    const auto path = [&](const JsonReader& value) { return shot.file.parent_path() / value.text(); };
-    if (const auto scene = reader.find("scene")) shot.scene = path(*scene);
+// What stands in the shot as one value of a setting.
+void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
-        if (!shot.scene.empty()) fish->failWith("is for the built-in school of fish; this shot names a scene");
+        if (reader.has("scene")) fish->failWith("is for the built-in school of fish; this shot names a scene");
         fish->requireObject({"count", "triangles"});
-        if (const auto count = fish->find("count")) shot.fishCount = static_cast<int>(count->whole(1, 10'000));
-        if (const auto triangles = fish->find("triangles"))
-            shot.trianglesPerFish = static_cast<int>(triangles->whole(200, 10'000'000));
     }
-    if (const auto environment = reader.find("environment")) shot.environment = path(*environment);
-    if (const auto background = reader.find("background")) {
-        const auto colour = background->threeNumbers();
-        if (colour && std::ranges::all_of(*colour, [](double c) { return c >= 0 && c <= 1e9; }))
-            shot.background = glm::dvec3((*colour)[0], (*colour)[1], (*colour)[2]);
-        else if (background->value() == "environment" || background->value() == "none")
-            shot.background = background->text();
-        else
-            background->failExpecting(
-                "\"environment\", \"none\" or three numbers of 0 or more (linear red, green, blue)");
+    if (const auto animation = reader.find("animation")) {
+        animation->requireObject({"clip", "start", "speed", "loop"});
+        if (const auto speed = animation->find("speed")) shot.animationSpeed = speed->number(-1e3, 1e3);
     }
-}
-
-void readQuality(const JsonReader& reader, Shot& shot) {
-    if (const auto size = reader.find("size")) {
-        const char* what = "the width and the height in pixels";
-        const std::vector<JsonReader> sides = size->elements(2, what);
-        if (sides.size() != 2) size->failExpecting(what);
-        shot.width = static_cast<int>(sides[0].whole(1, mostPixels));
-        shot.height = static_cast<int>(sides[1].whole(1, mostPixels));
+    if (const auto shutter = reader.find("shutter")) {
+        shutter->requireObject({"angle", "seconds", "position", "segments", "exact"});
+        if (shutter->has("angle") == shutter->has("seconds")) shutter->failWith("give either 'angle' or 'seconds'");
+        if (const auto angle = shutter->find("angle")) shot.shutterAngle = angle->number(0, 3600);
     }
-    if (const auto samples = reader.find("samples"))
-        shot.samples = static_cast<std::uint32_t>(samples->whole(1, mostSamples));
-    if (const auto sequence = reader.find("sequence")) {
-        std::vector<std::string> names;
-        for (const Sequence each : allSequences) names.emplace_back(sequenceName(each));
-        shot.sequence = allSequences[sequence->choice(names)];
+    for (const Setting& setting : settings()) {
+        if (setting.shotPlace.empty() || setting.keyed) continue;
+        const std::optional<JsonReader> value = findPlace(reader, setting.shotPlace);
+        if (!value) continue;
+        setting.set(shot.request, relativeToShot(setting, settingText(setting, *value), shot));
+        shot.given.insert(setting.name);
     }
-    if (const auto seed = reader.find("seed"))
-        shot.seed = static_cast<std::uint32_t>(seed->whole(0, std::numeric_limits<std::uint32_t>::max()));
-    if (const auto animate = reader.find("animateSeed")) shot.animateSeed = animate->truth();
-    if (const auto lod = reader.find("lod")) {
-        const std::vector<LodMode> modes = {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off};
-        std::vector<std::string> names;
-        for (const LodMode mode : modes) names.emplace_back(lodModeName(mode));
-        shot.lod = modes[lod->choice(names)];
-    }
-    if (const auto metric = reader.find("lodMetric"))
-        shot.lodMetric = metric->choice({"size", "error"}) == 0 ? LodMetric::size : LodMetric::error;
-    if (const auto blur = reader.find("blurThreshold")) shot.blurThreshold = blur->number(0, 1e3);
-    if (const auto size = reader.find("sizeThreshold")) shot.sizeThreshold = size->number(0, 1e6);
-    if (const auto method = reader.find("method")) {
-        try {
-            shot.method = parseMethodUse(method->text()).text();
-        } catch (const Error& error) {
-            method->failWith(error.what());
-        }
-    }
-    if (const auto format = reader.find("layerFormat")) {
-        const std::vector<LayerFormat> formats = {LayerFormat::automatic, LayerFormat::rgb9e5, LayerFormat::rgba16f,
-                                                  LayerFormat::rgba32f, LayerFormat::rgba8};
-        shot.layerFormat = formats[format->choice({"automatic", "rgb9e5", "rgba16f", "rgba32f", "rgba8"})];
+    if (const auto exact = findPlace(reader, "/shutter/exact"); exact && exact->truth()) {
+        settingNamed("motionSegments")->set(shot.request, "exact");
+        shot.given.insert("motionSegments");
     }
 }
 
@@ -307,11 +250,6 @@ void readOutput(const JsonReader& reader, Shot& shot) {
         if (output->value().is_array())
             for (const JsonReader& each : output->elements(1, "one pattern or more"))
                 shot.outputs.push_back(each.text());
-    }
-    if (const auto exposure = reader.find("exposure")) shot.exposure = exposure->number(-60, 60);
-    if (const auto toneMap = reader.find("toneMap")) {
-        const ToneMap maps[] = {ToneMap::none, ToneMap::aces, ToneMap::agx};
-        shot.toneMap = maps[toneMap->choice({"none", "aces", "agx"})];
     }
     if (const auto video = reader.find("video")) shot.video = video->text();
 }
@@ -326,19 +264,17 @@ Shot shotOf(const json& document, const fs::path& file) {
     Shot shot;
     shot.file = file;
     if (const auto schema = reader.find("$schema")) static_cast<void>(schema->text());
-    readScene(reader, shot);
+    readSettings(reader, shot);
     if (const auto rate = reader.find("frameRate")) shot.frameRate = rate->number(1e-3, 1e6);
     if (const auto range = reader.find("range")) shot.range = rangeOf(*range);
-    if (const auto animation = reader.find("animation")) shot.animation = animationOf(*animation);
-    if (const auto shutter = reader.find("shutter")) readShutter(*shutter, shot);
-    if (const auto camera = reader.find("camera")) shot.camera = cameraOf(*camera);
+    if (const auto camera = reader.find("camera")) shot.movement = movementOf(*camera);
+    if (const auto animate = reader.find("animateSeed")) shot.animateSeed = animate->truth();
     if (const auto focus = reader.find("focus")) shot.focus = focusOf(*focus);
     if (const auto lens = reader.find("lens")) shot.lens = lensOf(*lens);
     if (shot.focus && shot.lens.contains("focusDistance"))
         reader.at("lens").at("focusDistance").failWith("the shot has a 'focus' too; give one of them");
     if (reader.has("exposure") && shot.lens.contains("exposureTime"))
         reader.at("exposure").failWith("the lens has an exposureTime too; give one of them");
-    readQuality(reader, shot);
     readOutput(reader, shot);
     return shot;
 }

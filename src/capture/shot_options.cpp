@@ -3,106 +3,82 @@
 #include <optional>
 #include <utility>
 
+#include "frame/settings.h"
+#include "lens/lens_fields.h"
+
 namespace defocus {
 
 namespace {
 
-template <typename Value>
-void take(const std::optional<Value>& given, Value& target) {
-    if (given) target = *given;
+bool cameraPlaced(const Request& request) {
+    return request.cameraPosition || request.cameraTarget || request.cameraUp;
 }
 
-bool cameraPlaced(const SceneOptions& options) {
-    return options.cameraPosition || options.cameraTarget || options.cameraUp;
-}
-
-// Where the options ask for a focus that each frame finds anew, it becomes the shot's: frames may show what the first
+// Where the request ask for a focus that each frame finds anew, it becomes the shot's: frames may show what the first
 // pose doesn't.
-std::optional<FocusTarget> takeFocusTarget(SceneOptions& options) {
+std::optional<FocusTarget> takeFocusTarget(Request& request) {
     std::optional<FocusTarget> target;
-    if (!options.focusNode.empty()) target = std::exchange(options.focusNode, {});
-    if (options.focusPixel) target = FocusPixel{options.focusPixel->x, options.focusPixel->y};
-    if (options.focusAuto) target = FocusAuto{};
-    options.focusPixel.reset();
-    options.focusAuto = false;
+    if (!request.focusNode.empty()) target = std::exchange(request.focusNode, {});
+    if (request.focusPixel) target = FocusPixel{request.focusPixel->column, request.focusPixel->row};
+    if (request.focusAuto) target = FocusAuto{};
+    request.focusPixel.reset();
+    request.focusAuto = false;
     return target;
 }
 
 // A shot names pixels of its own size; the same place of an image of another.
-void scaleFocusPixels(Shot& shot, const SceneOptions& options) {
-    if (!shot.focus || !shot.width) return;
+void scaleFocusPixels(Shot& shot, const Request& request) {
+    if (!shot.focus || !shot.given.contains("size")) return;
     for (auto& key : shot.focus->keys)
         if (auto* pixel = std::get_if<FocusPixel>(&key.value)) {
-            pixel->column = static_cast<int>((pixel->column + 0.5) * options.width / *shot.width);
-            pixel->row = static_cast<int>((pixel->row + 0.5) * options.height / *shot.height);
+            pixel->column = static_cast<int>((pixel->column + 0.5) * request.width / shot.request.width);
+            pixel->row = static_cast<int>((pixel->row + 0.5) * request.height / shot.request.height);
         }
 }
 
 }  // namespace
 
-void applyShot(const Shot& shot, SceneOptions& options) {
-    options.path = shot.scene;
-    take(shot.fishCount, options.fishCount);
-    take(shot.trianglesPerFish, options.trianglesPerFish);
-    options.time = shot.animation.start;
-    options.clip = shot.animation.clip;
-    options.loop = shot.animation.loop;
-    take(shot.shutter, options.shutter);
-    options.environment = shot.environment;
-    if (const auto* name = std::get_if<std::string>(&shot.background))
-        options.background = *name == "none" ? Background::none : Background::environment;
-    if (const auto* colour = std::get_if<glm::dvec3>(&shot.background)) {
-        options.background = Background::uniform;
-        options.backgroundColor = *colour;
+void applyShot(const Shot& shot, Request& request) {
+    for (const std::string& name : shot.given) {
+        const Setting& setting = *settingNamed(name);
+        if (const std::optional<std::string> text = setting.text(shot.request)) setting.set(request, *text);
     }
-    options.camera = shot.camera.name;
-    take(shot.width, options.width);
-    take(shot.height, options.height);
-    take(shot.samples, options.samples);
-    take(shot.sequence, options.sequence);
-    take(shot.seed, options.seed);
-    take(shot.lod, options.lod);
-    take(shot.lodMetric, options.metric);
-    if (shot.blurThreshold) options.blurThreshold = shot.blurThreshold;
-    if (shot.sizeThreshold) options.sizeThreshold = shot.sizeThreshold;
-    take(shot.method, options.method);
-    take(shot.layerFormat, options.layerFormat);
 }
 
-void settleShot(Shot& shot, SceneOptions& options, const GivenOptions& given) {
-    if (given.camera || cameraPlaced(options)) shot.camera.movement = {};
-    shot.animation.start = options.time;
-    shot.animation.clip = options.clip;
-    shot.animation.loop = options.loop;
-    if (shot.shutterAngle && !given.shutter) options.shutter.seconds = *shot.shutterAngle / 360 / shot.frameRate;
-    scaleFocusPixels(shot, options);
-    const bool focusGiven = options.lens.contains("focusDistance") || !options.focusNode.empty() ||
-                            options.focusPixel || options.focusPoints || options.focusAuto;
+void settleShot(Shot& shot, Request& request, const GivenOptions& given) {
+    if (given.camera || cameraPlaced(request)) shot.movement = {};
+    if (shot.shutterAngle && !given.shutter) request.shutter.seconds = *shot.shutterAngle / 360 / shot.frameRate;
+    scaleFocusPixels(shot, request);
+    const bool focusGiven = request.lens.focusDistance || !request.focusNode.empty() || request.focusPixel ||
+                            request.focusPoints || request.focusAuto;
     if (focusGiven) {
         shot.focus.reset();
         shot.lens.erase("focusDistance");
     }
-    if (options.focusPoints) {
+    if (request.focusPoints) {
         shot.lens.erase("focusTilt");
         shot.lens.erase("focusSwing");
     }
-    if (std::optional<FocusTarget> target = takeFocusTarget(options)) shot.focus = FocusTrack{.keys = {{0, *target}}};
-    if (options.lens.contains("exposureTime")) shot.exposure.reset();
-    std::erase_if(shot.lens, [&](const auto& entry) { return options.lens.contains(entry.first); });
-    for (const auto& [name, track] : shot.lens) options.lens[name] = track.keys.front().value;
+    if (std::optional<FocusTarget> target = takeFocusTarget(request)) shot.focus = FocusTrack{.keys = {{0, *target}}};
+    if (request.lens.exposureTime && shot.given.contains("exposure")) request.exposure.reset();
+    const LensValues lens = givenLensValues(request.lens);
+    std::erase_if(shot.lens, [&](const auto& entry) { return lens.contains(entry.first); });
+    for (const auto& [name, track] : shot.lens)
+        giveLensValue(request.lens, *lensFieldNamed(name), track.keys.front().value);
+    shot.request = request;
 }
 
-SequenceBase sequenceBase(const PreparedFrame& frame, const SceneOptions& options) {
+SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request) {
     SequenceBase base;
     base.scene = frame.scene;
     base.view = frame.view;
     base.settings = frame.settings;
     base.lights = frame.world.lights;
-    base.camera = options.camera;
-    base.cameraStands = cameraPlaced(options);
-    base.shutter = options.shutter;
-    for (const auto& [name, value] : options.lens) base.fixedLens.insert(name);
-    if (options.focusPoints) base.fixedLens.insert({"focusDistance", "focusTilt", "focusSwing"});
+    base.camera = request.camera;
+    base.cameraStands = cameraPlaced(request);
+    base.shutter = request.shutter;
+    for (const auto& [name, value] : givenLensValues(request.lens)) base.fixedLens.insert(name);
+    if (request.focusPoints) base.fixedLens.insert({"focusDistance", "focusTilt", "focusSwing"});
     base.centre = frame.world.pose.bounds.centre();
     return base;
 }

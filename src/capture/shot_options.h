@@ -7,24 +7,24 @@
 #include "capture/frame_sequence.h"
 #include "capture/shot.h"
 #include "frame/prepared_frame.h"
-#include "frame/scene_options.h"
+#include "frame/request.h"
 
 namespace defocus {
 
 // The shot's fixed values as if they had been given as options, except its lens, whose fields may have keys.
-void applyShot(const Shot& shot, SceneOptions& options);
+void applyShot(const Shot& shot, Request& request);
 
-// What the command line said of these, which show no trace in SceneOptions.
+// What the command line said of these, which show no trace in Request.
 struct GivenOptions {
     bool camera = false;
     bool shutter = false;
 };
 
-// After the command line has been read. Takes from the shot what `options` replaces: lens fields and focus that have a
-// value, and with a camera given, or its place, its movement. Puts the first values of the shot's lens into `options`,
+// After the command line has been read. Takes from the shot what `request` replaces: lens fields and focus that have a
+// value, and with a camera given, or its place, its movement. Puts the first values of the shot's lens into `request`,
 // so that the scene can be placed.
-void settleShot(Shot& shot, SceneOptions& options, const GivenOptions& given);
+void settleShot(Shot& shot, Request& request, const GivenOptions& given);
 
-SequenceBase sequenceBase(const PreparedFrame& frame, const SceneOptions& options);
+SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request);
 
 }  // namespace defocus

@@ -10,7 +10,7 @@
 #include "cli/bench_commands.h"
 #include "cli/bench_report.h"
 #include "cli/command.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "eval/speedup/text.h"
@@ -23,7 +23,7 @@ namespace defocus {
 namespace {
 
 struct SpeedupArguments {
-    SceneOptions scene;
+    Request request;
     SpeedupOptions speedup;
     std::filesystem::path folder;  // empty: only the table
     std::filesystem::path report;  // empty: none
@@ -33,17 +33,16 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     const std::filesystem::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
     makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
     Progress progress = terminalProgress(global);
-    SceneOptions scene = arguments.scene;
+    Request scene = arguments.request;
     scene.noCache = true;  // the time that pyramids take is part of the result
     PreparedFrame frame = placeFrame(scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);
 
     SpeedupOptions options = arguments.speedup;
-    options.metric = arguments.scene.metric;
-    options.sequence = arguments.scene.sequence;
-    options.renderer.layerFormat = arguments.scene.layerFormat;
-    options.renderer.wave = arguments.scene.wave;
+    options.plan = frame.settings;
+    options.renderer.layerFormat = arguments.request.layerFormat;
+    options.renderer.wave = arguments.request.wave;
     options.renderer.shaderFolder = global.shaderDir;
     options.pyramidMilliseconds = frame.pyramidMilliseconds;
     const BenchSubject subject = benchSubject(*context, frame, options.runs);
@@ -105,7 +104,9 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
             ->type_name("FOLDER")
             ->group("Output");
     addReport(*command, output, arguments->report);
-    addSceneOptions(*command, arguments->scene);
+    // What the bench goes through by itself; the time that pyramids take is part of the result.
+    addSettings(*command, arguments->request,
+                settingsOf(frameGroups, {"samples", "lod", "method", "cacheFolder", "noCache"}));
     command->footer(
         "Examples:\n"
         "  defocus bench speedup --counts 16,64 -o bench-fish\n"

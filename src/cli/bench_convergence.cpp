@@ -15,7 +15,7 @@
 #include "cli/bench_commands.h"
 #include "cli/bench_report.h"
 #include "cli/option_text.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
@@ -38,7 +38,7 @@ bool hasRayTracers() {
 }
 
 struct ConvergenceArguments {
-    SceneOptions scene;
+    Request request;
     bool unlit = hasRayTracers();
     ConvergenceOptions options;
     std::uint32_t referenceSamples = 4096;
@@ -151,10 +151,10 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     // Faults first: scene, lens, device, folders.
     Progress progress = terminalProgress(global);
     ConvergenceOptions options = arguments.options;
-    SceneOptions scene = arguments.scene;
+    Request scene = arguments.request;
     scene.noCache = true;  // the time that pyramids take is part of the result
     const bool usesLevels = std::ranges::any_of(options.lods, [](LodMode mode) { return mode != LodMode::off; });
-    if (!usesLevels) scene.lod = LodMode::off;
+    if (!usesLevels) scene.settings.lod = LodMode::off;
     PreparedFrame frame = placeFrame(scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     makeFolders(arguments);
@@ -312,11 +312,10 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ConvergenceArguments>();
     CLI::App* command =
         bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
-    addSceneOptions(*command, arguments->scene);
     // What the bench goes through by itself.
-    for (const char* name : {"--samples", "--lod", "--lod-metric", "--blur-threshold", "--size-threshold", "--method",
-                             "--cache-dir", "--no-cache"})
-        command->remove_option(command->get_option(name));
+    addSettings(*command, arguments->request,
+                settingsOf(frameGroups, {"samples", "lod", "lodMetric", "blurThreshold", "sizeThreshold", "method",
+                                         "cacheFolder", "noCache"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
     command->footer(

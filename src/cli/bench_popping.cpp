@@ -11,7 +11,7 @@
 #include "cli/bench_commands.h"
 #include "cli/bench_report.h"
 #include "cli/option_text.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "eval/popping/text.h"
@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PoppingArguments {
-    SceneOptions scene;
+    Request request;
     PoppingOptions options;
     fs::path folder;  // empty: only the table
     fs::path report;  // empty: none
@@ -39,7 +39,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
     makeOutputFolder(folder, {"popping.csv", "popping.json"});
     Progress progress = terminalProgress(global);
-    PreparedFrame frame = placeFrame(arguments.scene, progress);
+    PreparedFrame frame = placeFrame(arguments.request, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);
     printFrameWarnings(frame, global);
@@ -48,10 +48,10 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     options.plan = frame.settings;
     if (!frame.scene->clips.empty()) {
         options.movements.push_back(Movement::clip);
-        if (!arguments.scene.clip.empty()) options.clip = clipNamed(*frame.scene, arguments.scene.clip);
+        if (!arguments.request.clip.empty()) options.clip = clipNamed(*frame.scene, arguments.request.clip);
     }
-    options.renderer.layerFormat = arguments.scene.layerFormat;
-    options.renderer.wave = arguments.scene.wave;
+    options.renderer.layerFormat = arguments.request.layerFormat;
+    options.renderer.wave = arguments.request.wave;
     options.renderer.shaderFolder = global.shaderDir;
     const BenchSubject subject = benchSubject(*context, frame, 0);
     fmt::print("{}, {} x {} px, {} of {} frames of each movement, on {}\n\n", subject.scene, subject.width,
@@ -89,15 +89,13 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
 
 void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<PoppingArguments>();
-    arguments->scene.width = 320;
-    arguments->scene.height = 240;
+    arguments->request.width = 320;
+    arguments->request.height = 240;
     CLI::App* command = bench.add_subcommand(
         "popping",
         "A focus pull, a dolly, a turntable and the scene's clip: what levels add to the change from frame to frame");
-    addSceneOptions(*command, arguments->scene);
     // What the bench goes through by itself.
-    for (const char* name : {"--samples", "--lod", "--blur-threshold", "--size-threshold", "--method"})
-        command->remove_option(command->get_option(name));
+    addSettings(*command, arguments->request, settingsOf(frameGroups, {"samples", "lod", "method"}));
     const char* group = "Measurement";
     PoppingOptions& options = arguments->options;
     command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")

@@ -11,7 +11,7 @@
 #include "cli/bench_commands.h"
 #include "cli/bench_report.h"
 #include "cli/option_text.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "eval/scaling/text.h"
@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 
 struct ScalingArguments {
     ScalingOptions options;
-    fs::path cacheFolder;  // empty: the default
-    fs::path folder;       // empty: only the table
-    fs::path report;       // empty: none
+    Request request;  // its cache folder alone
+    fs::path folder;  // empty: only the table
+    fs::path report;  // empty: none
 };
 
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
@@ -37,7 +37,7 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
     const Progress progress = terminalProgress(global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     ScalingOptions options = arguments.options;
-    options.cacheFolder = arguments.cacheFolder.empty() ? defaultCacheFolder() : arguments.cacheFolder;
+    options.cacheFolder = arguments.request.cacheFolder.empty() ? defaultCacheFolder() : arguments.request.cacheFolder;
     options.renderer.shaderFolder = global.shaderDir;
     BenchSubject subject = benchSubject(*context);
     subject.runs = options.runs;
@@ -96,7 +96,7 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
                    "Triangles up to 50 million instead of 10, as far as memory allows; their pyramids take minutes")
         ->group(group);
     addWhole(*command, "--runs", options.runs, 1, 1000, "Runs of each frame; the median counts")->group(group);
-    addCacheFolder(*command, arguments->cacheFolder)->group(group);
+    addSettings(*command, arguments->request, {"cacheFolder"});
     CLI::Option* output =
         command->add_option("-o,--output", arguments->folder, "Folder for scaling.csv and scaling.json")
             ->type_name("FOLDER")

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "core/error.h"
 
 namespace defocus {
@@ -20,11 +20,12 @@ namespace defocus {
 namespace {
 
 struct CacheArguments {
-    std::filesystem::path folder;  // empty: the default one
+    Request request;  // its cache folder alone
 };
 
 std::filesystem::path folderOf(const CacheArguments& arguments) {
-    const std::filesystem::path folder = arguments.folder.empty() ? defaultCacheFolder() : arguments.folder;
+    const std::filesystem::path folder =
+        arguments.request.cacheFolder.empty() ? defaultCacheFolder() : arguments.request.cacheFolder;
     if (folder.empty()) fail("no cache folder: neither XDG_CACHE_HOME nor HOME is set; give one with --cache-dir");
     return folder;
 }
@@ -78,7 +79,7 @@ void addCacheCommand(CLI::App& program) {
     CLI::App* clearing = command->add_subcommand("clear", "Remove the cache's files, and no others");
     clearing->callback([arguments] { clear(*arguments); });
     for (CLI::App* place : {command, listing, clearing}) {
-        addCacheFolder(*place, arguments->folder);
+        addSettings(*place, arguments->request, {"cacheFolder"});
         place->footer(example);
     }
 }

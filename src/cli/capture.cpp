@@ -19,7 +19,7 @@
 #include "capture/video.h"
 #include "cli/command.h"
 #include "cli/option_text.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "frame/prepared_frame.h"
@@ -41,7 +41,7 @@ struct Shard {
 struct CaptureArguments {
     std::vector<ShotOverride> overrides;
     Shot shot;
-    SceneOptions scene;
+    Request request;
     std::optional<FrameRange> range;
     Shard shard;
     std::optional<SampleRange> samples;
@@ -87,7 +87,7 @@ void checkArguments(const CaptureArguments& arguments) {
         checkVideo(arguments.shot.video);
     }
     if (!arguments.samples) return;
-    checkSampleRange(*arguments.samples, arguments.scene.samples);
+    checkSampleRange(*arguments.samples, arguments.request.settings.sampleCount);
     if (arguments.shot.outputs.size() != 1 || fs::path(arguments.shot.outputs.front()).extension() != ".exr")
         fail("--sample-range writes the sums of samples to one EXR pattern, such as -o frames/####.exr");
 }
@@ -97,8 +97,8 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     FilmOptions options;
     options.outputs = shot.outputs;
     options.samples = arguments.samples;
-    options.toneMap = shot.toneMap;
-    options.exposure = shot.exposure;
+    options.toneMap = arguments.request.toneMap;
+    options.exposure = arguments.request.exposure;
     options.settings = settings;
     options.timings = timingsPath(shot.outputs.front(), arguments.shard.index, arguments.shard.count);
     options.resume = arguments.resume;
@@ -127,7 +127,7 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
 FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method) {
     return
         [&arguments, &prepared, method](const SequenceFrame& frame, const FramePlan& plan, const RenderStats& stats) {
-            SceneOptions options = arguments.scene;
+            Request options = arguments.request;
             options.time = frame.time;
             Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0});
             metadata.erase("defocus:seconds");
@@ -156,8 +156,8 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
                          const std::vector<FilmFrame>& film, const FilmOptions& options, const MethodUse& use,
                          const GlobalOptions& global, const Progress& progress) try {
     RendererOptions rendererOptions;
-    rendererOptions.layerFormat = arguments.scene.layerFormat;
-    rendererOptions.wave = arguments.scene.wave;
+    rendererOptions.layerFormat = arguments.request.layerFormat;
+    rendererOptions.wave = arguments.request.wave;
     rendererOptions.shaderFolder = global.shaderDir;
     rendererOptions.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = use.method->make(prepared.world, rendererOptions);
@@ -172,14 +172,15 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
 void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
     // Faults first: options, outputs, scene, every frame's camera and lens, device; only then the long work.
     Shot& shot = arguments.shot;
-    settleShot(shot, arguments.scene, given);
+    settleShot(shot, arguments.request, given);
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
     checkArguments(arguments);
-    const MethodUse use = chosenMethod(arguments.scene);
+    const MethodUse use = chosenMethod(arguments.request);
     Progress progress = terminalProgress(global);
-    PreparedFrame prepared = placeFrame(arguments.scene, progress);
-    const SequenceBase base = sequenceBase(prepared, arguments.scene);
-    const FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.scene, use, global.shaderDir));
+    PreparedFrame prepared = placeFrame(arguments.request, progress);
+    const SequenceBase base = sequenceBase(prepared, arguments.request);
+    const FilmOptions options =
+        filmOptions(arguments, filmSettings(prepared, arguments.request, use, global.shaderDir));
     const std::vector<int> frames =
         shardFrames(arguments.range.value_or(shot.range), arguments.shard.index, arguments.shard.count);
     const std::vector<FilmFrame> film = filmFrames(shot, base, frames, options, progress);
@@ -249,7 +250,7 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
             "SHOT",
             [&arguments](const std::string& path) {
                 arguments.shot = loadShot(path, arguments.overrides);
-                applyShot(arguments.shot, arguments.scene);
+                applyShot(arguments.shot, arguments.request);
             },
             "Shot file (JSON; docs/shot.schema.json)")
         ->required()
@@ -258,7 +259,7 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
               [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
         ->group(group);
     addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frames a second")->group(group);
-    addNumber(command, "--speed", arguments.shot.animation.speed, {-1e3, 1e3}, "R", "Of the scene's animation")
+    addNumber(command, "--speed", arguments.shot.animationSpeed, {-1e3, 1e3}, "R", "Of the scene's animation")
         ->group(group);
     command
         .add_flag("--animate-seed", arguments.shot.animateSeed,
@@ -279,13 +280,6 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
         .add_option("--video", arguments.shot.video, "Also make a film with ffmpeg: .mp4, .mov, .mkv, .webm or .gif")
         ->type_name("FILE")
         ->group(group);
-    addNumber(command, "--exposure", arguments.shot.exposure, {-60, 60}, "EV",
-              "Of .png, .jpg and film; without it, the shot's, or what exposure time, ISO and f-number make")
-        ->group(group);
-    addChoice<ToneMap>(command, "--tonemap", arguments.shot.toneMap,
-                       {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
-                       "Film curve of .png, .jpg and film")
-        ->group(group);
     command.add_flag("--resume", arguments.resume, "Keep frames that are finished and of the same settings")
         ->group(group);
     addParsed(command, "--shard", "I/N", "Render part I (0 to N-1) of the frames; N machines share a film",
@@ -305,13 +299,13 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and film");
     addShot(*command, *arguments);
     addOutputs(*command, *arguments);
-    addSceneOptions(*command, arguments->scene);
-    excludeExposure(*command);
-    command->remove_option(command->get_option("SCENE"));
-    command->add_option("--scene", arguments->scene.path, "glTF file, instead of the shot's")
+    std::vector<SettingGroup> groups = frameGroups;
+    groups.push_back(SettingGroup::display);
+    addSettings(*command, arguments->request, settingsOf(groups, {"scene"}));
+    command->add_option("--scene", arguments->request.scene, "glTF file, instead of the shot's")
         ->type_name("FILE")
         ->group("Scene");
-    addMethodSettings(*command, arguments->scene);
+    addMethodSettings(*command, arguments->request);
     command->footer(
         "Options replace what the shot says.\n\n"
         "Examples:\n"

@@ -75,7 +75,7 @@ void printJson(const Difference& difference) {
         const double value = metric.value(difference);
         json[std::string(metric.name)] = std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
     }
-    json["maxErrorPixel"] = {difference.maxErrorPixel.x, difference.maxErrorPixel.y};
+    json["maxErrorPixel"] = {difference.maxErrorPixel.column, difference.maxErrorPixel.row};
     json["nonFinite"] = difference.nonFinite;
     json["pixelCount"] = difference.pixelCount;
     fmt::print("{}\n", json.dump(2));
@@ -91,8 +91,8 @@ void printTable(const CompareArguments& arguments, const Difference& difference)
         std::isfinite(difference.psnr) ? fmt::format("{:.2f} dB", difference.psnr) : "infinite (no difference)");
     row("ssim", fmt::format("{:.6f}", difference.ssim));
     row("flip", fmt::format("{:.6f} ({})", difference.flip, arguments.hdr ? "HDR" : "LDR"));
-    row("max error", fmt::format("{:.6f} at pixel {},{}", difference.maxError, difference.maxErrorPixel.x,
-                                 difference.maxErrorPixel.y));
+    row("max error", fmt::format("{:.6f} at pixel {},{}", difference.maxError, difference.maxErrorPixel.column,
+                                 difference.maxErrorPixel.row));
     row("non-finite", fmt::format("{} of {} pixels", difference.nonFinite, difference.pixelCount));
 }
 

@@ -12,14 +12,13 @@
 #include "cli/camera_report.h"
 #include "cli/command.h"
 #include "cli/option_text.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "lens/lens_fields.h"
 #include "lod/simplify/repairs.h"
 #include "scene/gltf/gltf.h"
 #include "scene/pose.h"
-#include "school/fish_school.h"
 
 namespace defocus {
 
@@ -28,11 +27,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
-    std::string scene;         // empty: the built-in fish school
-    FishSchoolOptions school;  // without a scene
     bool json = false;
     std::string camera;  // empty: what the file holds; else what its camera does ("true" or a name)
-    SceneOptions seen;   // for --camera
+    Request seen;        // the scene; the rest is for --camera
     CameraQuestion question;
 };
 
@@ -130,9 +127,9 @@ Json sceneJson(const InfoOptions& options, const Scene& scene, const Pose& pose)
     const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
     const Totals totals = totalsOf(scene, objects);
     const std::vector<Repairs> repairs = allRepairs(scene);
-    Json json = {{"file", options.scene},         {"name", scene.name},
-                 {"triangles", totals.triangles}, {"trianglesInScene", totals.trianglesInScene},
-                 {"vertices", totals.vertices},   {"objects", pose.objects.size()},
+    Json json = {{"file", options.seen.scene.string()}, {"name", scene.name},
+                 {"triangles", totals.triangles},       {"trianglesInScene", totals.trianglesInScene},
+                 {"vertices", totals.vertices},         {"objects", pose.objects.size()},
                  {"nodes", scene.nodes.size()}};
     if (!pose.bounds.empty()) {
         const auto vector = [](const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); };
@@ -270,7 +267,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
     const Totals totals = totalsOf(scene, objects);
     const glm::dvec3 size = pose.bounds.size();
-    line("scene", options.scene.empty() ? scene.name : fmt::format("{} ({})", options.scene, scene.name));
+    line("scene", options.seen.scene.empty() ? scene.name : fmt::format("{} ({})", options.seen.scene.string(), scene.name));
     line("size", fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x, size.y, size.z));
     line("triangles", fmt::format("{}, {} in the scene", grouped(totals.triangles), grouped(totals.trianglesInScene)));
     line("vertices", grouped(totals.vertices));
@@ -304,10 +301,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
 }
 
 void runCameraInfo(const InfoOptions& options, const GlobalOptions& global) {
-    SceneOptions seen = options.seen;
-    seen.path = options.scene;
-    seen.fishCount = options.school.fishCount;
-    seen.trianglesPerFish = options.school.trianglesPerFish;
+    Request seen = options.seen;
     if (options.camera != flagOnly) seen.camera = options.camera;
     const PreparedFrame frame = placeFrame(seen, terminalProgress(global));
     printFrameWarnings(frame, global);
@@ -318,8 +312,7 @@ void runCameraInfo(const InfoOptions& options, const GlobalOptions& global) {
 void runInfo(const InfoOptions& options, const GlobalOptions& global) {
     if (!options.camera.empty()) return runCameraInfo(options, global);
     const Progress progress = terminalProgress(global);
-    const Scene scene =
-        options.scene.empty() ? fishSchool(options.school, progress) : loadGltf(options.scene, progress);
+    const Scene scene = loadScene(options.seen, progress);
     const Pose pose = poseAt(scene, 0, -1);
     if (options.json)
         fmt::print("{}\n", sceneJson(options, scene, pose).dump(2, ' ', false, Json::error_handler_t::replace));
@@ -344,7 +337,8 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
               "Blur on the sensor that passes for sharp; without it, the sensor's diagonal over 1500 (0.03 mm for a "
               "sensor of 36 x 27 mm)")
         ->group(group);
-    addCameraOptions(command, options.seen);
+    addSettings(command, options.seen, settingsOf({SettingGroup::camera, SettingGroup::lens}, {"camera", "nodeBlur"}));
+    addSettings(command, options.seen, {"time", "clip", "loop"});
     for (CLI::Option* option : command.get_options([&](const CLI::Option* each) {
              return each != camera && std::find(before.begin(), before.end(), each) == before.end();
          }))
@@ -356,14 +350,7 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
 void addInfoCommand(CLI::App& program, const GlobalOptions& global) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command = program.add_subcommand("info", "Say what a scene holds, and what of it is ignored and why");
-    CLI::Option* scene =
-        command
-            ->add_option("SCENE", options->scene, "glTF file (.gltf, .glb); without one, the built-in school of fish")
-            ->type_name("FILE");
-    addWhole(*command, "--fish", options->school.fishCount, 1, 10'000, "Number of fish in the built-in school")
-        ->excludes(scene);
-    addWhole(*command, "--fish-triangles", options->school.trianglesPerFish, 200, 10'000'000, "Triangles a fish, about")
-        ->excludes(scene);
+    addSettings(*command, options->seen, sceneSettings);
     command->add_flag("--json", options->json, "JSON for programs, with every mesh, instead of text");
     addCameraQuestion(*command, *options);
     command->footer(

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cli/command.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "frame/prepared_frame.h"
 #include "plan/frame_plan.h"
 #include "plan/plan_text.h"
@@ -16,12 +16,12 @@ namespace defocus {
 namespace {
 
 struct PlanArguments {
-    SceneOptions scene;
+    Request request;
     bool json = false;
 };
 
 void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
-    const PreparedFrame frame = prepareFrame(arguments.scene, terminalProgress(global));
+    const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
     printFrameWarnings(frame, global);
@@ -34,7 +34,8 @@ void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* command = program.add_subcommand(
         "plan", "Print what a render would draw: blur, level and samples of each object, and what is left out");
     command->add_flag("--json", arguments->json, "JSON for programs instead of a table")->group("Output");
-    addSceneOptions(*command, arguments->scene);
+    // A plan is of lens samples and levels, whatever draws them.
+    addSettings(*command, arguments->request, settingsOf(frameGroups, {"method", "layerFormat", "wave"}));
     command->footer("Example:\n  defocus plan scene.glb --fstop 1.4 --focus-node Bottle --json");
     command->callback([arguments, &global] { runPlan(*arguments, global); });
 }

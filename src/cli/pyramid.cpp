@@ -19,6 +19,7 @@
 #include "cli/command.h"
 #include "cli/level_export.h"
 #include "cli/option_text.h"
+#include "cli/request_options.h"
 #include "cli/turntable.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -32,7 +33,6 @@
 #include "scene/defaults.h"
 #include "scene/gltf/gltf.h"
 #include "scene/gltf/write.h"
-#include "school/fish_school.h"
 
 namespace defocus {
 
@@ -42,11 +42,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct PyramidArguments {
-    std::string scene;         // empty: the built-in fish school
-    FishSchoolOptions school;  // without a scene
-    std::string mesh;          // empty: all
-    fs::path exportFolder;     // empty: no export
-    fs::path turntable;        // empty: none
+    Request request;        // its scene alone
+    std::string mesh;       // empty: all
+    fs::path exportFolder;  // empty: no export
+    fs::path turntable;     // empty: none
     std::size_t points = 16'384;
     bool noMeasure = false;
     bool json = false;
@@ -235,7 +234,7 @@ Json levelJson(const PyramidLevel& level, const LevelReport& report) {
 }
 
 Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std::vector<MeshReport>& reports) {
-    Json json = {{"file", arguments.scene}};
+    Json json = {{"file", arguments.request.scene}};
     if (!arguments.noMeasure) json["points"] = arguments.points;
     json["meshes"] = Json::array();
     for (const MeshReport& report : reports) {
@@ -295,8 +294,7 @@ void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
 
 void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) {
     const Progress progress = terminalProgress(global);
-    const Scene scene =
-        arguments.scene.empty() ? fishSchool(arguments.school, progress) : loadGltf(arguments.scene, progress);
+    const Scene scene = loadScene(arguments.request, progress);
     std::vector<MeshReport> reports = chooseMeshes(scene, arguments.mesh);
     const std::vector<std::string> stems = fileStems(scene);
     if (!arguments.exportFolder.empty() && !reports.empty())
@@ -335,15 +333,7 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<PyramidArguments>();
     CLI::App* command = program.add_subcommand(
         "pyramid", "Simplify each mesh, and say what its levels of detail are and how far they are from it");
-    CLI::Option* scene =
-        command
-            ->add_option("SCENE", arguments->scene, "glTF file (.gltf, .glb); without one, the built-in school of fish")
-            ->type_name("FILE");
-    addWhole(*command, "--fish", arguments->school.fishCount, 1, 10'000, "Number of fish in the built-in school")
-        ->excludes(scene);
-    addWhole(*command, "--fish-triangles", arguments->school.trianglesPerFish, 200, 10'000'000,
-             "Triangles a fish, about")
-        ->excludes(scene);
+    addSettings(*command, arguments->request, sceneSettings);
     command->add_option("--mesh", arguments->mesh, "Only the mesh of this name, as defocus info lists it")
         ->type_name("NAME");
     addWhole(*command, "--points", arguments->points, 100, 100'000'000,

@@ -58,7 +58,7 @@ void checkOutputs(const RenderArguments& arguments) {
     for (const std::filesystem::path& path : aovPaths(arguments)) checkWritable(path);
     if (!arguments.stats.empty()) checkWritable(arguments.stats);
     if (!arguments.samples) return;
-    checkSampleRange(*arguments.samples, arguments.scene.samples);
+    checkSampleRange(*arguments.samples, arguments.request.settings.sampleCount);
     if (arguments.outputs.size() != 1 || arguments.outputs.front().extension() != ".exr" || arguments.aovs.any())
         fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
 }
@@ -75,13 +75,13 @@ Image renderImage(Renderer& renderer, const FramePlan& plan, const Progress& pro
 void writeSums(const RenderArguments& arguments, FramePart part, const PreparedFrame& frame, const MethodUse& use,
                const std::filesystem::path& shaderFolder, const Metadata& metadata) {
     SequenceFrame single;
-    single.time = arguments.scene.time;
+    single.time = arguments.request.time;
     single.pose = frame.world.pose;
     single.shutter = frame.world.shutter;
     single.lights = frame.world.lights;
     single.view = frame.view;
     single.settings = frame.settings;
-    part.settings = frameSettings(filmSettings(frame, arguments.scene, use, shaderFolder), single);
+    part.settings = frameSettings(filmSettings(frame, arguments.request, use, shaderFolder), single);
     part.metadata = metadata;
     part.metadata["defocus:samples"] = static_cast<int>(part.frameSamples);
     writePart(arguments.outputs.front(), part);
@@ -128,11 +128,11 @@ void printChoices(const GlContext* context, const FramePlan& plan, const RenderR
 void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     // Faults first: method, outputs, scene, lens, device; only then the long work.
     const Clock::time_point start = Clock::now();
-    const MethodUse use = chosenMethod(arguments.scene);
+    const MethodUse use = chosenMethod(arguments.request);
     const Method& method = *use.method;
     checkOutputs(arguments);
     Progress progress = terminalProgress(global);
-    PreparedFrame frame = placeFrame(arguments.scene, progress);
+    PreparedFrame frame = placeFrame(arguments.request, progress);
     std::unique_ptr<GlContext> context;
     if (method.needsGl || arguments.aovs.any()) context = createHeadlessContext();
     addPyramids(frame, progress);
@@ -140,8 +140,8 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     // Plan and render.
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     RendererOptions options;
-    options.layerFormat = arguments.scene.layerFormat;
-    options.wave = arguments.scene.wave;
+    options.layerFormat = arguments.request.layerFormat;
+    options.wave = arguments.request.wave;
     options.shaderFolder = global.shaderDir;
     options.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
@@ -157,14 +157,14 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     // Write.
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     const bool software = context == nullptr || context->software();
-    const RenderReport report{arguments.scene, use.text(), frame, plan, renderer->stats(), software, milliseconds};
-    const double exposure = arguments.exposure.value_or(photographicExposure(frame.view.lens));
+    const RenderReport report{arguments.request, use.text(), frame, plan, renderer->stats(), software, milliseconds};
+    const double exposure = arguments.request.exposure.value_or(photographicExposure(frame.view.lens));
     const Metadata metadata = renderMetadata(report);
     if (arguments.samples)
         writeSums(arguments, std::move(part), frame, use, global.shaderDir, metadata);
     else
         for (const std::filesystem::path& path : arguments.outputs)
-            writeImage(path, image, metadata, {arguments.toneMap, exposure});
+            writeImage(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});
     if (arguments.aovs.surfaces()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
     if (arguments.aovs.work)
         writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);

@@ -30,13 +30,6 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         ->type_name("FILE")
         ->default_str("out.exr")
         ->group(group);
-    addNumber(command, "--exposure", arguments.exposure, {-60, 60}, "EV",
-              "Of .png and .jpg; without it, what --exposure-time, --iso and the f-number make, else 0")
-        ->group(group);
-    addChoice<ToneMap>(command, "--tonemap", arguments.toneMap,
-                       {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
-                       "Film curve of .png and .jpg")
-        ->group(group);
     addParsed(command, "--aov", "depth,coc,level,work",
               "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
               "out.level.png (level of detail) and out.work.exr with out.work.png (triangles that touch each pixel, "
@@ -56,9 +49,10 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
 
 void addRenderOptions(CLI::App& command, RenderArguments& arguments) {
     addOutputs(command, arguments);
-    addSceneOptions(command, arguments.scene);
-    excludeExposure(command);
-    addMethodSettings(command, arguments.scene);
+    std::vector<SettingGroup> groups = frameGroups;
+    groups.push_back(SettingGroup::display);
+    addSettings(command, arguments.request, settingsOf(groups));
+    addMethodSettings(command, arguments.request);
 }
 
 }  // namespace defocus

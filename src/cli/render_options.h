@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "capture/partial.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "image/tone_map.h"
 
 namespace defocus {
@@ -21,12 +21,10 @@ struct AovRequest {
 };
 
 struct RenderArguments {
-    SceneOptions scene;
+    Request request;
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path stats;
     AovRequest aovs;
-    ToneMap toneMap = ToneMap::none;
-    std::optional<double> exposure;      // EV, of .png and .jpg; none: the lens's
     std::optional<SampleRange> samples;  // only these, for `merge`
 };
 

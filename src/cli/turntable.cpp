@@ -170,7 +170,7 @@ RenderSettings settingsForLevel(const World& world, const View& view, std::uint3
     settings.sampleCount = antialiasingSamples;
     settings.lod = LodMode::nearest;
     settings.metric = LodMetric::error;
-    settings.thresholds = {};
+    settings.thresholds = {0, 0};
     const FramePlan finest = planFrame(world, view, settings);
     for (const ObjectPlan& object : finest.objects) {
         const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];

@@ -4,7 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/option_text.h"
-#include "cli/scene_options.h"
+#include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "view/session.h"
@@ -14,8 +14,8 @@ namespace defocus {
 namespace {
 
 void runView(const SessionOptions& options) {
-    static_cast<void>(chosenMethod(options.scene));
-    if (options.scene.shutter.exactMotion)
+    static_cast<void>(chosenMethod(options.request));
+    if (options.request.shutter.exactMotion)
         fail("--motion-segments exact: a window shows any number of samples; give a number, such as 16");
     if (!options.screenshot.empty()) {
         checkImageExtension(options.screenshot);
@@ -44,8 +44,10 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
             "Keep the state of the view in this file, as JSON, several times a second: focus, samples, times …")
         ->type_name("FILE")
         ->group(group);
-    addSceneOptions(*command, options->scene);
-    addMethodSettings(*command, options->scene);
+    std::vector<SettingGroup> groups = frameGroups;
+    groups.push_back(SettingGroup::display);
+    addSettings(*command, options->request, settingsOf(groups));
+    addMethodSettings(*command, options->request);
     command->footer(
         "Press ? in the window for the keys.\n\nExamples:\n"
         "  defocus view scene.glb --fstop 1.4\n"

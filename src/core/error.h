@@ -5,21 +5,11 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
 #include <utility>
 
+#include "defocus/error.h"
+
 namespace defocus {
-
-class Error : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
-// What was asked for makes no sense by itself: a wrong command line (exit code 2) or request.
-class UsageError : public Error {
-public:
-    using Error::Error;
-};
 
 // Throws Error with a formatted one-line message, e.g. fail("{}: not a glTF file", path).
 template <typename... Args>

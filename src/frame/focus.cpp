@@ -20,12 +20,12 @@ double depthOfCentre(const Bounds& bounds, const View& view) {
     return depth > view.nearPlane && std::isfinite(depth) ? depth : defaultFocusDistance;
 }
 
-void focusAlong(const Scene& scene, const Pose& pose, const std::array<glm::ivec2, 3>& pixels, View& view) {
+void focusAlong(const Scene& scene, const Pose& pose, const std::array<Pixel, 3>& pixels, View& view) {
     Lens flat = view.lens;
     flat.focusDistance = std::numeric_limits<double>::infinity();
     std::array<glm::dvec3, 3> points;
     for (std::size_t i = 0; i < 3; ++i)
-        points[i] = surfaceAtPixel(scene, pose, view, flat, pixels[i], "--focus-points");
+        points[i] = surfaceAtPixel(scene, pose, view, flat, asVector(pixels[i]), "--focus-points");
     focusThrough(points, view.lens, "--focus-points");
 }
 
@@ -47,19 +47,18 @@ void focusThrough(const std::array<glm::dvec3, 3>& points, Lens& lens, const std
     lens.focusDistance = distance;
 }
 
-void chooseFocus(const SceneOptions& options, const Camera& camera, const Scene& scene, const Pose& pose, View& view) {
+void chooseFocus(const Request& request, const Camera& camera, const Scene& scene, const Pose& pose, View& view) {
     Lens& lens = view.lens;
-    const auto distance = options.lens.find("focusDistance");
     const std::optional<double> own = camera.lensValue("focusDistance");
-    if (distance != options.lens.end())
-        lens.focusDistance = distance->second;
-    else if (!options.focusNode.empty())
-        lens.focusDistance = depthOfNode(scene, pose, view, options.focusNode, "--focus-node");
-    else if (options.focusPixel)
-        lens.focusDistance = depthAtPixel(scene, pose, view, *options.focusPixel, "--focus-pixel");
-    else if (options.focusPoints)
-        focusAlong(scene, pose, *options.focusPoints, view);
-    else if (options.focusAuto)
+    if (request.lens.focusDistance)
+        lens.focusDistance = *request.lens.focusDistance;
+    else if (!request.focusNode.empty())
+        lens.focusDistance = depthOfNode(scene, pose, view, request.focusNode, "--focus-node");
+    else if (request.focusPixel)
+        lens.focusDistance = depthAtPixel(scene, pose, view, asVector(*request.focusPixel), "--focus-pixel");
+    else if (request.focusPoints)
+        focusAlong(scene, pose, *request.focusPoints, view);
+    else if (request.focusAuto)
         lens.focusDistance = depthOfMiddle(scene, pose, view, "--focus-auto");
     else
         lens.focusDistance = own && *own > 0 ? *own : depthOfCentre(pose.bounds, view);

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-#include "frame/scene_options.h"
+#include "frame/request.h"
 #include "plan/view.h"
 #include "scene/camera.h"
 
@@ -16,7 +16,7 @@ namespace defocus {
 // set. In this order: what the options ask for, the camera's own, the depth of the scene's centre. Throws Error where
 // nothing is to be seen at a pixel, for a node behind the camera, and for three points on a line or on a plane that
 // meets the view axis behind the camera.
-void chooseFocus(const SceneOptions& options, const Camera& camera, const Scene& scene, const Pose& pose, View& view);
+void chooseFocus(const Request& request, const Camera& camera, const Scene& scene, const Pose& pose, View& view);
 
 // Sets the focus distance, tilt and swing so that the focus plane goes through three points in view space (m; the
 // camera looks along −z). Throws Error, which begins with `what`, and leaves the lens as it is for three points on a

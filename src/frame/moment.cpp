@@ -6,34 +6,34 @@ namespace defocus {
 
 namespace {
 
-int clipOf(const SceneOptions& options, const Scene& scene) {
-    return options.clip.empty() ? 0 : clipNamed(scene, options.clip);
+int clipOf(const Request& request, const Scene& scene) {
+    return request.clip.empty() ? 0 : clipNamed(scene, request.clip);
 }
 
 // Where `time` lies in the animation.
-double animationTime(const SceneOptions& options, const Scene& scene, double time) {
-    if (!options.loop || scene.clips.empty()) return time;
-    return loopedTime(scene.clips[static_cast<std::size_t>(clipOf(options, scene))], time);
+double animationTime(const Request& request, const Scene& scene, double time) {
+    if (!request.loop || scene.clips.empty()) return time;
+    return loopedTime(scene.clips[static_cast<std::size_t>(clipOf(request, scene))], time);
 }
 
 }  // namespace
 
-Pose exposedPose(const SceneOptions& options, const Scene& scene) {
-    const double time = options.time + shutterMiddle(options.shutter);
-    return poseAt(scene, animationTime(options, scene, time), clipOf(options, scene));
+Pose exposedPose(const Request& request, const Scene& scene) {
+    const double time = request.time + shutterMiddle(request.shutter);
+    return poseAt(scene, animationTime(request, scene, time), clipOf(request, scene));
 }
 
-void exposeMotion(const SceneOptions& options, const PlacedCamera& camera, const RenderSettings& settings, World& world,
+void exposeMotion(const Request& request, const PlacedCamera& camera, const RenderSettings& settings, World& world,
                   View& view) {
     const Scene& scene = *world.scene;
     if (scene.clips.empty()) return;
     const auto momentAt = [&](double offset) {
-        const double time = animationTime(options, scene, options.time + offset);
-        ShutterMoment moment{unmeasuredPoseAt(scene, time, clipOf(options, scene)), {}};
+        const double time = animationTime(request, scene, request.time + offset);
+        ShutterMoment moment{unmeasuredPoseAt(scene, time, clipOf(request, scene)), {}};
         moment.worldFromCamera = worldFromCameraIn(camera, moment.pose);
         return moment;
     };
-    openShutter(options.shutter, settings, momentAt, world.shutter, view);
+    openShutter(request.shutter, settings, momentAt, world.shutter, view);
 }
 
 }  // namespace defocus

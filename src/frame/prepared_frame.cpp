@@ -26,14 +26,6 @@ namespace defocus {
 
 namespace {
 
-Scene loadScene(const SceneOptions& options, const Progress& progress) {
-    if (!options.path.empty()) return loadGltf(options.path, progress);
-    FishSchoolOptions school;
-    school.fishCount = options.fishCount;
-    school.trianglesPerFish = options.trianglesPerFish;
-    return fishSchool(school, progress);
-}
-
 // ---- surroundings
 // ----------------------------------------------------------------------------------------------------
 
@@ -48,17 +40,18 @@ std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path) 
 // -------------------------------------------------------------------------------------------------
 
 // Everything but the focus distance, which needs the view. Values of the camera that no lens can have go to `refused`.
-Lens chosenLens(const SceneOptions& options, const Camera& camera, std::vector<std::string>& refused) {
+Lens chosenLens(const Request& request, const Camera& camera, std::vector<std::string>& refused) {
+    const LensValues given = givenLensValues(request.lens);
     Lens lens;
     refused = setLensFields(lens, camera.lens);
-    setLensFields(lens, options.lens);
-    fitToCamera(lens, camera, static_cast<double>(options.width) / options.height,
-                [&](std::string_view name) { return options.lens.contains(name) || camera.lens.contains(name); });
-    if (!options.apertureImage.empty()) {
-        lens.apertureImage = loadApertureImage(options.apertureImage);
+    setLensFields(lens, given);
+    fitToCamera(lens, camera, static_cast<double>(request.width) / request.height,
+                [&](std::string_view name) { return given.contains(name) || camera.lens.contains(name); });
+    if (!request.lens.apertureImage.empty()) {
+        lens.apertureImage = loadApertureImage(request.lens.apertureImage);
     } else if (!camera.apertureImage.empty()) {
         try {
-            lens.apertureImage = loadApertureImage(options.path.parent_path() / camera.apertureImage);
+            lens.apertureImage = loadApertureImage(request.scene.parent_path() / camera.apertureImage);
         } catch (const Error& error) {
             refused.emplace_back(error.what());
         }
@@ -67,9 +60,9 @@ Lens chosenLens(const SceneOptions& options, const Camera& camera, std::vector<s
 }
 
 // Levels of full detail are not worth storing.
-std::filesystem::path chosenCacheFolder(const SceneOptions& options) {
-    if (options.noCache || options.lod == LodMode::off) return {};
-    return options.cacheFolder.empty() ? defaultCacheFolder() : options.cacheFolder;
+std::filesystem::path chosenCacheFolder(const Request& request) {
+    if (request.noCache || request.settings.lod == LodMode::off) return {};
+    return request.cacheFolder.empty() ? defaultCacheFolder() : request.cacheFolder;
 }
 
 std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const Progress& progress) {
@@ -85,11 +78,15 @@ std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const P
 }
 
 // The camera turned and moved as the options say.
-glm::dmat4 wanderedCamera(const SceneOptions& options, const glm::dmat4& worldFromCamera) {
-    const glm::dvec3 position = options.cameraPosition.value_or(glm::dvec3(worldFromCamera[3]));
-    const glm::dvec3 back = options.cameraTarget ? position - *options.cameraTarget : glm::dvec3(worldFromCamera[2]);
+glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCamera) {
+    const auto orElse = [](const std::optional<Vector3>& given, const glm::dvec3& standard) {
+        return given ? asVector(*given) : standard;
+    };
+    const glm::dvec3 position = orElse(request.cameraPosition, worldFromCamera[3]);
+    const glm::dvec3 back =
+        request.cameraTarget ? position - asVector(*request.cameraTarget) : glm::dvec3(worldFromCamera[2]);
     const glm::dvec3 up =
-        options.cameraUp.value_or(options.cameraTarget ? glm::dvec3(0, 1, 0) : glm::dvec3(worldFromCamera[1]));
+        orElse(request.cameraUp, request.cameraTarget ? glm::dvec3(0, 1, 0) : glm::dvec3(worldFromCamera[1]));
     const glm::dvec3 aside = glm::cross(up, back);
     if (!(glm::length(back) > 0)) fail("--camera-target: the camera stands on it; move one of them");
     if (!(glm::length(aside) > 1e-9 * glm::length(up) * glm::length(back)))
@@ -100,31 +97,38 @@ glm::dmat4 wanderedCamera(const SceneOptions& options, const glm::dmat4& worldFr
 }
 
 // The camera and its lens; the focus last, as it may depend on all else.
-PlacedCamera place(PreparedFrame& frame, const SceneOptions& options) {
-    const double aspect = static_cast<double>(options.width) / options.height;
-    PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, options.camera, aspect);
+PlacedCamera place(PreparedFrame& frame, const Request& request) {
+    const double aspect = static_cast<double>(request.width) / request.height;
+    PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect);
     frame.cameraName = placed.camera.name;
     frame.view.worldFromCamera = placed.worldFromCamera;
     frame.view.nearPlane = placed.camera.znear;
-    if (options.cameraPosition || options.cameraTarget || options.cameraUp) {
-        frame.view.worldFromCamera = wanderedCamera(options, placed.worldFromCamera);
+    if (request.cameraPosition || request.cameraTarget || request.cameraUp) {
+        frame.view.worldFromCamera = wanderedCamera(request, placed.worldFromCamera);
         frame.view.nearPlane = wanderingNearPlane(placed.camera.znear, frame.world.pose.bounds);
     }
-    frame.view.width = options.width;
-    frame.view.height = options.height;
-    SceneOptions withoutLens = options;
-    withoutLens.lens.clear();
-    withoutLens.apertureImage.clear();
+    frame.view.width = request.width;
+    frame.view.height = request.height;
+    Request withoutLens = request;
+    withoutLens.lens = {};
     frame.cameraLens = chosenLens(withoutLens, placed.camera, frame.refusedLensValues);
-    frame.view.lens = chosenLens(options, placed.camera, frame.refusedLensValues);
-    chooseFocus(options, placed.camera, *frame.scene, frame.world.pose, frame.view);
+    frame.view.lens = chosenLens(request, placed.camera, frame.refusedLensValues);
+    chooseFocus(request, placed.camera, *frame.scene, frame.world.pose, frame.view);
     checkLens(frame.view.lens);
-    if (options.lens.contains("iso") && frame.view.lens.exposureTime == 0)
+    if (request.lens.iso && frame.view.lens.exposureTime == 0)
         frame.refusedLensValues.emplace_back("iso says nothing without an exposure time (--exposure-time)");
     return placed;
 }
 
 }  // namespace
+
+Scene loadScene(const Request& request, const Progress& progress) {
+    if (!request.scene.empty()) return loadGltf(request.scene, progress);
+    FishSchoolOptions school;
+    school.fishCount = request.fishCount;
+    school.trianglesPerFish = request.trianglesPerFish;
+    return fishSchool(school, progress);
+}
 
 std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path) {
     Lens lens;
@@ -137,36 +141,21 @@ std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path
     return lens.apertureImage;
 }
 
-Environment chosenEnvironment(const SceneOptions& options, const Scene& scene) {
+Environment chosenEnvironment(const Request& request, const Scene& scene) {
     Environment environment = environmentOrDefault(scene);
-    if (!options.environment.empty()) {
+    if (!request.environment.empty()) {
         environment = {};
         environment.type = EnvironmentType::map;
-        environment.map = loadEnvironment(options.environment);
+        environment.map = loadEnvironment(request.environment);
     }
-    if (options.background == Background::none) environment.visible = false;
-    if (options.background == Background::uniform) {
+    if (request.background == Background::none) environment.visible = false;
+    if (request.background == Background::uniform) {
         environment = {};
         environment.type = EnvironmentType::uniform;
-        environment.zenith = environment.horizon = environment.nadir = options.backgroundColor;
+        const std::array<float, 3>& color = request.backgroundColor;
+        environment.zenith = environment.horizon = environment.nadir = glm::vec3(color[0], color[1], color[2]);
     }
     return environment;
-}
-
-RenderSettings chosenSettings(const SceneOptions& options) {
-    RenderSettings settings;
-    settings.sampleCount = options.samples;
-    settings.sequence = options.sequence;
-    settings.seed = options.seed;
-    settings.lod = options.lod;
-    settings.metric = options.metric;
-    settings.lodCocAtCentre = options.lodCocAtCentre;
-    settings.thresholds = defaultThresholds(options.metric, options.samples);
-    settings.thresholds.blur = options.blurThreshold.value_or(settings.thresholds.blur);
-    settings.thresholds.size = options.sizeThreshold.value_or(settings.thresholds.size);
-    settings.keepAll = options.keepAll;
-    settings.cocTolerance = options.cocTolerance;
-    return settings;
 }
 
 double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds) {
@@ -174,28 +163,28 @@ double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds) {
     return radius > 0 ? std::min(cameraNear, 1e-3 * radius) : cameraNear;
 }
 
-void placeCamera(PreparedFrame& frame, const SceneOptions& options) {
-    place(frame, options);
+void placeCamera(PreparedFrame& frame, const Request& request) {
+    place(frame, request);
 }
 
-PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress) {
+PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     // The scene, at its time.
     const Clock::time_point begin = Clock::now();
     PreparedFrame frame;
-    frame.scene = std::make_shared<Scene>(loadScene(options, progress));
-    frame.sceneName = options.path.empty() ? "fish school" : options.path.filename().string();
-    for (const auto& [name, scale] : options.nodeBlur)
+    frame.scene = std::make_shared<Scene>(loadScene(request, progress));
+    frame.sceneName = request.scene.empty() ? "fish school" : request.scene.filename().string();
+    for (const auto& [name, scale] : request.nodeBlur)
         frame.scene->nodes[static_cast<std::size_t>(nodeNamed(*frame.scene, name))].cocScale = scale;
     frame.world.scene = frame.scene;
-    frame.world.pose = exposedPose(options, *frame.scene);
+    frame.world.pose = exposedPose(request, *frame.scene);
 
     // Camera, light, surroundings and settings.
-    const PlacedCamera placed = place(frame, options);
+    const PlacedCamera placed = place(frame, request);
     frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
-    frame.world.environment = chosenEnvironment(options, *frame.scene);
-    frame.settings = chosenSettings(options);
-    exposeMotion(options, placed, frame.settings, frame.world, frame.view);
-    frame.cacheFolder = chosenCacheFolder(options);
+    frame.world.environment = chosenEnvironment(request, *frame.scene);
+    frame.settings = request.settings;
+    exposeMotion(request, placed, frame.settings, frame.world, frame.view);
+    frame.cacheFolder = chosenCacheFolder(request);
     frame.loadMilliseconds = millisecondsSince(begin);
     return frame;
 }
@@ -214,8 +203,8 @@ void addPyramids(PreparedFrame& frame, const Progress& progress) {
     frame.pyramidMilliseconds = millisecondsSince(begin);
 }
 
-PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress) {
-    PreparedFrame frame = placeFrame(options, progress);
+PreparedFrame prepareFrame(const Request& request, const Progress& progress) {
+    PreparedFrame frame = placeFrame(request, progress);
     addPyramids(frame, progress);
     return frame;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// From options to a world and a view that can be planned and rendered.
+// From a request to a world and a view that can be planned and rendered.
 
 #include <filesystem>
 #include <memory>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "frame/scene_options.h"
+#include "frame/request.h"
 #include "plan/view.h"
 
 namespace defocus {
@@ -19,7 +19,7 @@ struct PreparedFrame {
     RenderSettings settings;
     std::string sceneName;  // the file's name, or "fish school"
     std::string cameraName;
-    Lens cameraLens;                             // as it would be without the options' values
+    Lens cameraLens;                             // as it would be without the request's values
     std::vector<std::string> refusedLensValues;  // of the camera's extras, a line each
     double loadMilliseconds = 0;
     double pyramidMilliseconds = 0;
@@ -28,21 +28,21 @@ struct PreparedFrame {
     std::string cacheFailure;           // why a pyramid couldn't be stored there
 };
 
+// The scene that a request names, or the built-in school of fish. Throws Error for a file that can't be read.
+Scene loadScene(const Request& request, const Progress& progress = {});
+
 // Loads the scene and places camera, lens and lights; the world has no pyramids yet. Throws Error for whatever the
-// options ask for and the scene doesn't have.
-PreparedFrame placeFrame(const SceneOptions& options, const Progress& progress = {});
+// request asks for and the scene doesn't have.
+PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
-// The part of it that options.camera and the lens options decide, again for another camera. The lights stay.
-void placeCamera(PreparedFrame& frame, const SceneOptions& options);
+// The part of it that the request's camera and lens decide, again for another camera. The lights stay.
+void placeCamera(PreparedFrame& frame, const Request& request);
 
-// The surroundings that the options ask for. Throws Error for a map that can't be read or can't light a scene.
-Environment chosenEnvironment(const SceneOptions& options, const Scene& scene);
+// The surroundings that the request asks for. Throws Error for a map that can't be read or can't light a scene.
+Environment chosenEnvironment(const Request& request, const Scene& scene);
 
 // The image of an aperture. Throws Error for one that can't be read or lets no light pass.
 std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path);
-
-// What the settings of a frame are before its samples are known to be others than options.samples.
-RenderSettings chosenSettings(const SceneOptions& options);
 
 // The near plane (m) for cameras that go where no file has put them: that of the camera they started from, or nearer
 // where the scene is small.
@@ -53,7 +53,7 @@ double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds);
 void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 
 // Both.
-PreparedFrame prepareFrame(const SceneOptions& options, const Progress& progress = {});
+PreparedFrame prepareFrame(const Request& request, const Progress& progress = {});
 
 // A line for each kind of damage in the scene's file.
 std::vector<std::string> damageWarnings(const Scene& scene);

@@ -54,7 +54,7 @@ std::optional<Part> stored(const fs::path& path, std::uint64_t hash, Metadata& m
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return {};
     try {
-        Part part{readImage(path, &metadata), 0};
+        Part part{readImage(path, metadata), 0};
         if (!holds(metadata, "defocus:referenceHash", hexadecimal(hash))) return {};
         if (!holds(metadata, "defocus:pixelHash", hexadecimal(pixelHash(part.image)))) return {};
         part.milliseconds = numberIn(metadata, "defocus:milliseconds");
@@ -168,7 +168,7 @@ bool holdsOtherReference(const fs::path& folder, std::uint64_t hash) {
         if (!fs::exists(folder / name, ignored)) return false;
         try {
             Metadata metadata;
-            readImage(folder / name, &metadata);
+            readImage(folder / name, metadata);
             return !holds(metadata, "defocus:referenceHash", hexadecimal(hash));
         } catch (const Error&) {
             return false;

@@ -3,131 +3,91 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
+#include "frame/settings.h"
 #include "lens/lens_fields.h"
-#include "lens/sequences.h"
 
 namespace defocus {
 
 namespace {
 
 // With '=' where the value would be taken for an option.
-void add(std::string& command, std::string_view option, const std::string& value) {
+void addWords(std::string& command, std::string_view option, const std::string& value) {
     command += fmt::format(" {}{}{}", option, value.starts_with('-') ? '=' : ' ', shellWord(value));
 }
 
-void addPath(std::string& command, std::string_view option, const std::filesystem::path& path) {
-    command += fmt::format(" {}{}", option, option.empty() ? "" : " ");
-    const std::string text = path.string();
-    command += shellWord(text.starts_with('-') ? "./" + text : text);
+std::string pathWord(const std::string& path) {
+    return shellWord(path.starts_with('-') ? fmt::format("./{}", path) : path);
 }
 
-std::string pointText(const glm::dvec3& point) {
-    return fmt::format("{},{},{}", point.x, point.y, point.z);
-}
-
-void addShutterWords(std::string& command, const ShutterSettings& shutter) {
-    const ShutterSettings standard;
-    if (shutter.seconds != standard.seconds) add(command, "--shutter", fmt::format("{}", shutter.seconds));
-    if (shutter.position != standard.position)
-        add(command, "--shutter-position", shutter.position == ShutterPosition::start ? "start" : "end");
-    if (shutter.exactMotion) add(command, "--motion-segments", "exact");
-    if (!shutter.exactMotion && shutter.motionSegments != standard.motionSegments)
-        add(command, "--motion-segments", fmt::format("{}", shutter.motionSegments));
-}
-
-void addScene(std::string& command, const SceneOptions& options) {
-    const SceneOptions standard;
-    if (!options.path.empty()) addPath(command, "", options.path);
-    if (options.fishCount != standard.fishCount) add(command, "--fish", fmt::format("{}", options.fishCount));
-    if (options.trianglesPerFish != standard.trianglesPerFish)
-        add(command, "--fish-triangles", fmt::format("{}", options.trianglesPerFish));
-    if (!options.clip.empty()) add(command, "--clip", options.clip);
-    if (options.loop) command += " --loop";
-    if (options.time != 0) command += fmt::format(" --time={}", options.time);
-    addShutterWords(command, options.shutter);
-    if (!options.environment.empty()) addPath(command, "--environment", options.environment);
-    if (options.background == Background::none) add(command, "--background", "none");
-    if (options.background == Background::uniform) {
-        const glm::vec3& color = options.backgroundColor;
-        add(command, "--background", fmt::format("{},{},{}", color.r, color.g, color.b));
+void addSetting(std::string& command, const Setting& setting, const Request& request) {
+    const std::optional<std::string> text = setting.text(request);
+    if (!text) return;
+    if (setting.repeated) {
+        for (const std::string& each : setting.texts(request)) addWords(command, setting.option, each);
+    } else if (setting.kind == SettingKind::truth) {
+        if (*text == "true")
+            command += fmt::format(" {}", setting.option);
+        else if (setting.lensField)
+            command += fmt::format(" --no-{}", setting.option.substr(2));
+    } else if (setting.kind == SettingKind::path) {
+        command += fmt::format(" {}{}", setting.option.starts_with('-') ? setting.option + " " : "", pathWord(*text));
+    } else {
+        addWords(command, setting.option, *text);
     }
 }
 
-void addCamera(std::string& command, const RenderCommandText& text) {
-    if (!text.options.camera.empty()) add(command, "--camera", text.options.camera);
-    add(command, "--size", fmt::format("{}x{}", text.view.width, text.view.height));
-    if (!text.view.shutterCameras.empty()) return;  // the file's, moving as only the file can say
+// The view's camera, unless only the file can say how it moves.
+void placeCameraOf(const RenderCommandText& text, Request& request) {
+    if (!text.view.shutterCameras.empty()) return;
     const glm::dmat4& camera = text.view.worldFromCamera;
     const glm::dvec3 position(camera[3]);
-    const glm::dvec3 ahead = -text.pivotDistance * glm::dvec3(camera[2]);
-    command += " --camera-position=" + pointText(position) + " --camera-target=" + pointText(position + ahead);
+    request.cameraPosition = asArray(position);
+    request.cameraTarget = asArray(position - text.pivotDistance * glm::dvec3(camera[2]));
     const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // or looking straight up or down
-    if (rolled) command += " --camera-up=" + pointText(glm::dvec3(camera[1]));
+    request.cameraUp.reset();
+    if (rolled) request.cameraUp = asArray(camera[1]);
 }
 
-// Brightness: by the lens, or by an exposure value, which exclude each other.
-bool exposedByLens(const RenderCommandText& text) {
-    return text.view.lens.exposureTime > 0;
-}
-
-void addLensField(std::string& command, const LensField& field, double value) {
-    const std::string_view option = field.option;
-    if (std::holds_alternative<bool Lens::*>(field.member))
-        command += fmt::format(" --{}{}", value != 0 ? "" : "no-", option.substr(2));
-    else
-        command += fmt::format(" {}={}", option, std::min(value, field.most));
-}
-
-void addLens(std::string& command, const RenderCommandText& text) {
+// The view's lens as far as it isn't the camera's own. Focal length and focus are always said: they follow from the
+// scene otherwise.
+LensSettings lensOf(const RenderCommandText& text) {
+    const Lens& lens = text.view.lens;
+    LensSettings given;
+    given.apertureImage = text.options.lens.apertureImage;
     for (const LensField& field : lensFields()) {
-        const double value = lensFieldValue(text.view.lens, field);
+        const double value = lensFieldValue(lens, field);
         const std::string_view name = field.name;
-        const bool always = name == "focalLength" || name == "focusDistance";  // else they follow from the scene
         const bool brightness = name == "exposureTime" || name == "iso";
-        if (brightness && !exposedByLens(text)) continue;
-        if (always || value != lensFieldValue(text.frame.cameraLens, field)) addLensField(command, field, value);
+        if (brightness && !(lens.exposureTime > 0)) continue;
+        const bool always = name == "focalLength" || name == "focusDistance";
+        if (always || value != lensFieldValue(text.frame.cameraLens, field))
+            giveLensValue(given, field, std::min(value, field.most));
     }
+    return given;
 }
 
-// What is no field of a lens.
-void addBlur(std::string& command, const SceneOptions& options) {
-    if (!options.apertureImage.empty()) addPath(command, "--aperture-image", options.apertureImage);
-    for (const auto& [name, scale] : options.nodeBlur) add(command, "--node-blur", fmt::format("{}={}", name, scale));
-    if (options.cocTolerance != SceneOptions{}.cocTolerance)
-        add(command, "--coc-tolerance", fmt::format("{}", options.cocTolerance));
-}
-
-void addRunning(std::string& command, const SceneOptions& options) {
-    if (options.lodCocAtCentre) add(command, "--lod-coc", "centre");
-    if (options.keepAll) command += " --keep-all";
-    if (!options.cacheFolder.empty()) addPath(command, "--cache-dir", options.cacheFolder);
-    if (options.noCache) command += " --no-cache";
-    if (options.wave != SceneOptions{}.wave) add(command, "--wave", fmt::format("{}", options.wave));
-}
-
-void addSettings(std::string& command, const RenderCommandText& text) {
-    const SceneOptions& options = text.options;
-    const SceneOptions standard;
-    add(command, "--samples", fmt::format("{}", options.samples));
-    if (options.sequence != standard.sequence) add(command, "--sequence", std::string(sequenceName(options.sequence)));
-    if (options.seed != 0) add(command, "--seed", fmt::format("{}", options.seed));
-    if (options.lod != standard.lod) add(command, "--lod", lodModeName(options.lod));
-    if (options.metric != standard.metric) add(command, "--lod-metric", "error");
-    if (options.blurThreshold) add(command, "--blur-threshold", fmt::format("{}", *options.blurThreshold));
-    if (options.sizeThreshold) add(command, "--size-threshold", fmt::format("{}", *options.sizeThreshold));
-    const MethodUse use = chosenMethod(options);
-    if (use.text() != standard.method) add(command, "--method", use.text());
-    if (options.layerFormat != standard.layerFormat)
-        add(command, "--layer-format", std::string(layerFormatName(options.layerFormat)));
-    addRunning(command, options);
-    const bool cameraExposes = text.frame.cameraLens.exposureTime > 0;
-    if (!exposedByLens(text) && (text.write.exposure != 0 || cameraExposes))
-        command += fmt::format(" --exposure={}", text.write.exposure);
-    if (text.write.toneMap != ToneMap::none)
-        add(command, "--tonemap", text.write.toneMap == ToneMap::aces ? "aces" : "agx");
+// The picture's own request: what `render` would have to be asked for.
+Request requestOf(const RenderCommandText& text) {
+    Request request = text.options;
+    request.width = text.view.width;
+    request.height = text.view.height;
+    placeCameraOf(text, request);
+    request.lens = lensOf(text);
+    request.focusNode.clear();
+    request.focusPixel.reset();
+    request.focusPoints.reset();
+    request.focusAuto = false;
+    request.toneMap = text.write.toneMap;
+    // Brightness is by the lens or by an exposure value, which exclude each other.
+    request.exposure.reset();
+    const bool byLens = text.view.lens.exposureTime > 0;
+    if (!byLens && (text.write.exposure != 0 || text.frame.cameraLens.exposureTime > 0))
+        request.exposure = text.write.exposure;
+    return request;
 }
 
 }  // namespace
@@ -143,22 +103,25 @@ std::string shellWord(const std::string& word) {
     return quoted + "'";
 }
 
-std::string captureCommand(const std::filesystem::path& shot, const SceneOptions& options) {
-    std::string command = "defocus capture";
-    addPath(command, "", shot);
-    addBlur(command, options);
-    addRunning(command, options);
+std::string captureCommand(const std::filesystem::path& shot, const Request& options) {
+    std::string command = "defocus capture " + pathWord(shot.string());
+    for (const Setting& setting : settings()) {
+        const bool keyed = setting.group == SettingGroup::camera || setting.name.starts_with("focus");
+        if (setting.shotPlace.empty() && !keyed && changedText(setting, options)) addSetting(command, setting, options);
+    }
     return command;
 }
 
 std::string renderCommand(const RenderCommandText& text) {
+    const Request request = requestOf(text);
     std::string command = "defocus render";
-    addScene(command, text.options);
-    addPath(command, "-o", text.output);
-    addCamera(command, text);
-    addLens(command, text);
-    addBlur(command, text.options);
-    addSettings(command, text);
+    if (!request.scene.empty()) command += fmt::format(" {}", pathWord(request.scene.string()));
+    command += fmt::format(" -o {}", pathWord(text.output));
+    for (const Setting& setting : settings()) {
+        if (setting.name == "scene") continue;
+        const bool always = setting.name == "size" || setting.name == "samples";
+        if (always || changedText(setting, request)) addSetting(command, setting, request);
+    }
     return command;
 }
 

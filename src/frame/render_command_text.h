@@ -9,10 +9,10 @@
 namespace defocus {
 
 struct RenderCommandText {
-    const SceneOptions& options;  // scene, method, levels, samples
-    const PreparedFrame& frame;   // with the camera that options.camera names
-    const View& view;             // as it is now
-    double pivotDistance = 1;     // m, > 0: how far ahead the target lies
+    const Request& options;      // scene, method, levels, samples
+    const PreparedFrame& frame;  // with the camera that options.camera names
+    const View& view;            // as it is now
+    double pivotDistance = 1;    // m, > 0: how far ahead the target lies
     WriteOptions write;
     std::string output = "out.png";
 };
@@ -21,7 +21,7 @@ struct RenderCommandText {
 std::string renderCommand(const RenderCommandText& text);
 
 // The command that films a shot which was recorded in a view: with what no shot file says.
-std::string captureCommand(const std::filesystem::path& shot, const SceneOptions& options);
+std::string captureCommand(const std::filesystem::path& shot, const Request& options);
 
 // A word as a shell reads it back: as it is, or in single quotes.
 std::string shellWord(const std::string& word);

@@ -11,7 +11,7 @@
 namespace defocus {
 
 struct RenderReport {
-    const SceneOptions& options;
+    const Request& options;
     std::string method;  // MethodUse::text
     const PreparedFrame& frame;
     const FramePlan& plan;

@@ -24,22 +24,12 @@ namespace defocus {
 using MetadataValue = std::variant<int, double, std::string, glm::mat4>;
 using Metadata = std::map<std::string, MetadataValue>;
 
-// Reads PNG, JPEG, OpenEXR, Radiance HDR or TIFF, told apart by content, as linear float with 1, 3 or 4 channels
-// (integer formats are decoded from sRGB, straight alpha is premultiplied, grey with alpha becomes RGBA). Of an EXR
-// with more channels R, G, B and A are taken. `metadata`, where given, receives the file's attributes under EXR's names
-// (a PNG holds numbers as text). Throws Error naming the file and the fault.
-Image readImage(const std::filesystem::path& path, Metadata* metadata = nullptr);
+// readImage of the public API with the file's attributes, under EXR's names (a PNG holds numbers as text).
+Image readImage(const std::filesystem::path& path, Metadata& metadata);
 
-struct WriteOptions {
-    ToneMap toneMap = ToneMap::none;  // PNG and JPEG only
-    double exposure = 0;              // EV; PNG and JPEG only
-};
-
-// Writes by extension: .exr (32-bit float, ZIP, linear, metadata; capDate is added where it isn't given), .png
-// (tone-mapped, sRGB-encoded, 8 bit, metadata as text) and .jpg or .jpeg (the same over black, of the metadata only
-// `comments`). A PNG with 4 channels has straight alpha: the colour is divided by its coverage before the tone map. The
-// file appears whole or not at all. Throws Error naming the file and the fault; unknown extensions list the known ones.
-void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {},
+// writeImage of the public API with metadata: EXR files hold all of it (capDate is added where it isn't given), PNG
+// files as text, JPEG files only `comments`.
+void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
                 const WriteOptions& options = {});
 
 // Images of one size by name, such as the sums of parts of a frame: a layer's channels are NAME.R, NAME.G, NAME.B and

@@ -171,7 +171,7 @@ Metadata metadataOf(const OIIO::ImageSpec& spec) {
 
 }  // namespace
 
-Image readImage(const std::filesystem::path& path, Metadata* metadata) {
+Image readImage(const std::filesystem::path& path, Metadata& metadata) {
     // The whole file, and what it is.
     const std::string name = path.string();
     const std::vector<std::byte> encoded = readFile(path);
@@ -190,8 +190,13 @@ Image readImage(const std::filesystem::path& path, Metadata* metadata) {
 
     // Linear and premultiplied.
     linearise(image, isEncoded(file.spec), file.spec.get_int_attribute("oiio:UnassociatedAlpha") != 0);
-    if (metadata != nullptr) *metadata = metadataOf(file.spec);
+    metadata = metadataOf(file.spec);
     return image;
+}
+
+Image readImage(const std::filesystem::path& path) {
+    Metadata unused;
+    return readImage(path, unused);
 }
 
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata) {

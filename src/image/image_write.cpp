@@ -149,6 +149,10 @@ void writeImage(const std::filesystem::path& path, const Image& image, const Met
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 
+void writeImage(const std::filesystem::path& path, const Image& image, const WriteOptions& options) {
+    writeImage(path, image, {}, options);
+}
+
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata) {
     const std::string name = path.string();
     if (layers.empty() || fileKind(path) != FileKind::exr) fail("{}: layers are written to .exr files", name);

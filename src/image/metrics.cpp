@@ -173,6 +173,10 @@ double meanValue(const Image& map, const Image* mask) {
 
 }  // namespace
 
+Difference compareImages(const Image& reference, const Image& test) {
+    return compareImages(reference, test, CompareOptions{});
+}
+
 Difference compareImages(const Image& reference, const Image& test, const CompareOptions& options) {
     // RGB over black, finite, then as a display shows it.
     const ComparablePair pair = comparablePair(reference, test);

@@ -11,8 +11,6 @@
 // every channel, SSIM 0, FLIP 1), in both as equal; it takes no part in the windows of its neighbours. Their number is
 // reported.
 
-#include <cstdint>
-#include <glm/vec2.hpp>
 #include <optional>
 
 #include "image/flip.h"
@@ -20,26 +18,14 @@
 
 namespace defocus {
 
-struct Difference {
-    double mae = 0;                // mean absolute error over pixels and colour channels
-    double rmse = 0;               // root mean squared error over pixels and colour channels
-    double psnr = 0;               // dB; infinity for equal images
-    double ssim = 1;               // mean structural similarity
-    double flip = 0;               // mean FLIP
-    double maxError = 0;           // largest absolute difference of a channel
-    glm::ivec2 maxErrorPixel{0};   // column, row from the top; the first one in reading order
-    std::uint64_t pixelCount = 0;  // pixels that counted
-    std::uint64_t nonFinite = 0;   // of these, with NaN or infinity in either image
-};
-
 struct CompareOptions {
     std::optional<HdrFlipOptions> hdrFlip;  // FLIP as HDR-FLIP (ACES) over these exposures instead of LDR-FLIP
     const Image* mask = nullptr;            // 1 channel: only pixels > 0 count (e.g. those that geometry touches)
     Image* flipMap = nullptr;               // receives FLIP per pixel (1 channel, the whole image)
 };
 
-// Compares two images of one size (throws Error otherwise). RGBA is composited over black; grey counts as RGB. A mask
-// that lets no pixel count gives the values of equal images with a pixelCount of 0.
-Difference compareImages(const Image& reference, const Image& test, const CompareOptions& options = {});
+// compareImages of the public API with options. A mask that lets no pixel count gives the values of equal images with a
+// pixelCount of 0.
+Difference compareImages(const Image& reference, const Image& test, const CompareOptions& options);
 
 }  // namespace defocus

@@ -8,12 +8,6 @@
 
 namespace defocus {
 
-enum class ToneMap {
-    none,  // clip to [0, 1]
-    aces,  // ACES filmic, fit by Stephen Hill (RRT and ODT)
-    agx,   // AgX, Troy Sobotka, base look (polynomial fit by Benjamin Wrensch)
-};
-
 // The enumerator of "none", "aces" or "agx"; throws Error listing the names otherwise.
 ToneMap toneMapNamed(std::string_view name);
 

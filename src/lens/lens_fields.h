@@ -4,12 +4,14 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "defocus/lens.h"
 #include "lens/lens.h"
 
 namespace defocus {
@@ -21,6 +23,9 @@ struct LensField {
     double least = 0;  // range of the value, in `unit`
     double most = 0;
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
+    std::variant<std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
+                 std::optional<bool> LensSettings::*>
+        given;                // what a request says of it, in `unit`
     const char* description;  // of the option
 };
 
@@ -37,8 +42,17 @@ double lensFieldValue(const Lens& lens, const LensField& field);
 // several fields is for checkLens.
 void setLensField(Lens& lens, const LensField& field, double value);
 
+// What a request says of a field, in the field's unit; none where it leaves the field to the camera. Setting it throws
+// Error as setLensField does.
+std::optional<double> givenLensValue(const LensSettings& given, const LensField& field);
+void giveLensValue(LensSettings& given, const LensField& field, std::optional<double> value);
+
+// Values by the names of their fields, in the fields' units.
+using LensValues = std::map<std::string, double, std::less<>>;
+LensValues givenLensValues(const LensSettings& given);
+
 // Sets those of `values` that are fields of a lens; what isn't, or is out of range, is left as it was. Returns a line
 // for each value out of range.
-std::vector<std::string> setLensFields(Lens& lens, const std::map<std::string, double, std::less<>>& values);
+std::vector<std::string> setLensFields(Lens& lens, const LensValues& values);
 
 }  // namespace defocus

@@ -11,14 +11,10 @@
 #include <glm/vec2.hpp>
 #include <string_view>
 
+#include "defocus/settings.h"
+
 namespace defocus {
 
-enum class Sequence {
-    halton,           // bases 2, 3 on the lens, 5, 7 in the pixel, as Jeong, Kim and Lee have it; 11 and 13 after them
-    scrambledHalton,  // the same with its digits permuted at random, each by those before it
-    sobol,            // six dimensions, Owen-scrambled: a net on the lens
-    r2,               // additive recurrence by powers of the plastic number
-};
 inline constexpr std::array allSequences = {Sequence::sobol, Sequence::halton, Sequence::scrambledHalton, Sequence::r2};
 
 // As the command line has it.

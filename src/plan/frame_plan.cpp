@@ -18,9 +18,6 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t mostSamples = 65'536;
-constexpr int mostPixels = 16'384;
-
 void checkRequest(const View& view, const RenderSettings& settings) {
     checkLens(view.lens);
     if (view.width < 1 || view.height < 1 || view.width > mostPixels || view.height > mostPixels)
@@ -29,8 +26,9 @@ void checkRequest(const View& view, const RenderSettings& settings) {
         fail("{} samples: choose 1 to {}", settings.sampleCount, mostSamples);
     if (!(view.nearPlane > 0)) fail("near plane {} m: must be above 0", view.nearPlane);
     if (!(settings.cocTolerance > 0)) fail("CoC tolerance {} px: must be above 0", settings.cocTolerance);
-    if (!(settings.thresholds.blur >= 0) || !(settings.thresholds.size >= 0))
-        fail("level-of-detail thresholds must be 0 or more");
+    const LodThresholds thresholds =
+        chosenThresholds(settings.thresholds, settings.metric, std::max(settings.sampleCount, 1u));
+    if (!(thresholds.blur >= 0) || !(thresholds.size >= 0)) fail("level-of-detail thresholds must be 0 or more");
 }
 
 const Material& materialOf(const Scene& scene, const Primitive& primitive) {
@@ -100,7 +98,7 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     query.pixelsPerUnit =
         largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * object.nearestDepth);
     query.coc = plan.settings.lodCocAtCentre ? cocAtCentre(object, plan) : object.coc.smallest;
-    return levelOfDetail(pyramid, query, plan.settings.metric, plan.settings.thresholds);
+    return levelOfDetail(pyramid, query, plan.settings.metric, plan.thresholds);
 }
 
 // λ, the two levels around it and the samples that draw each.
@@ -261,6 +259,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     FramePlan plan;
     plan.view = view;
     plan.settings = settings;
+    plan.thresholds = chosenThresholds(settings.thresholds, settings.metric, settings.sampleCount);
     plan.tanHalfHorizontal = tanHalfHorizontalFov(view.lens);
     plan.apertureDiameter = apertureDiameter(view.lens);
     plan.coc = clipCircleOfConfusion(view.lens, view.width, view.height);

@@ -86,6 +86,7 @@ struct LeftOut {
 struct FramePlan {
     View view;
     RenderSettings settings;
+    LodThresholds thresholds;  // of settings, what they leave open by the number of samples
     double tanHalfHorizontal = 0;
     double apertureDiameter = 0;  // m; 0 when the lens is left out
     ClipCircleOfConfusion coc;

@@ -82,8 +82,7 @@ std::string planTable(const FramePlan& plan) {
         "level of detail: {}, {} metric, blur threshold {:.4g}, size threshold {:.4g} px\n\n",
         plan.view.width, plan.view.height, plan.samples.size(), lens.focalLength, lens.fStop, lens.focusDistance,
         plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
-        plan.settings.metric == LodMetric::size ? "size" : "error", plan.settings.thresholds.blur,
-        plan.settings.thresholds.size);
+        plan.settings.metric == LodMetric::size ? "size" : "error", plan.thresholds.blur, plan.thresholds.size);
     if (!plan.moments.empty())
         text.insert(text.size() - 1,
                     fmt::format("shutter: {} moments, {} of {} objects move{}\n", momentCount(plan), movingCount(plan),
@@ -125,8 +124,8 @@ std::string planJson(const FramePlan& plan) {
                            {"lod",
                             {{"mode", lodModeName(plan.settings.lod)},
                              {"metric", plan.settings.metric == LodMetric::size ? "size" : "error"},
-                             {"blurThreshold", plan.settings.thresholds.blur},
-                             {"sizeThreshold", plan.settings.thresholds.size}}},
+                             {"blurThreshold", plan.thresholds.blur},
+                             {"sizeThreshold", plan.thresholds.size}}},
                            {"objects", std::move(objects)},
                            {"leftOut", std::move(leftOut)},
                            {"triangles",

@@ -8,17 +8,6 @@
 
 namespace defocus {
 
-// Where the frame's time lies in the exposure.
-enum class ShutterPosition { start, centre, end };
-
-struct ShutterSettings {
-    double seconds = 0;  // that the shutter stays open; 0: everything stands still
-    ShutterPosition position = ShutterPosition::centre;
-    std::uint32_t motionSegments = 1;  // straight lines that a vertex's way is cut into, 1 … 64
-    bool exactMotion = false;          // a pose of its own for each sample instead
-    bool operator==(const ShutterSettings&) const = default;
-};
-
 // The middle of the exposure, s from the frame's time.
 double shutterMiddle(const ShutterSettings& shutter);
 

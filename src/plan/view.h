@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "defocus/settings.h"
 #include "lens/lens.h"
 #include "lens/sequences.h"
 #include "lod/pyramid/level_selection.h"
@@ -24,19 +25,6 @@ struct View {
     int height = 768;         // px
     // worldFromCamera at the moments of World::shutter, as many as it has poses; empty: the camera stands still.
     std::vector<glm::dmat4> shutterCameras;
-};
-
-struct RenderSettings {
-    std::uint32_t sampleCount = 64;  // 1 … 65,536
-    Sequence sequence = Sequence::sobol;
-    std::uint32_t seed = 0;
-    std::uint32_t firstSample = 0;  // offset into the sequence (a reference takes its own)
-    LodMode lod = LodMode::fractional;
-    LodMetric metric = LodMetric::size;
-    bool lodCocAtCentre = false;  // c at the box's centre (the paper) instead of the smallest over the box
-    LodThresholds thresholds;     // see defaultThresholds
-    double cocTolerance = 0.5;    // px by which C may differ from its interpolation inside a triangle, > 0
-    bool keepAll = false;         // leave nothing out: the image must be the same
 };
 
 // What the scene does while the shutter is open.

@@ -7,14 +7,6 @@
 
 namespace defocus {
 
-enum class LayerFormat {
-    automatic,  // rgba16f, or rgba32f where the scene's radiance may exceed 6e4
-    rgba16f,    // half floats: 2⁻¹¹ relative error a sample
-    rgba32f,    // references
-    rgb9e5,     // 32 bits with a shared exponent, dithered over the samples: half the memory; opaque scenes only
-    rgba8,      // clips at 1: a bound for the table of formats, not for pictures
-};
-
 // `asked`, or for automatic what the world's radiance needs. Throws Error for a format that can't hold what the plan
 // draws.
 LayerFormat chosenLayerFormat(const World& world, const FramePlan& plan, LayerFormat asked);

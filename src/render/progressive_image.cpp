@@ -38,12 +38,10 @@ void ProgressiveImage::drawFrame(const View& view, const RenderSettings& setting
     glFinish();
 }
 
-void ProgressiveImage::begin(const View& view, const RenderSettings& settings, bool thresholdsFollow,
-                             std::uint32_t most) {
+void ProgressiveImage::begin(const View& view, const RenderSettings& settings, std::uint32_t most) {
     view_ = view;
     settings_ = settings;
     settings_.sampleCount = blockSamples;
-    thresholdsFollow_ = thresholdsFollow;
     block_ = 0;
     blocks_ = std::max(1u, (most + blockSamples - 1) / blockSamples);
     planBlock();
@@ -55,7 +53,9 @@ void ProgressiveImage::begin(const View& view, const RenderSettings& settings, b
 void ProgressiveImage::planBlock() {
     RenderSettings settings = settings_;
     settings.firstSample += block_ * blockSamples;
-    if (thresholdsFollow_) settings.thresholds = defaultThresholds(settings.metric, (block_ + 1) * blockSamples);
+    const LodThresholds thresholds =
+        chosenThresholds(settings.thresholds, settings.metric, (block_ + 1) * blockSamples);
+    settings.thresholds = {thresholds.blur, thresholds.size};
     plan_ = withAllLevels(planFrame(*world_, view_, settings));
 }
 

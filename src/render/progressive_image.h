@@ -21,7 +21,7 @@ public:
     // Begins an image that grow() then carries to `most` samples (rounded up to blocks). With `thresholdsFollow` the
     // level-of-detail thresholds are the defaults for the samples that are in the sum after each block, else those of
     // `settings`.
-    void begin(const View& view, const RenderSettings& settings, bool thresholdsFollow, std::uint32_t most);
+    void begin(const View& view, const RenderSettings& settings, std::uint32_t most);
     // Draws waves for about `milliseconds`, at least one. False once the image is finished.
     bool grow(double milliseconds);
 
@@ -40,7 +40,6 @@ private:
     FramePlan plan_;
     View view_;
     RenderSettings settings_;
-    bool thresholdsFollow_ = true;
     std::uint32_t growingWave_;
     std::uint32_t block_ = 0;
     std::uint32_t blocks_ = 0;

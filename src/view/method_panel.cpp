@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "lod/pyramid/level_selection.h"
+#include "view/setting_rows.h"
 #include "view/widgets.h"
 
 namespace defocus {
@@ -42,40 +44,19 @@ void settingRow(const MethodSetting& setting, MethodSettings& settings) {
 // Levels of detail; the thresholds follow the number of samples unless they are set.
 void levelSection(ViewState& state) {
     if (!section("Level of detail", false)) return;
-    SceneOptions& options = state.options;
-    rowLabel("Mode", "How levels are drawn (--lod)");
-    int mode = static_cast<int>(options.lod);
-    if (ImGui::Combo("##lod", &mode, "fractional\0continuous\0nearest\0off\0"))
-        options.lod = static_cast<LodMode>(mode);
-    rowLabel("Metric", "What levels are chosen by (--lod-metric)");
-    int metric = static_cast<int>(options.metric);
-    if (ImGui::Combo("##metric", &metric, "size\0error\0")) options.metric = static_cast<LodMetric>(metric);
-    bool own = options.blurThreshold.has_value() || options.sizeThreshold.has_value();
-    rowLabel("Own thresholds", "Otherwise they follow the number of samples");
-    if (ImGui::Checkbox("##own", &own)) {
-        const LodThresholds standard = defaultThresholds(options.metric, options.samples);
-        options.blurThreshold = own ? std::optional(standard.blur) : std::nullopt;
-        options.sizeThreshold = own ? std::optional(standard.size) : std::nullopt;
-    }
-    const double least = 0;
-    const double most = 1e3;
-    for (const auto& [label, threshold] :
-         {std::pair{"Blur threshold", &options.blurThreshold}, std::pair{"Size threshold", &options.sizeThreshold}}) {
-        if (!threshold->has_value()) continue;
-        ImGui::PushID(label);
-        rowLabel(label);
-        ImGui::DragScalar("##value", ImGuiDataType_Double, &**threshold, 0.01f, &least, &most, "%.3g");
-        ImGui::PopID();
-    }
-    rowLabel("Blur counted", "The blur that an object's level may count on (--lod-coc)");
-    int centre = options.lodCocAtCentre ? 1 : 0;
-    if (ImGui::Combo("##centre", &centre, "smallest of the box\0at its centre\0")) options.lodCocAtCentre = centre == 1;
+    Request& request = state.options;
+    settingRow(request, "lod");
+    settingRow(request, "lodMetric");
+    const LodThresholds standard = defaultThresholds(request.settings.metric, request.settings.sampleCount);
+    settingRow(request, "blurThreshold", fmt::format("{}", standard.blur));
+    settingRow(request, "sizeThreshold", fmt::format("{}", standard.size));
+    settingRow(request, "lodCoc");
 }
 
 // How the image is made, and where its samples lie.
 void methodSection(ViewState& state) {
     if (!section("Method", false)) return;
-    SceneOptions& options = state.options;
+    Request& options = state.options;
     std::vector<std::string> names;
     for (const Method& method : methods()) names.push_back(method.name);
     const MethodUse use = chosenMethod(options);
@@ -89,20 +70,9 @@ void methodSection(ViewState& state) {
     MethodUse edited = use;
     for (const MethodSetting& setting : use.method->settings) settingRow(setting, edited.settings);
     if (edited.text() != use.text()) options.methodSettings = edited.settings;
-    std::vector<std::string> sequences;
-    for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence));
-    rowLabel("Sequence", "Where the samples lie on the lens and in the pixel (--sequence)");
-    const int sequence = combo("##sequence", sequences, std::string(sequenceName(options.sequence)));
-    if (sequence >= 0) options.sequence = allSequences[static_cast<std::size_t>(sequence)];
-    rowLabel("Seed", "Picks another set of sample points (--seed)");
-    const std::uint32_t step = 1;
-    ImGui::InputScalar("##seed", ImGuiDataType_U32, &options.seed, &step);
-    rowLabel("Blur tolerance",
-             "By how much the blur inside a triangle may differ from what its corners give (--coc-tolerance)");
-    const double least = 1e-3;
-    const double most = 1e3;
-    ImGui::DragScalar("##tolerance", ImGuiDataType_Double, &options.cocTolerance, 0.01f, &least, &most, "%.3g px",
-                      ImGuiSliderFlags_AlwaysClamp);
+    settingRow(options, "sequence");
+    settingRow(options, "seed");
+    settingRow(options, "cocTolerance");
 }
 
 }  // namespace defocus

@@ -1,3 +1,4 @@
+#include "view/setting_rows.h"
 #include "view/panel.h"
 
 #include <fmt/format.h>
@@ -59,7 +60,8 @@ void sceneSection(const PanelContext& context, ViewState& state, ViewActions& ac
 }
 
 // Motion blur.
-void shutterRows(ShutterSettings& shutter) {
+void shutterRows(Request& request) {
+    ShutterSettings& shutter = request.shutter;
     rowLabel("Shutter", "How long it stays open: what moves meanwhile is blurred (--shutter)");
     const double shut = 0;
     const double longest = 10;
@@ -67,10 +69,7 @@ void shutterRows(ShutterSettings& shutter) {
     ImGui::DragScalar("##shutter", ImGuiDataType_Double, &shutter.seconds, 0.0005f, &shut, &longest, format.c_str(),
                       ImGuiSliderFlags_AlwaysClamp);
     if (!(shutter.seconds > 0)) return;
-    rowLabel("Shutter position", "Where the time lies in the exposure (--shutter-position)");
-    int position = static_cast<int>(shutter.position);
-    if (ImGui::Combo("##position", &position, "start\0centre\0end\0"))
-        shutter.position = static_cast<ShutterPosition>(position);
+    settingRow(request, "shutterPosition");
     rowLabel("Motion segments", "Straight lines that a vertex's way is cut into (--motion-segments)");
     int segments = static_cast<int>(shutter.motionSegments);
     if (ImGui::SliderInt("##segments", &segments, 1, 64, "%d", ImGuiSliderFlags_AlwaysClamp))
@@ -102,7 +101,7 @@ void animationSection(const PanelContext& context, ViewState& state) {
     const double slowest = 0.1;
     const double fastest = 4;
     ImGui::SliderScalar("##speed", ImGuiDataType_Double, &animation.speed, &slowest, &fastest, "%.2f");
-    shutterRows(state.options.shutter);
+    shutterRows(state.options);
 }
 
 void focusPointsRow(ViewState& state) {
@@ -263,9 +262,10 @@ void exportSection(const PanelContext& context, ViewState& state, ViewActions& a
     if (ImGui::InputInt2("##size", edited.data()))
         state.exportSize = glm::ivec2(std::clamp(edited[0], 1, 16384), std::clamp(edited[1], 1, 16384));
     rowLabel("Samples");
-    int samples = static_cast<int>(state.options.samples);
+    int samples = static_cast<int>(state.options.settings.sampleCount);
     if (ImGui::SliderInt("##samples", &samples, 1, 4096, "%d", ImGuiSliderFlags_Logarithmic))
-        state.options.samples = static_cast<std::uint32_t>(std::clamp(samples, 1, 65536));
+        state.options.settings.sampleCount =
+            static_cast<std::uint32_t>(std::clamp(samples, 1, static_cast<int>(mostSamples)));
     if (context.exporting) {
         ImGui::ProgressBar(static_cast<float>(context.exportShare), {-ImGui::GetFontSize() * 5, 0});
         ImGui::SameLine();

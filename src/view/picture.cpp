@@ -33,9 +33,9 @@ std::vector<double> imageKey(const PictureRequest& request) {
                                static_cast<double>(settings.metric),
                                static_cast<double>(settings.lodCocAtCentre),
                                static_cast<double>(settings.keepAll),
-                               static_cast<double>(request.thresholdsFollow),
                                static_cast<double>(request.fixedQuality.has_value())};
-    if (!request.thresholdsFollow) key.insert(key.end(), {settings.thresholds.blur, settings.thresholds.size});
+    for (const std::optional<double>& threshold : {settings.thresholds.blur, settings.thresholds.size})
+        key.push_back(threshold.value_or(-1));
     for (glm::length_t column = 0; column < 4; ++column)
         for (glm::length_t row = 0; row < 4; ++row) key.push_back(view.worldFromCamera[column][row]);
     Lens lens = view.lens;
@@ -158,9 +158,8 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     const View view = resized(request.view, quality.resolution);
     RenderSettings settings = request.settings;
     settings.sampleCount = quality.samples;
-    if (request.thresholdsFollow) settings.thresholds = defaultThresholds(settings.metric, quality.samples);
-    settings.thresholds.blur *= quality.thresholdBias;
-    settings.thresholds.size *= quality.thresholdBias;
+    const LodThresholds thresholds = chosenThresholds(settings.thresholds, settings.metric, quality.samples);
+    settings.thresholds = {quality.thresholdBias * thresholds.blur, quality.thresholdBias * thresholds.size};
     first_->drawFrame(view, settingsOf(settings, request.first));
     if (second_) second_->drawFrame(view, settingsOf(settings, *request.second));
     workCurrent_ = workGrows_ = false;
@@ -181,11 +180,8 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
     grows_ = true;
     passTotals_.clear();
     presentedSamples_ = firstShownSample - 1;
-    first_->begin(request.view, settingsOf(request.settings, request.first), request.thresholdsFollow,
-                  request.mostSamples);
-    if (second_)
-        second_->begin(request.view, settingsOf(request.settings, *request.second), request.thresholdsFollow,
-                       request.mostSamples);
+    first_->begin(request.view, settingsOf(request.settings, request.first), request.mostSamples);
+    if (second_) second_->begin(request.view, settingsOf(request.settings, *request.second), request.mostSamples);
     nextPsnr_ = Clock::now() + psnrEvery;
     aovsCurrent_ = workCurrent_ = workGrows_ = false;
 }

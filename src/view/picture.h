@@ -24,9 +24,8 @@ struct PictureSide {
 };
 
 struct PictureRequest {
-    View view;                // at the window's resolution
-    RenderSettings settings;  // its thresholds count where they don't follow the samples
-    bool thresholdsFollow = true;
+    View view;                      // at the window's resolution
+    RenderSettings settings;        // its thresholds count where they don't follow the samples
     std::uint64_t poseVersion = 0;  // another number: something in the world has moved
     PictureSide first;
     std::optional<PictureSide> second;

@@ -53,7 +53,7 @@ SceneLoader::~SceneLoader() {
     for (const std::unique_ptr<Job>& job : jobs_) job->cancelled = true;
 }
 
-void SceneLoader::open(const SceneOptions& options) {
+void SceneLoader::open(const Request& options) {
     for (const std::unique_ptr<Job>& job : jobs_)
         if (!job->draftTaken) job->cancelled = true;
     Job& job = *jobs_.emplace_back(std::make_unique<Job>());
@@ -81,9 +81,9 @@ void SceneLoader::run(Job& job) {
             job.draft = LoadedScene{job.options, std::move(draft), {}, true};
         }
         // The levels of every mode: a window switches between them at any time.
-        frame->settings.lod = job.options.lod == LodMode::off ? LodMode::fractional : job.options.lod;
+        frame->settings.lod = job.options.settings.lod == LodMode::off ? LodMode::fractional : job.options.settings.lod;
         addPyramids(*frame, progress);
-        frame->settings.lod = job.options.lod;
+        frame->settings.lod = job.options.settings.lod;
         result.frame = std::move(frame);
     } catch (const std::bad_alloc&) {
         result.fault = "out of memory";
@@ -116,7 +116,7 @@ std::optional<LoadedScene> SceneLoader::take() {
 
 std::string SceneLoader::name() const {
     if (jobs_.empty()) return {};
-    const std::filesystem::path& path = jobs_.back()->options.path;
+    const std::filesystem::path& path = jobs_.back()->options.scene;
     return path.empty() ? "the school of fish" : path.filename().string();
 }
 

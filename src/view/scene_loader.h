@@ -22,7 +22,7 @@ struct ScenePreview {
 };
 
 struct LoadedScene {
-    SceneOptions options;
+    Request options;
     std::unique_ptr<PreparedFrame> frame;  // null: it failed
     std::string fault;                     // why
     bool draft = false;                    // with coarse stand-ins for its pyramids: they follow, with the same scene
@@ -37,7 +37,7 @@ public:
     SceneLoader& operator=(const SceneLoader&) = delete;
 
     // Starts on a scene; one that is still being opened is given up, unless its draft is being shown.
-    void open(const SceneOptions& options);
+    void open(const Request& options);
     // The scene once it is there, or its draft, or why it isn't; each is handed over once.
     std::optional<LoadedScene> take();
 
@@ -49,7 +49,7 @@ public:
 
 private:
     struct Job {
-        SceneOptions options;
+        Request options;
         std::atomic<bool> cancelled = false;
         std::atomic<bool> done = false;
         bool draftTaken = false;

@@ -19,13 +19,13 @@ constexpr std::size_t shownFrameTimes = 120;
 
 WindowOptions windowOptions(const SessionOptions& options, const ViewSettings& settings) {
     WindowOptions window;
-    const SceneOptions standard;
-    const bool asked = options.scene.width != standard.width || options.scene.height != standard.height;
+    const Request standard;
+    const bool asked = options.request.width != standard.width || options.request.height != standard.height;
     const bool remembered = settings.width > 0 && settings.height > 0 && !asked && options.frames == 0;
     window.width = remembered ? settings.width
-                              : options.scene.width +
+                              : options.request.width +
                                     (settings.panel ? static_cast<int>(panelWidth * settings.interfaceScale) : 0);
-    window.height = remembered ? settings.height : options.scene.height;
+    window.height = remembered ? settings.height : options.request.height;
     return window;
 }
 
@@ -47,14 +47,16 @@ ViewSession::ViewSession(const SessionOptions& options)
       settings_(rememberedSettings()),
       window_(windowOptions(options, settings_)),
       interface_(window_) {
-    state_.options = options.scene;
+    state_.options = options.request;
+    state_.display.toneMap = options.request.toneMap;
+    state_.display.exposure = options.request.exposure.value_or(0);
     state_.dark = settings_.dark;
     state_.panel = settings_.panel;
     state_.interfaceScale = settings_.interfaceScale;
     state_.budget.milliseconds =
         settings_.budgetMilliseconds.value_or(window_.software() ? softwareBudget : state_.budget.milliseconds);
     if (window_.software()) state_.budget.rung = 1;
-    loader_.open(options.scene);
+    loader_.open(options.request);
 }
 
 ViewSession::~ViewSession() {

@@ -18,7 +18,7 @@
 namespace defocus {
 
 struct SessionOptions {
-    SceneOptions scene;                  // its size is that of the picture
+    Request request;                     // its size is that of the picture
     std::filesystem::path screenshot;    // of the window at the end; empty: none
     int frames = 0;                      // ends after as many frames with the scene; 0: when it is closed
     std::filesystem::path shaderFolder;  // instead of the embedded shaders; empty: those
@@ -55,7 +55,7 @@ private:
     void share(const ViewActions& actions);
     void exportStep();
     void chooseCamera(const std::string& name);
-    void change(const SceneOptions& options);
+    void change(const Request& options);
     void beginExport();
     void frameBounds(bool selection);
     void takeScreenshot(const std::filesystem::path& path);

@@ -24,14 +24,13 @@ constexpr double statsEvery = 0.2;  // s
 constexpr double exportSlice = 60;  // ms a frame
 
 // What another scene keeps of the options: samples, levels, method, surroundings.
-SceneOptions withoutScene(SceneOptions options) {
-    const SceneOptions standard;
+Request withoutScene(Request options) {
+    const Request standard;
     options.time = standard.time;
     options.clip = standard.clip;
     options.camera = standard.camera;
     options.cameraPosition = options.cameraTarget = options.cameraUp = std::nullopt;
     options.lens = standard.lens;
-    options.apertureImage = standard.apertureImage;
     options.focusNode = standard.focusNode;
     options.focusPixel = standard.focusPixel;
     options.focusPoints = standard.focusPoints;
@@ -46,8 +45,8 @@ void ViewSession::act() {
     const ViewActions actions = std::exchange(actions_, {});
     try {
         if (actions.open) {
-            SceneOptions options = withoutScene(state_.options);
-            options.path = *actions.open;
+            Request options = withoutScene(state_.options);
+            options.scene = *actions.open;
             loader_.open(options);
         }
         if (actions.chooseCamera) chooseCamera(*actions.chooseCamera);

@@ -13,10 +13,9 @@ namespace defocus {
 PictureRequest ViewSession::request() const {
     PictureRequest result;
     result.view = currentView();
-    result.settings = chosenSettings(state_.options);
-    result.thresholdsFollow = !state_.options.blurThreshold && !state_.options.sizeThreshold;
+    result.settings = state_.options.settings;
     result.poseVersion = poseVersion_;
-    result.first = {chosenMethod(state_.options), state_.options.lod, 0};
+    result.first = {chosenMethod(state_.options), state_.options.settings.lod, 0};
     result.display = state_.display;
     result.display.exposure = shownExposure(state_);
     result.mostSamples = state_.mostSamples;
@@ -35,7 +34,7 @@ PictureRequest ViewSession::request() const {
             result.second = {accumulation, LodMode::off, referenceOffset};
             break;
         case Comparison::method:
-            result.second = {parseMethodUse(state_.comparedMethod), state_.options.lod, 0};
+            result.second = {parseMethodUse(state_.comparedMethod), state_.options.settings.lod, 0};
             break;
     }
     if (state_.poppingSince) {

@@ -50,7 +50,7 @@ void ViewSession::adoptScene(LoadedScene scene) {
     draft_ = scene.draft;
     state_.options = scene.options;
     state_.environmentPath = scene.options.environment.string();
-    state_.aperturePath = scene.options.apertureImage.string();
+    state_.aperturePath = scene.options.lens.apertureImage.string();
     const int clip = scene.options.clip.empty() ? 0 : clipNamed(*frame_->scene, scene.options.clip);
     state_.animation = {.clip = clip, .time = scene.options.time, .speed = state_.animation.speed, .playing = false};
     posedTime_ = state_.animation.time;
@@ -117,7 +117,7 @@ void ViewSession::poseScene() {
     const PlacedCamera camera = followedCamera().value_or(standing);
     state_.camera.worldFromCamera = camera.worldFromCamera;
     View view = currentView();
-    exposeMotion(state_.options, camera, chosenSettings(state_.options), world, view);
+    exposeMotion(state_.options, camera, state_.options.settings, world, view);
     shutterCameras_ = view.shutterCameras;
     posedTime_ = animation.time;
     posedClip_ = animation.clip;
@@ -136,7 +136,7 @@ std::optional<PlacedCamera> ViewSession::followedCamera() const {
 
 void ViewSession::chooseCamera(const std::string& name) {
     if (!frame_) return;
-    SceneOptions options = state_.options;
+    Request options = state_.options;
     options.camera = name;
     options.cameraPosition.reset();
     options.cameraTarget.reset();
@@ -160,7 +160,7 @@ void ViewSession::chooseCamera(const std::string& name) {
 
 // The blur of nodes becomes that of `options`, or surroundings and aperture image. Throws Error before anything has
 // changed.
-void ViewSession::change(const SceneOptions& options) {
+void ViewSession::change(const Request& options) {
     if (options.nodeBlur != state_.options.nodeBlur) {
         for (const auto& [name, scale] : options.nodeBlur)
             frame_->scene->nodes[static_cast<std::size_t>(nodeNamed(*frame_->scene, name))].cocScale = scale;
@@ -169,8 +169,9 @@ void ViewSession::change(const SceneOptions& options) {
         return;
     }
     const Environment environment = chosenEnvironment(options, *frame_->scene);
-    const std::shared_ptr<const Image> aperture =
-        options.apertureImage.empty() ? frame_->cameraLens.apertureImage : loadApertureImage(options.apertureImage);
+    const std::shared_ptr<const Image> aperture = options.lens.apertureImage.empty()
+                                                      ? frame_->cameraLens.apertureImage
+                                                      : loadApertureImage(options.lens.apertureImage);
     state_.lens.apertureImage = aperture;
     state_.options = options;
     picture_.reset();  // it has the surroundings on the GPU

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "capture/setting_json.h"
+#include "frame/settings.h"
 #include "lens/lens_fields.h"
 #include "plan/camera_path.h"
 
@@ -41,7 +43,7 @@ double rollOf(const glm::dmat4& worldFromCamera, const glm::dvec3& target, doubl
     return std::abs(nearest) < 1e-9 ? 0 : nearest;
 }
 
-ordered_json cameraJson(const SceneOptions& options, const std::vector<ShotKey>& keys) {
+ordered_json cameraJson(const Request& options, const std::vector<ShotKey>& keys) {
     ordered_json camera = ordered_json::object();
     if (!options.camera.empty()) camera["name"] = options.camera;
     double roll = 0;
@@ -89,68 +91,47 @@ ordered_json focusJson(const std::vector<ShotKey>& keys) {
     return focus;
 }
 
-ordered_json animationJson(const SceneOptions& options, double start, double speed) {
-    ordered_json animation = ordered_json::object();
-    if (!options.clip.empty()) animation["clip"] = options.clip;
-    if (start != 0) animation["start"] = start;
-    if (speed != 1) animation["speed"] = speed;
-    if (options.loop) animation["loop"] = true;
-    return animation;
-}
-
-ordered_json shutterJson(const ShutterSettings& shutter) {
-    static constexpr const char* positions[] = {"start", "centre", "end"};
-    return {{"seconds", shutter.seconds},
-            {"position", positions[static_cast<std::size_t>(shutter.position)]},
-            {"segments", shutter.motionSegments},
-            {"exact", shutter.exactMotion}};
-}
-
-void addSceneJson(ordered_json& shot, const SceneOptions& options) {
-    if (!options.path.empty())
-        shot["scene"] = std::filesystem::absolute(options.path).string();
-    else
-        shot["fish"] = {{"count", options.fishCount}, {"triangles", options.trianglesPerFish}};
-    if (!options.environment.empty()) shot["environment"] = std::filesystem::absolute(options.environment).string();
-    if (options.background == Background::none) shot["background"] = "none";
-    if (options.background == Background::uniform) shot["background"] = pointJson(glm::dvec3(options.backgroundColor));
-}
-
-void addQualityJson(ordered_json& shot, const SceneOptions& options) {
-    shot["samples"] = options.samples;
-    shot["sequence"] = std::string(sequenceName(options.sequence));
-    if (options.seed != 0) shot["seed"] = options.seed;
-    shot["lod"] = lodModeName(options.lod);
-    shot["lodMetric"] = options.metric == LodMetric::size ? "size" : "error";
-    if (options.blurThreshold) shot["blurThreshold"] = *options.blurThreshold;
-    if (options.sizeThreshold) shot["sizeThreshold"] = *options.sizeThreshold;
-    if (options.layerFormat != LayerFormat::automatic) shot["layerFormat"] = layerFormatName(options.layerFormat);
-    const std::string method = chosenMethod(options).text();
-    if (method != "accumulation") shot["method"] = method;
+// What a shot says as one value of a setting. Samples and levels are said even where they are standard: a film stays as
+// it was recorded when the standard changes.
+void addSettings(ordered_json& shot, const Request& request) {
+    for (const Setting& setting : settings()) {
+        if (setting.shotPlace.empty() || setting.keyed) continue;
+        const bool always = setting.group == SettingGroup::samples || setting.name == "size";
+        const std::optional<std::string> text = always ? setting.text(request) : changedText(setting, request);
+        if (text) shot[ordered_json::json_pointer(setting.shotPlace)] = settingJson(setting, *text);
+    }
+    if (!shot.contains("shutter")) return;
+    shot["shutter"]["seconds"] = request.shutter.seconds;  // a shutter without it has none
+    if (request.shutter.exactMotion) {
+        shot["shutter"].erase("segments");
+        shot["shutter"]["exact"] = true;
+    }
 }
 
 }  // namespace
 
 std::string shotJson(const ShotRecording& recording) {
-    const SceneOptions& options = recording.options;
     const std::vector<ShotKey>& keys = recording.keys;
-    ordered_json shot;
-    addSceneJson(shot, options);
-    shot["frameRate"] = 24;
-    shot["range"] = {0, frameOf(keys.size() - 1)};
-    const ordered_json animation = animationJson(options, keys.front().time, recording.animationSpeed);
-    if (!animation.empty()) shot["animation"] = animation;
-    if (options.shutter != ShutterSettings{}) shot["shutter"] = shutterJson(options.shutter);
-    shot["camera"] = cameraJson(options, keys);
-    shot["focus"] = focusJson(keys);
-    shot["lens"] = lensJson(keys, recording.cameraLens);
-    shot["size"] = {keys.back().view.width, keys.back().view.height};
-    addQualityJson(shot, options);
+    Request request = recording.options;
+    if (!request.scene.empty()) request.scene = std::filesystem::absolute(request.scene);
+    if (!request.environment.empty()) request.environment = std::filesystem::absolute(request.environment);
+    request.time = keys.front().time;
+    request.width = keys.back().view.width;
+    request.height = keys.back().view.height;
+    request.toneMap = recording.write.toneMap;
+    request.exposure.reset();
     const double exposure = recording.write.exposure;
     if (!shotExposedByLens(keys) && (exposure != 0 || recording.cameraLens.exposureTime > 0))
-        shot["exposure"] = exposure;
-    static constexpr const char* toneMaps[] = {"none", "aces", "agx"};
-    shot["toneMap"] = toneMaps[static_cast<std::size_t>(recording.write.toneMap)];
+        request.exposure = exposure;
+
+    ordered_json shot;
+    shot["frameRate"] = 24;
+    shot["range"] = {0, frameOf(keys.size() - 1)};
+    shot["camera"] = cameraJson(recording.options, keys);
+    shot["focus"] = focusJson(keys);
+    shot["lens"] = lensJson(keys, recording.cameraLens);
+    addSettings(shot, request);
+    if (recording.animationSpeed != 1) shot["animation"]["speed"] = recording.animationSpeed;
     return shot.dump(2) + "\n";
 }
 

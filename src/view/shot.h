@@ -18,8 +18,8 @@ struct ShotKey {
 inline constexpr int framesBetweenKeys = 48;  // two seconds
 
 struct ShotRecording {
-    const SceneOptions& options;  // scene, clip, samples, levels, method
-    const Lens& cameraLens;       // of the camera that options.camera names: what a shot falls back to
+    const Request& options;  // scene, clip, samples, levels, method
+    const Lens& cameraLens;  // of the camera that options.camera names: what a shot falls back to
     const std::vector<ShotKey>& keys;
     double animationSpeed = 1;
     WriteOptions write;

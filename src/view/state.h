@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/scene_options.h"
+#include "frame/request.h"
 #include "lens/photographic_exposure.h"
 #include "render/display/display_pass.h"
 #include "view/camera_controls.h"
@@ -43,7 +43,7 @@ struct AnimationState {
 
 struct ViewState {
     // What is looked at, and through what.
-    SceneOptions options;  // of the scene that is shown
+    Request options;  // of the scene that is shown
     ViewCamera camera;
     Lens lens;
     double nearPlane = 0.01;     // m
@@ -88,7 +88,7 @@ inline double shownExposure(const ViewState& state) {
 struct ViewActions {
     std::optional<std::filesystem::path> open;
     std::optional<std::string> chooseCamera;  // its name; "auto" frames the scene
-    std::optional<SceneOptions> changed;      // ViewState::options with other surroundings, aperture image or nodeBlur
+    std::optional<Request> changed;           // ViewState::options with other surroundings, aperture image or nodeBlur
     bool copyCommand = false;
     bool exportStill = false;
     bool cancelExport = false;

@@ -9,7 +9,7 @@ StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request
     : frame_(&frame), request_(request), use_(chosenMethod(request.options)), begin_(std::chrono::steady_clock::now()) {
     checkImageExtension(request.output);
     checkWritable(request.output);
-    plan_ = planFrame(frame.world, request.view, chosenSettings(request.options));
+    plan_ = planFrame(frame.world, request.view, request.options.settings);
     RendererOptions options;
     options.layerFormat = request.options.layerFormat;
     options.wave = request.options.wave > 0 ? request.options.wave : (request.software ? 2 : 8);

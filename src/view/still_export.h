@@ -13,7 +13,7 @@
 namespace defocus {
 
 struct StillRequest {
-    SceneOptions options;  // samples, seed, levels, method
+    Request options;  // samples, seed, levels, method
     View view;
     std::filesystem::path output;  // .exr, .png or .jpg
     WriteOptions write;

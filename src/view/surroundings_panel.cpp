@@ -7,7 +7,7 @@ namespace defocus {
 void surroundingsSection(const PanelContext& context, ViewState& state, ViewActions& actions) {
     if (!section("Surroundings", false)) return;
     ImGui::BeginDisabled(context.exporting);
-    SceneOptions changed = state.options;
+    Request changed = state.options;
     rowLabel("Background", "What lies behind the scene and lights it (--background)");
     int background = static_cast<int>(state.options.background);
     if (ImGui::Combo("##background", &background, "environment\0none: transparent\0one colour\0")) {
@@ -16,7 +16,7 @@ void surroundingsSection(const PanelContext& context, ViewState& state, ViewActi
     }
     if (state.options.background == Background::uniform) {
         rowLabel("Colour", "Linear (--background R,G,B)");
-        ImGui::ColorEdit3("##colour", &state.options.backgroundColor.x,
+        ImGui::ColorEdit3("##colour", state.options.backgroundColor.data(),
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoLabel);
         if (ImGui::IsItemDeactivatedAfterEdit()) actions.changed = state.options;
     } else {
@@ -34,7 +34,7 @@ void apertureImageRow(const PanelContext& context, ViewState& state, ViewActions
     rowLabel("Image", "Light passes where it is bright, in place of blades and rings (--aperture-image)");
     if (pathRow("aperture", "none", "Load", state.aperturePath)) {
         actions.changed = state.options;
-        actions.changed->apertureImage = state.aperturePath;
+        actions.changed->lens.apertureImage = state.aperturePath;
     }
     ImGui::EndDisabled();
 }

@@ -21,15 +21,15 @@ TEST(ShotJson, nothingSaidIsAShotOfOneFrame) {
     EXPECT_EQ(shot.range.first, 0);
     EXPECT_EQ(shot.range.last, 0);
     EXPECT_EQ(shot.frameRate, 24);
-    EXPECT_TRUE(shot.scene.empty());
+    EXPECT_TRUE(shot.request.scene.empty());
     EXPECT_FALSE(shot.focus);
     EXPECT_EQ(shot.outputs, std::vector<std::string>{"frames/####.exr"});
 }
 
 TEST(ShotJson, pathsOfTheSceneAreRelativeToTheShot) {
     const Shot shot = parseShot(R"({"scene": "fox.glb", "environment": "/skies/sky.hdr"})", "a/b/x.json");
-    EXPECT_EQ(shot.scene, "a/b/fox.glb");
-    EXPECT_EQ(shot.environment, "/skies/sky.hdr");
+    EXPECT_EQ(shot.request.scene, "a/b/fox.glb");
+    EXPECT_EQ(shot.request.environment, "/skies/sky.hdr");
 }
 
 TEST(ShotJson, everyPartIsRead) {
@@ -46,9 +46,9 @@ TEST(ShotJson, everyPartIsRead) {
         "output": ["a/#.exr", "b/#.png"], "exposure": -1, "toneMap": "agx", "video": "film.mp4"})",
                                 "x.json");
     EXPECT_EQ(shot.range.last, 20);
-    EXPECT_EQ(shot.animation.clip, "Walk");
-    EXPECT_TRUE(shot.animation.loop);
-    const auto& keys = std::get<CameraKeys>(shot.camera.movement);
+    EXPECT_EQ(shot.request.clip, "Walk");
+    EXPECT_TRUE(shot.request.loop);
+    const auto& keys = std::get<CameraKeys>(shot.movement);
     EXPECT_EQ(keys.easing, Easing::linear);
     EXPECT_EQ(std::get<glm::dvec3>(keys.positions[0].value), glm::dvec3(1, 2, 3));
     EXPECT_EQ(std::get<std::string>(keys.targets[0].value), "Fox");
@@ -58,9 +58,9 @@ TEST(ShotJson, everyPartIsRead) {
     EXPECT_EQ(shot.lens.at("dofEnabled").keys[0].value, 0);
     EXPECT_EQ(shot.lens.at("blurScale").keys[1].value, 2);
     EXPECT_EQ(shot.lens.at("blurScale").easing, Easing::smooth);
-    EXPECT_EQ(shot.lod, LodMode::nearest);
+    EXPECT_EQ(shot.request.settings.lod, LodMode::nearest);
     EXPECT_EQ(shot.outputs.size(), 2u);
-    EXPECT_EQ(shot.toneMap, ToneMap::agx);
+    EXPECT_EQ(shot.request.toneMap, ToneMap::agx);
 }
 
 TEST(ShotJson, faultsNameTheirPlaceAndWhatWasExpected) {
@@ -98,7 +98,7 @@ TEST(ShotJson, overridesReplaceValuesByTheirPlace) {
     const Shot shot = parseShot(
         R"({"samples": 4, "focus": {"node": "A"}})", "x.json",
         {parseShotOverride("/samples=32"), parseShotOverride("/focus/node=B C"), parseShotOverride("/lens/fStop=1.4")});
-    EXPECT_EQ(shot.samples, 32u);
+    EXPECT_EQ(shot.request.settings.sampleCount, 32u);
     EXPECT_EQ(std::get<std::string>(shot.focus->keys[0].value), "B C");
     EXPECT_EQ(shot.lens.at("fStop").keys[0].value, 1.4);
     EXPECT_EQ(faultOf("{}", {parseShotOverride("/smaples=3")}),

@@ -22,7 +22,7 @@ TEST_F(Capture, writesEachFrameWithItsMetadataAndASidecarOfTimes) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     for (int frame = 0; frame < 8; ++frame) {
         Metadata metadata;
-        const Image image = readImage(folder() / name(frame), &metadata);
+        const Image image = readImage(folder() / name(frame), metadata);
         EXPECT_EQ(image.width, 64);
         EXPECT_EQ(std::get<int>(metadata.at("defocus:frame")), frame);
         EXPECT_DOUBLE_EQ(std::get<double>(metadata.at("defocus:time")), frame / 10.0);
@@ -101,7 +101,7 @@ TEST_F(Capture, optionsReplaceWhatTheShotSays) {
                   .exitCode,
               0);
     Metadata metadata;
-    EXPECT_EQ(readImage(folder() / "x3.exr", &metadata).width, 32);
+    EXPECT_EQ(readImage(folder() / "x3.exr", metadata).width, 32);
     EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 4);
     EXPECT_EQ(std::get<double>(metadata.at("aperture")), 4);
     EXPECT_NEAR(std::get<double>(metadata.at("focus")), 8, 1e-6) << "the camera stands still again";
@@ -117,7 +117,7 @@ TEST_F(Capture, focusOnPixelAndMiddleIsFoundInEachFrame) {
     writeShot(dolly);
     const auto focusOf = [&](const char* output, int frame) {
         Metadata metadata;
-        readImage(folder() / framePath(output, frame), &metadata);
+        readImage(folder() / framePath(output, frame), metadata);
         return std::get<double>(metadata.at("focus"));
     };
     ASSERT_EQ(capture({"--focus-pixel", "32,14", "-o", "p#.exr"}).exitCode, 0);
@@ -142,7 +142,7 @@ TEST_F(Capture, aCameraPlacedByHandStandsThere) {
     ASSERT_EQ(capture({"--range", "3", "--camera-position", "0,0,2", "--focus-node", "Near", "-o", "x#.exr"}).exitCode,
               0);
     Metadata metadata;
-    readImage(folder() / "x3.exr", &metadata);
+    readImage(folder() / "x3.exr", metadata);
     EXPECT_NEAR(std::get<double>(metadata.at("focus")), 4, 1e-5);
 }
 

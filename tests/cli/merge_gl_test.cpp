@@ -38,7 +38,7 @@ TEST_F(Merge, partsGiveTheBitsOfASingleRun) {
         ASSERT_EQ(merged.exitCode, 0) << merged.err;
         EXPECT_EQ(pixelsOf("merged.exr"), pixelsOf("whole.exr")) << background;
         Metadata metadata;
-        readImage(folder() / "merged.exr", &metadata);
+        readImage(folder() / "merged.exr", metadata);
         EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 150);
         EXPECT_FALSE(metadata.contains("defocus:firstSample"));
     }

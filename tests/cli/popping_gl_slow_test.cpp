@@ -75,18 +75,18 @@ protected:
     void school() {
         options_.fishCount = 6;
         options_.trianglesPerFish = 12'000;
-        options_.lens["blurScale"] = 4;  // at this size of the image, for the blur of a large one
+        options_.lens.blurScale = 4;  // at this size of the image, for the blur of a large one
     }
 
     // 576 triangles, 100 m long: few pixels and much blur bring its levels into play.
     void fox(const std::filesystem::path& path) {
-        options_.path = path;
+        options_.scene = path;
         options_.clip = "Walk";
         options_.time = 0.3;  // in the middle of a step
-        options_.lens["blurScale"] = 1000;
+        options_.lens.blurScale = 1000;
     }
 
-    SceneOptions options_;
+    Request options_;
 };
 std::unique_ptr<GlContext> NoPopping::context_;
 
@@ -105,8 +105,8 @@ TEST_F(NoPopping, ofTheFoxInAFocusPull) {
     fox(path);
     options_.width = 32;
     options_.height = 24;
-    options_.lens["fStop"] = 0.25;
-    options_.lodCocAtCentre = true;
+    options_.lens.fStop = 0.25;
+    options_.settings.lodCocAtCentre = true;
     expectNoneAlong(Movement::focusPull);
 }
 
@@ -115,8 +115,8 @@ TEST_F(NoPopping, ofTheFoxInADolly) {
     fox(path);
     options_.width = 32;
     options_.height = 24;
-    options_.lens["fStop"] = 0.25;
-    options_.lodCocAtCentre = true;
+    options_.lens.fStop = 0.25;
+    options_.settings.lodCocAtCentre = true;
     expectNoneAlong(Movement::dolly);
 }
 
@@ -127,8 +127,8 @@ TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
     fox(path);
     options_.width = 96;
     options_.height = 72;
-    options_.lens["fStop"] = 0.4;
-    options_.lens["focusDistance"] = 125;
+    options_.lens.fStop = 0.4;
+    options_.lens.focusDistance = 125;
     PoppingOptions popping;
     popping.movements = {Movement::clip};
     popping.clip = 1;  // Walk, 0.708 s

@@ -53,7 +53,7 @@ TEST_F(Render, writesEachOutputAndOneLineOfSummary) {
 TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {
     ASSERT_EQ(render({"-o", "a.exr", "--fstop", "1.4", "--seed", "7", "--focus-node", "Far"}).exitCode, 0);
     Metadata metadata;
-    readImage(folder() / "a.exr", &metadata);
+    readImage(folder() / "a.exr", metadata);
     const auto number = [&](const char* name) {
         const MetadataValue& value = metadata.at(name);
         return std::holds_alternative<int>(value) ? std::get<int>(value) : std::get<double>(value);
@@ -80,7 +80,7 @@ TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
     ASSERT_EQ(render({"-o", "b.png", "--fstop", "2", stops}).exitCode, 0);
     EXPECT_EQ(readImage(folder() / "a.png").pixels, readImage(folder() / "b.png").pixels);
     Metadata metadata;
-    readImage(folder() / "a.exr", &metadata);
+    readImage(folder() / "a.exr", metadata);
     EXPECT_NEAR(std::get<double>(metadata.at("expTime")), 0.125, 1e-6);
     EXPECT_NEAR(std::get<double>(metadata.at("isoSpeed")), 200, 1e-4);
 
@@ -127,7 +127,7 @@ TEST_F(Render, methodAndItsSettingsStandInTheMetadata) {
     ASSERT_EQ(render({"-o", "a.exr", "--method", "circular", "--far-components", "3", "--pinholes", "2"}).exitCode, 0);
     ASSERT_EQ(render({"-o", "b.exr", "--method", "circular:far-components=3,pinholes=2"}).exitCode, 0);
     Metadata metadata;
-    const Image a = readImage(folder() / "a.exr", &metadata);
+    const Image a = readImage(folder() / "a.exr", metadata);
     EXPECT_EQ(std::get<std::string>(metadata.at("defocus:method")), "circular:far-components=3,pinholes=2");
     EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 2);
     EXPECT_EQ(a.pixels, readImage(folder() / "b.exr").pixels);
@@ -137,7 +137,7 @@ TEST_F(Render, methodAndItsSettingsStandInTheMetadata) {
 TEST_F(Render, matricesOfTheMetadataPlaceAPointWhereTheImageShowsIt) {
     ASSERT_EQ(render({"-o", "a.exr", "--aov", "depth"}).exitCode, 0);
     Metadata metadata;
-    readImage(folder() / "a.exr", &metadata);
+    readImage(folder() / "a.exr", metadata);
     const Image depth = readImage(folder() / "a.depth.exr");
     const glm::vec4 inside = {-0.18f, 0.3f, -2, 1};  // just inside Near's left edge, and just outside it
     const glm::vec4 outside = {-0.22f, 0.3f, -2, 1};

@@ -81,7 +81,7 @@ TEST(ImageFile, exrKeepsMetadataUnderStandardNames) {
                                {"defocus:version", "0.1"}};
     writeImage(folder / "a.exr", gradient(4, 4, 3), metadata);
     Metadata read;
-    readImage(folder / "a.exr", &read);
+    readImage(folder / "a.exr", read);
     for (const auto& [name, value] : metadata) {
         ASSERT_TRUE(read.contains(name)) << name;
         EXPECT_TRUE(read[name] == value) << name;
@@ -145,7 +145,7 @@ TEST(ImageFile, pngHoldsMetadataAsText) {
     writeImage(folder / "a.png", gradient(4, 4, 3),
                {{"aperture", 1.4}, {"defocus:samples", 64}, {"defocus:name", "x"}});
     Metadata read;
-    readImage(folder / "a.png", &read);
+    readImage(folder / "a.png", read);
     EXPECT_TRUE(read["aperture"] == MetadataValue("1.4"));
     EXPECT_TRUE(read["defocus:samples"] == MetadataValue("64"));
     EXPECT_TRUE(read["defocus:name"] == MetadataValue("x"));

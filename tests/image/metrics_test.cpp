@@ -109,7 +109,7 @@ TEST(Difference, ofOneChannelOfOnePixel) {
     EXPECT_NEAR(difference.rmse, 0.5 / std::sqrt(240.0), 1e-7);
     EXPECT_NEAR(difference.psnr, -20 * std::log10(0.5 / std::sqrt(240.0)), 1e-4);
     EXPECT_NEAR(difference.maxError, 0.5, 1e-6);
-    EXPECT_EQ(difference.maxErrorPixel, glm::ivec2(7, 3));
+    EXPECT_EQ(difference.maxErrorPixel, (Pixel{7, 3}));
 }
 
 TEST(Difference, isMeasuredOnClippedDisplayValues) {
@@ -160,7 +160,7 @@ TEST(NonFinite, inOneImageIsTheLargestDifferenceThereAndNowhereElse) {
             EXPECT_NEAR(difference.mae, 1.0 / 1200, 1e-12);
             EXPECT_NEAR(difference.rmse, std::sqrt(1.0 / 1200), 1e-12);
             EXPECT_EQ(difference.maxError, 1);
-            EXPECT_EQ(difference.maxErrorPixel, glm::ivec2(21, 11));
+            EXPECT_EQ(difference.maxErrorPixel, (Pixel{21, 11}));
             EXPECT_NEAR(difference.ssim, 1 - 1.0 / (30 * 20), 1e-12);
             EXPECT_NEAR(difference.flip, 1.0 / 1200, 1e-9);
             EXPECT_EQ(difference.nonFinite, 1u);

@@ -43,7 +43,6 @@ protected:
         RenderSettings settings;
         settings.sampleCount = samples;
         settings.lod = lod;
-        settings.thresholds = defaultThresholds(settings.metric, samples);
         const auto renderer = methodNamed("accumulation").make(small_->world, options());
         renderer->start(planFrame(small_->world, small_->view, settings));
         while (renderer->advance()) {
@@ -69,7 +68,7 @@ TEST_F(Growing, blocksAddUpToTheFrameRenderedAtOnce) {
     ProgressiveImage image = progressive();
     RenderSettings settings;
     settings.lod = LodMode::off;
-    image.begin(small_->view, settings, true, 192);
+    image.begin(small_->view, settings, 192);
     EXPECT_FALSE(image.finished());
     const Image grownImage = grown(image);
     EXPECT_EQ(image.samples(), 192u);
@@ -78,27 +77,27 @@ TEST_F(Growing, blocksAddUpToTheFrameRenderedAtOnce) {
 
 TEST_F(Growing, firstBlockIsTheFrameOf64SamplesWithLevels) {
     ProgressiveImage image = progressive();
-    image.begin(small_->view, {}, true, 64);
+    image.begin(small_->view, {}, 64);
     EXPECT_TRUE(sameBits(grown(image), renderedAtOnce(64, LodMode::fractional)));
 }
 
 TEST_F(Growing, levelsBecomeFinerWithTheSamples) {
     ProgressiveImage image = progressive();
-    image.begin(small_->view, {}, true, 512);
+    image.begin(small_->view, {}, 512);
     const double first = static_cast<double>(image.plan().trianglesDrawn);
     grown(image);
     EXPECT_GT(static_cast<double>(image.plan().trianglesDrawn), 1.1 * first);
     EXPECT_EQ(image.plan().settings.firstSample, 448u);
     const RenderSettings own{.thresholds = {0.7, 3}};
-    image.begin(small_->view, own, false, 128);
+    image.begin(small_->view, own, 128);
     grown(image);
-    EXPECT_EQ(image.plan().settings.thresholds.blur, 0.7);
+    EXPECT_EQ(image.plan().thresholds.blur, 0.7);
 }
 
 TEST_F(Growing, viewWithoutBlurEndsWithItsFewSamples) {
     small_->view.lens.dofEnabled = false;
     ProgressiveImage image = progressive();
-    image.begin(small_->view, {}, true, 4096);
+    image.begin(small_->view, {}, 4096);
     grown(image);
     EXPECT_EQ(image.samples(), antialiasingSamples);
     EXPECT_FALSE(image.grow(1));
@@ -106,7 +105,7 @@ TEST_F(Growing, viewWithoutBlurEndsWithItsFewSamples) {
 
 TEST_F(Growing, postProcessMethodsEndWithTheirPinholes) {
     ProgressiveImage image = progressive("scheuermann:pinholes=2");
-    image.begin(small_->view, {}, true, 4096);
+    image.begin(small_->view, {}, 4096);
     grown(image);
     EXPECT_EQ(image.samples(), 2u);
 }
@@ -120,7 +119,7 @@ TEST_F(Growing, movingFramesAndStillOnesTakeTurns) {
     image.drawFrame(smaller, settings);
     EXPECT_EQ(image.samples(), 4u);
     EXPECT_EQ(image.texture()->info().width, 32);
-    image.begin(small_->view, {}, true, 64);
+    image.begin(small_->view, {}, 64);
     EXPECT_TRUE(sameBits(grown(image), renderedAtOnce(64, LodMode::fractional)));
     image.drawFrame(smaller, settings);
     EXPECT_EQ(image.samples(), 4u);

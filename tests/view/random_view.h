@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "frame/scene_options.h"
+#include "frame/request.h"
 #include "lens/lens_fields.h"
 
 namespace defocus {
@@ -30,10 +30,10 @@ private:
     std::mt19937 engine_;
 };
 
-inline SceneOptions randomOptions(Dice& dice) {
-    SceneOptions options;
+inline Request randomOptions(Dice& dice) {
+    Request options;
     if (dice.coin()) {
-        options.path = dice.name() + ".glb";
+        options.scene = dice.name() + ".glb";
     } else {
         options.fishCount = dice.whole(1, 30);
         options.trianglesPerFish = dice.whole(200, 5000);
@@ -47,20 +47,21 @@ inline SceneOptions randomOptions(Dice& dice) {
     if (!options.shutter.exactMotion) options.shutter.motionSegments = static_cast<std::uint32_t>(dice.whole(1, 64));
     if (dice.coin()) options.environment = dice.name() + ".hdr";
     options.background = static_cast<Background>(dice.whole(0, 2));
-    if (options.background == Background::uniform) options.backgroundColor = glm::vec3(dice.number(0, 2), 0.1f, 3);
+    if (options.background == Background::uniform)
+        options.backgroundColor = {static_cast<float>(dice.number(0, 2)), 0.1f, 3};
     if (dice.coin()) options.camera = dice.name();
-    if (dice.coin()) options.apertureImage = dice.name() + ".png";
+    if (dice.coin()) options.lens.apertureImage = dice.name() + ".png";
     if (dice.coin()) options.nodeBlur = {{dice.name(), dice.number(0, 3)}, {"another", 0}};
-    if (dice.coin()) options.cocTolerance = dice.number(0.01, 3);
-    options.samples = static_cast<std::uint32_t>(dice.whole(1, 4096));
-    options.sequence = allSequences[static_cast<std::size_t>(dice.whole(0, 3))];
-    if (dice.coin()) options.seed = static_cast<std::uint32_t>(dice.whole(0, 1'000'000));
-    options.lod = static_cast<LodMode>(dice.whole(0, 3));
-    options.metric = dice.coin() ? LodMetric::size : LodMetric::error;
-    options.lodCocAtCentre = dice.coin();
-    if (dice.coin()) options.blurThreshold = dice.number(0, 2);
-    if (dice.coin()) options.sizeThreshold = dice.number(0, 9);
-    options.keepAll = dice.coin();
+    if (dice.coin()) options.settings.cocTolerance = dice.number(0.01, 3);
+    options.settings.sampleCount = static_cast<std::uint32_t>(dice.whole(1, 4096));
+    options.settings.sequence = allSequences[static_cast<std::size_t>(dice.whole(0, 3))];
+    if (dice.coin()) options.settings.seed = static_cast<std::uint32_t>(dice.whole(0, 1'000'000));
+    options.settings.lod = static_cast<LodMode>(dice.whole(0, 3));
+    options.settings.metric = dice.coin() ? LodMetric::size : LodMetric::error;
+    options.settings.lodCocAtCentre = dice.coin();
+    if (dice.coin()) options.settings.thresholds.blur = dice.number(0, 2);
+    if (dice.coin()) options.settings.thresholds.size = dice.number(0, 9);
+    options.settings.keepAll = dice.coin();
     options.noCache = dice.coin();
     if (!options.noCache && dice.coin()) options.cacheFolder = dice.name();
     if (dice.coin()) options.method = "circular:far-components=3";

@@ -20,8 +20,8 @@
 namespace defocus {
 namespace {
 
-SceneOptions smallSchool() {
-    SceneOptions options;
+Request smallSchool() {
+    Request options;
     options.fishCount = 2;
     options.trianglesPerFish = 300;
     options.noCache = true;
@@ -57,11 +57,11 @@ RenderArguments argumentsOf(const std::string& command) {
 }
 
 PreparedFrame placedBy(const std::string& command) {
-    return placeFrame(argumentsOf(command).scene);
+    return placeFrame(argumentsOf(command).request);
 }
 
 struct ShotRequest {
-    SceneOptions options = smallSchool();
+    Request options = smallSchool();
     PreparedFrame frame = placeFrame(options);
     View view = frame.view;
     double pivotDistance = 2;
@@ -144,14 +144,14 @@ TEST(RenderCommandText, aCameraThatMovesDuringTheExposureIsTheFiles) {
     shot.view.shutterCameras = {shot.view.worldFromCamera, shot.view.worldFromCamera};
     shot.options.camera = "Flying camera";
     const RenderArguments arguments = argumentsOf(shot.command());
-    EXPECT_FALSE(arguments.scene.cameraPosition);
-    EXPECT_EQ(arguments.scene.camera, "Flying camera");
+    EXPECT_FALSE(arguments.request.cameraPosition);
+    EXPECT_EQ(arguments.request.camera, "Flying camera");
 }
 
 TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
     ShotRequest shot;
-    shot.options.lod = LodMode::nearest;
-    shot.options.samples = 12;
+    shot.options.settings.lod = LodMode::nearest;
+    shot.options.settings.sampleCount = 12;
     shot.options.method = "circular:far-components=5";
     const std::string command = shot.command();
     for (const char* part :
@@ -164,9 +164,9 @@ TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
 
 // ---- any view
 
-void expectSameOptions(const SceneOptions& a, const SceneOptions& b) {
+void expectSameOptions(const Request& a, const Request& b) {
     const auto path = [](const std::filesystem::path& p) { return p.lexically_normal(); };  // ./-x is -x
-    EXPECT_EQ(path(a.path), b.path);
+    EXPECT_EQ(path(a.scene), b.scene);
     EXPECT_EQ(a.fishCount, b.fishCount);
     EXPECT_EQ(a.trianglesPerFish, b.trianglesPerFish);
     EXPECT_EQ(a.clip, b.clip);
@@ -177,18 +177,18 @@ void expectSameOptions(const SceneOptions& a, const SceneOptions& b) {
     EXPECT_EQ(a.background, b.background);
     EXPECT_EQ(a.backgroundColor, b.backgroundColor);
     EXPECT_EQ(a.camera, b.camera);
-    EXPECT_EQ(path(a.apertureImage), b.apertureImage);
+    EXPECT_EQ(path(a.lens.apertureImage), b.lens.apertureImage);
     EXPECT_EQ(a.nodeBlur, b.nodeBlur);
-    EXPECT_EQ(a.cocTolerance, b.cocTolerance);
-    EXPECT_EQ(a.samples, b.samples);
-    EXPECT_EQ(a.sequence, b.sequence);
-    EXPECT_EQ(a.seed, b.seed);
-    EXPECT_EQ(a.lod, b.lod);
-    EXPECT_EQ(a.metric, b.metric);
-    EXPECT_EQ(a.lodCocAtCentre, b.lodCocAtCentre);
-    EXPECT_EQ(a.blurThreshold, b.blurThreshold);
-    EXPECT_EQ(a.sizeThreshold, b.sizeThreshold);
-    EXPECT_EQ(a.keepAll, b.keepAll);
+    EXPECT_EQ(a.settings.cocTolerance, b.settings.cocTolerance);
+    EXPECT_EQ(a.settings.sampleCount, b.settings.sampleCount);
+    EXPECT_EQ(a.settings.sequence, b.settings.sequence);
+    EXPECT_EQ(a.settings.seed, b.settings.seed);
+    EXPECT_EQ(a.settings.lod, b.settings.lod);
+    EXPECT_EQ(a.settings.metric, b.settings.metric);
+    EXPECT_EQ(a.settings.lodCocAtCentre, b.settings.lodCocAtCentre);
+    EXPECT_EQ(a.settings.thresholds.blur, b.settings.thresholds.blur);
+    EXPECT_EQ(a.settings.thresholds.size, b.settings.thresholds.size);
+    EXPECT_EQ(a.settings.keepAll, b.settings.keepAll);
     EXPECT_EQ(path(a.cacheFolder), b.cacheFolder);
     EXPECT_EQ(a.noCache, b.noCache);
     EXPECT_EQ(chosenMethod(a).text(), chosenMethod(b).text());
@@ -199,7 +199,7 @@ void expectSameOptions(const SceneOptions& a, const SceneOptions& b) {
 TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
         Dice dice(seed);
-        const SceneOptions options = randomOptions(dice);
+        const Request options = randomOptions(dice);
         PreparedFrame frame;
         changeFields(frame.cameraLens, dice);
         View view;
@@ -214,32 +214,32 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         SCOPED_TRACE(command);
 
         const RenderArguments read = argumentsOf(command);
-        expectSameOptions(read.scene, options);
+        expectSameOptions(read.request, options);
         EXPECT_EQ(read.outputs, std::vector<std::filesystem::path>{"./-out.png"});
-        EXPECT_EQ(read.toneMap, write.toneMap);
+        EXPECT_EQ(read.request.toneMap, write.toneMap);
         Lens lens = frame.cameraLens;
-        EXPECT_TRUE(setLensFields(lens, read.scene.lens).empty());
-        EXPECT_DOUBLE_EQ(read.exposure.value_or(photographicExposure(lens)), write.exposure);
+        EXPECT_TRUE(setLensFields(lens, givenLensValues(read.request.lens)).empty());
+        EXPECT_DOUBLE_EQ(read.request.exposure.value_or(photographicExposure(lens)), write.exposure);
         if (!(view.lens.exposureTime > 0)) {  // what the exposure replaces
             lens.exposureTime = view.lens.exposureTime;
             lens.iso = view.lens.iso;
         }
         View again;
         again.lens = lens;
-        again.width = read.scene.width;
-        again.height = read.scene.height;
-        again.worldFromCamera =
-            glm::inverse(glm::lookAt(read.scene.cameraPosition.value(), read.scene.cameraTarget.value(),
-                                     read.scene.cameraUp.value_or(glm::dvec3(0, 1, 0))));
+        again.width = read.request.width;
+        again.height = read.request.height;
+        again.worldFromCamera = glm::inverse(glm::lookAt(asVector(read.request.cameraPosition.value()),
+                                                         asVector(read.request.cameraTarget.value()),
+                                                         asVector(read.request.cameraUp.value_or(Vector3{0, 1, 0}))));
         expectSameView(again, view);
     }
 }
 
 TEST(CaptureCommand, saysWhatNoShotFileSays) {
-    SceneOptions options;
-    options.apertureImage = "my star.png";
+    Request options;
+    options.lens.apertureImage = "my star.png";
     options.nodeBlur = {{"Fish 3", 0}};
-    options.samples = 9;  // the shot says it
+    options.settings.sampleCount = 9;  // the shot says it
     EXPECT_EQ(captureCommand("-a shot.json", options),
               "defocus capture './-a shot.json' --aperture-image 'my star.png' --node-blur 'Fish 3=0'");
     EXPECT_EQ(captureCommand("shot.json", {}), "defocus capture shot.json");

@@ -28,19 +28,19 @@ ShotKey keyAt(const glm::dvec3& position, double focus, double fStop) {
 }
 
 TEST(ViewShot, isReadBackAsItWasTaken) {
-    SceneOptions options;
-    options.path = "a scene.glb";
-    options.samples = 12;
+    Request options;
+    options.scene = "a scene.glb";
+    options.settings.sampleCount = 12;
     const std::vector<ShotKey> keys = {keyAt({0, 1, 5}, 2, 1.4), keyAt({3, 1, 4}, 4.5, 2.8)};
     const Shot shot = parseShot(shotJson({options, Lens{}, keys, 1, {ToneMap::agx, -1}}), "x.json");
-    EXPECT_EQ(shot.scene.filename(), "a scene.glb");
+    EXPECT_EQ(shot.request.scene.filename(), "a scene.glb");
     EXPECT_EQ(shot.range.first, 0);
     EXPECT_EQ(shot.range.last, framesBetweenKeys);
-    EXPECT_EQ(shot.samples, 12u);
-    EXPECT_EQ(shot.width, 320);
-    EXPECT_EQ(shot.toneMap, ToneMap::agx);
-    EXPECT_EQ(shot.exposure, -1);
-    const auto& camera = std::get<CameraKeys>(shot.camera.movement);
+    EXPECT_EQ(shot.request.settings.sampleCount, 12u);
+    EXPECT_EQ(shot.request.width, 320);
+    EXPECT_EQ(shot.request.toneMap, ToneMap::agx);
+    EXPECT_EQ(shot.request.exposure, -1);
+    const auto& camera = std::get<CameraKeys>(shot.movement);
     ASSERT_EQ(camera.positions.size(), 2u);
     EXPECT_EQ(std::get<glm::dvec3>(camera.positions[1].value), glm::dvec3(keys[1].view.worldFromCamera[3]));
     EXPECT_NEAR(glm::length(std::get<glm::dvec3>(camera.targets[1].value)), 0, 1e-12);
@@ -56,25 +56,25 @@ TEST(ViewShot, oneKeyOfTheSchoolIsAShotToo) {
     ShotKey key = keyAt({0, 0, 3}, 1e300, 2);
     key.view.lens.focusBreathing = true;
     key.view.lens.bladeCount = 7;
-    const SceneOptions options;
+    const Request options;
     const Shot shot = parseShot(shotJson({options, Lens{}, {key}, 1, {}}), "x.json");
-    EXPECT_TRUE(shot.scene.empty());
+    EXPECT_TRUE(shot.request.scene.empty());
     EXPECT_EQ(shot.range.last, 0);
     EXPECT_EQ(shot.lens.at("focusBreathing").keys[0].value, 1);
     EXPECT_EQ(shot.lens.at("bladeCount").keys[0].value, 7);
 }
 
 TEST(ViewShot, clipTimeSpeedAndShutterAreSaid) {
-    SceneOptions options;
+    Request options;
     options.clip = "Run";
     options.shutter = {.seconds = 0.02, .position = ShutterPosition::end, .motionSegments = 4};
     ShotKey key = keyAt({0, 0, 3}, 2, 2);
     key.time = 0.75;
     const Shot shot = parseShot(shotJson({options, Lens{}, {key}, 0.5, {}}), "x.json");
-    EXPECT_EQ(shot.animation.clip, "Run");
-    EXPECT_EQ(shot.animation.start, 0.75);
-    EXPECT_EQ(shot.animation.speed, 0.5);
-    EXPECT_EQ(shot.shutter, options.shutter);
+    EXPECT_EQ(shot.request.clip, "Run");
+    EXPECT_EQ(shot.request.time, 0.75);
+    EXPECT_EQ(shot.animationSpeed, 0.5);
+    EXPECT_EQ(shot.request.shutter, options.shutter);
 }
 
 // A camera that turns on through upside down is not sent back the long way.
@@ -84,9 +84,9 @@ TEST(ViewShot, rollGoesTheShortWay) {
     for (std::size_t i = 0; i < 3; ++i)
         keys[i].view.worldFromCamera =
             glm::rotate(keys[i].view.worldFromCamera, glm::radians(degrees[i]), glm::dvec3(0, 0, 1));
-    const SceneOptions options;
+    const Request options;
     const Shot shot = parseShot(shotJson({options, Lens{}, keys, 1, {}}), "x.json");
-    const auto& camera = std::get<CameraKeys>(shot.camera.movement);
+    const auto& camera = std::get<CameraKeys>(shot.movement);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(camera.rolls[i].value, degrees[i], 1e-9);
 }
 
@@ -99,8 +99,8 @@ Lens lensAtKey(const Shot& shot, std::size_t key, Lens lens) {
 }
 
 // What a shot file says of them.
-void expectSameOfShot(const SceneOptions& read, const SceneOptions& options) {
-    EXPECT_EQ(read.path.filename(), options.path);
+void expectSameOfShot(const Request& read, const Request& options) {
+    EXPECT_EQ(read.scene.filename(), options.scene);
     EXPECT_EQ(read.time, options.time);
     EXPECT_EQ(read.clip, options.clip);
     EXPECT_EQ(read.loop, options.loop);
@@ -108,13 +108,13 @@ void expectSameOfShot(const SceneOptions& read, const SceneOptions& options) {
     EXPECT_EQ(read.background, options.background);
     EXPECT_EQ(read.backgroundColor, options.backgroundColor);
     EXPECT_EQ(read.camera, options.camera);
-    EXPECT_EQ(read.samples, options.samples);
-    EXPECT_EQ(read.sequence, options.sequence);
-    EXPECT_EQ(read.seed, options.seed);
-    EXPECT_EQ(read.lod, options.lod);
-    EXPECT_EQ(read.metric, options.metric);
-    EXPECT_EQ(read.blurThreshold, options.blurThreshold);
-    EXPECT_EQ(read.sizeThreshold, options.sizeThreshold);
+    EXPECT_EQ(read.settings.sampleCount, options.settings.sampleCount);
+    EXPECT_EQ(read.settings.sequence, options.settings.sequence);
+    EXPECT_EQ(read.settings.seed, options.settings.seed);
+    EXPECT_EQ(read.settings.lod, options.settings.lod);
+    EXPECT_EQ(read.settings.metric, options.settings.metric);
+    EXPECT_EQ(read.settings.thresholds.blur, options.settings.thresholds.blur);
+    EXPECT_EQ(read.settings.thresholds.size, options.settings.thresholds.size);
     EXPECT_EQ(chosenMethod(read).text(), chosenMethod(options).text());
     EXPECT_EQ(read.layerFormat, options.layerFormat);
 }
@@ -123,7 +123,7 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
         SCOPED_TRACE(seed);
         Dice dice(seed);
-        SceneOptions options = randomOptions(dice);
+        Request options = randomOptions(dice);
         options.environment.clear();  // made absolute, as the scene is
         Lens cameraLens;
         changeFields(cameraLens, dice);
@@ -143,17 +143,17 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
         SCOPED_TRACE(text);
 
         const Shot shot = parseShot(text, "x.json");
-        SceneOptions read;
+        Request read;
         applyShot(shot, read);
         expectSameOfShot(read, options);
         EXPECT_EQ(read.width, keys.back().view.width);
         EXPECT_EQ(read.height, keys.back().view.height);
-        EXPECT_EQ(shot.toneMap, write.toneMap);
+        EXPECT_EQ(shot.request.toneMap, write.toneMap);
         const bool ofLens =
             std::ranges::any_of(keys, [](const ShotKey& key) { return key.view.lens.exposureTime > 0; });
-        EXPECT_EQ(shot.exposure.has_value() && ofLens, false);
-        EXPECT_EQ(ofLens ? write.exposure : shot.exposure.value_or(0), write.exposure);
-        const auto& camera = std::get<CameraKeys>(shot.camera.movement);
+        EXPECT_EQ(shot.request.exposure.has_value() && ofLens, false);
+        EXPECT_EQ(ofLens ? write.exposure : shot.request.exposure.value_or(0), write.exposure);
+        const auto& camera = std::get<CameraKeys>(shot.movement);
         for (std::size_t i = 0; i < keys.size(); ++i) {
             const Lens again = lensAtKey(shot, i, cameraLens);
             for (const LensField& field : lensFields()) {

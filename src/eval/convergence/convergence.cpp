@@ -70,15 +70,13 @@ std::vector<ConvergenceCase> casesOf(const MethodUse& use, std::uint32_t samples
         }
         for (const LodMetric metric : options.metrics)
             for (const double factor : options.thresholdFactors) {
-                LodThresholds thresholds = defaultThresholds(metric, samples);
-                thresholds.blur *= factor;
-                thresholds.size *= factor;
+                const LodThresholds standard = defaultThresholds(metric, samples);
                 ConvergenceCase levels = fullDetailCase(use, samples, options.plan);
                 levels.setting = settingOf(use, fmt::format("lod={} metric={} thresholds={:g}", lodModeName(mode),
                                                             metricName(metric), factor));
                 levels.plan.lod = mode;
                 levels.plan.metric = metric;
-                levels.plan.thresholds = thresholds;
+                levels.plan.thresholds = {factor * standard.blur, factor * standard.size};
                 cases.push_back(std::move(levels));
             }
     }

@@ -27,7 +27,6 @@ RenderSettings settingsOf(const PoppingOptions& options, std::uint32_t samples, 
     RenderSettings settings = options.plan;
     settings.sampleCount = samples;
     settings.lod = mode;
-    settings.thresholds = defaultThresholds(settings.metric, samples);
     return settings;
 }
 

@@ -30,7 +30,6 @@ FramePlan planOf(const ScalingWorld& world, const ScalingPoint& point, LodMode m
     RenderSettings settings;
     settings.sampleCount = point.samples;
     settings.lod = mode;
-    settings.thresholds = defaultThresholds(settings.metric, point.samples);
     return planFrame(world.world, view, settings);
 }
 

@@ -35,12 +35,9 @@ std::vector<Setting> settingsOf(const View& view, const SpeedupOptions& options)
 }
 
 FramePlan planOf(const World& world, const Setting& setting, LodMode mode, const SpeedupOptions& options) {
-    RenderSettings settings;
+    RenderSettings settings = options.plan;
     settings.sampleCount = setting.samples;
-    settings.sequence = options.sequence;
     settings.lod = mode;
-    settings.metric = options.metric;
-    settings.thresholds = defaultThresholds(options.metric, setting.samples);
     return planFrame(world, setting.view, settings);
 }
 

@@ -27,9 +27,8 @@ struct SpeedupOptions {
     // Of a converged reference (reference_image.h) for each lens. None: eight times the most that are measured with the
     // lens, which takes about two thirds of the time of three runs of all modes. 0: no reference.
     std::optional<std::uint32_t> referenceSamples;
-    double pyramidMilliseconds = 0;      // what the world's pyramids took
-    LodMetric metric = LodMetric::size;  // thresholds are the defaults for each number of samples
-    Sequence sequence = RenderSettings{}.sequence;
+    double pyramidMilliseconds = 0;  // what the world's pyramids took
+    RenderSettings plan;             // of all that is measured, but samples and mode
     RendererOptions renderer;
 };
 

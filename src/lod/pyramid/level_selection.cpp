@@ -49,6 +49,11 @@ LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
     return {reference.blur * std::min(factor, largestFactor), reference.size * std::min(factor, 1.0)};
 }
 
+LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount) {
+    const LodThresholds standard = defaultThresholds(metric, sampleCount);
+    return {given.blur.value_or(standard.blur), given.size.value_or(standard.size)};
+}
+
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds) {
     if (!std::isfinite(query.pixelsPerUnit) || query.pixelsPerUnit < 0 || pyramid.levels.empty()) return 0;

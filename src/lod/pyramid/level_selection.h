@@ -4,28 +4,20 @@
 
 #include <cstdint>
 
+#include "defocus/settings.h"
 #include "lod/pyramid/pyramid.h"
 
 namespace defocus {
 
-enum class LodMode {
-    fractional,  // samples split between ⌊λ⌋ and ⌊λ⌋ + 1
-    continuous,  // the same, and the sample at the boundary is split over its pixels
-    nearest,     // every sample draws round(λ)
-    off,         // full detail
-};
-
 const char* lodModeName(LodMode mode);  // as the command line has it
-
-enum class LodMetric {
-    size,   // target edge length in px
-    error,  // target deviation in px
-};
 
 struct LodThresholds {
     double blur = 0;  // kBlur: target px per px of CoC
     double size = 0;  // kSize: least target in px
 };
+
+// What is given, the rest by defaultThresholds.
+LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount);
 
 // Defaults that follow the number of samples N: (64/N)^(2/3) times the thresholds at N = 64, for `blur` at most twice
 // those (N ≤ 22), for `size` no more than those: few samples don't blur what is in focus. At N = 64 they are as coarse

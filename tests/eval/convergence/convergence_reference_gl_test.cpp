@@ -128,7 +128,7 @@ TEST_F(ConvergenceReference, isRenderedAnewWhereTheFileIsDamaged) {
 TEST_F(ConvergenceReference, isRenderedAnewWhereItsPixelsWereChanged) {
     const ReferenceImage first = reference();
     Metadata metadata;
-    Image image = readImage(folder_ / "reference.exr", &metadata);
+    Image image = readImage(folder_ / "reference.exr", metadata);
     image.pixels[100] += 0.25f;
     writeImage(folder_ / "reference.exr", image, metadata);
     const ReferenceImage anew = reference();

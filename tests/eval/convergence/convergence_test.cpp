@@ -295,8 +295,8 @@ TEST(ConvergenceCases, thresholdsAreTimesTheStandardOnes) {
     options.methods = {parseMethodUse("accumulation")};
     const ConvergenceCase levels = convergenceCases(options).at(1);
     const LodThresholds standard = defaultThresholds(LodMetric::size, 64);
-    EXPECT_DOUBLE_EQ(levels.plan.thresholds.blur, 3 * standard.blur);
-    EXPECT_DOUBLE_EQ(levels.plan.thresholds.size, 3 * standard.size);
+    EXPECT_DOUBLE_EQ(levels.plan.thresholds.blur.value(), 3 * standard.blur);
+    EXPECT_DOUBLE_EQ(levels.plan.thresholds.size.value(), 3 * standard.size);
     EXPECT_TRUE(levels.usesLevels());
 }
 

@@ -1,12 +1,12 @@
-#include "frame/scene_options.h"
+#include "frame/request.h"
 
 #include "core/error.h"
 
 namespace defocus {
 
-MethodUse chosenMethod(const SceneOptions& options) try {
-    MethodUse use = parseMethodUse(options.method);
-    for (const auto& [name, value] : options.methodSettings) use.settings[name] = value;
+MethodUse chosenMethod(const Request& request) try {
+    MethodUse use = parseMethodUse(request.method);
+    for (const auto& [name, value] : request.methodSettings) use.settings[name] = value;
     use.settings = completeSettings(use.method->name, use.method->settings, use.settings);
     return use;
 } catch (const Error& error) {

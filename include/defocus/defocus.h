@@ -1,0 +1,15 @@
+#pragma once
+// All of the library: scene, camera and lens, request, renderer, image, error.
+//
+//   defocus::Request request;
+//   request.scene = "scene.glb";
+//   request.lens.fStop = 1.4;
+//   defocus::writeImage("out.exr", defocus::render(request));
+
+#include "defocus/error.h"     // IWYU pragma: export
+#include "defocus/image.h"     // IWYU pragma: export
+#include "defocus/lens.h"      // IWYU pragma: export
+#include "defocus/renderer.h"  // IWYU pragma: export
+#include "defocus/request.h"   // IWYU pragma: export
+#include "defocus/scene.h"     // IWYU pragma: export
+#include "defocus/settings.h"  // IWYU pragma: export

@@ -1,0 +1,74 @@
+#pragma once
+// What is asked for: a scene, a camera with its lens, a moment, samples, levels of detail, a method. A default-made
+// request renders what `defocus render` renders without options. Angles are degrees, lengths metres unless they say
+// otherwise; colours are linear Rec.709. docs/settings.md lists each setting's range.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "defocus/image.h"
+#include "defocus/lens.h"
+#include "defocus/settings.h"
+
+namespace defocus {
+
+using Vector3 = std::array<double, 3>;
+
+// What lies around the scene.
+enum class Background {
+    environment,  // the environment map, the file's own, or a gradient sky
+    none,         // a transparent image: alpha is the coverage of the geometry
+    uniform,      // Request::backgroundColor
+};
+
+struct Request {
+    // Scene. Without a path: the built-in school of fish.
+    std::filesystem::path scene;        // .gltf or .glb
+    int fishCount = 20;                 // of the school, 1 … 10,000
+    int trianglesPerFish = 90'000;      // about
+    double time = 0;                    // s into the animation
+    std::string clip;                   // the animation's name or number; empty: the first
+    bool loop = false;                  // the animation repeats instead of holding its ends
+    ShutterSettings shutter;            // motion blur
+    std::filesystem::path environment;  // equirectangular .hdr or .exr; empty: see Background
+    Background background = Background::environment;
+    std::array<float, 3> backgroundColor{};
+
+    // Camera and image.
+    std::string camera;                     // a name; empty: the file's first; "auto": one that frames the scene
+    std::optional<Vector3> cameraPosition;  // each replaces that of the camera
+    std::optional<Vector3> cameraTarget;    // a point that it looks at
+    std::optional<Vector3> cameraUp;        // a direction
+    int width = 1024;                       // px
+    int height = 768;
+
+    // Lens, and where it is focused: at most one of lens.focusDistance and these four. Without any, the camera's own
+    // distance, else the depth of the scene's centre.
+    LensSettings lens;
+    std::string focusNode;                            // the centre of this node
+    std::optional<Pixel> focusPixel;                  // what is seen there
+    std::optional<std::array<Pixel, 3>> focusPoints;  // the focus plane goes through what three pixels show
+    bool focusAuto = false;                           // the median depth of what the image's middle shows
+    std::map<std::string, double> nodeBlur;  // by node: scale of the blur of all below it, ≥ 0; 0 keeps it sharp
+
+    // Samples and levels of detail.
+    RenderSettings settings;
+    std::filesystem::path cacheFolder;  // of pyramids; empty: $XDG_CACHE_HOME/defocus or ~/.cache/defocus
+    bool noCache = false;               // simplify anew and store nothing
+
+    // Method.
+    std::string method = "accumulation";  // its name, or with settings: "circular:far-components=5,resolution=half"
+    std::map<std::string, std::string> methodSettings;  // by their names, beyond those in `method`
+    LayerFormat layerFormat = LayerFormat::automatic;
+    std::uint32_t wave = 0;  // lens samples drawn at once, 1 … 64 (the same image); 0: as memory allows
+
+    // Display: how PNG and JPEG are made of the linear image.
+    ToneMap toneMap = ToneMap::none;
+    std::optional<double> exposure;  // EV; none: what the lens's exposure time makes, else 0
+};
+
+}  // namespace defocus

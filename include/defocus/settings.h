@@ -1,0 +1,77 @@
+#pragma once
+// How an image is made of samples and levels of detail. docs/settings.md lists every setting with its range; the
+// defaults are those of `defocus render`.
+
+#include <cstdint>
+#include <optional>
+
+namespace defocus {
+
+inline constexpr std::uint32_t mostSamples = 65'536;  // lens samples of a frame
+inline constexpr int mostPixels = 16'384;             // of an image's width and of its height
+
+// Where the lens samples lie on the lens, in the pixel and in the exposure. All are infinite, with well spread
+// prefixes.
+enum class Sequence {
+    halton,           // bases 2, 3 on the lens, 5, 7 in the pixel, as Jeong, Kim and Lee have it; 11 and 13 after them
+    scrambledHalton,  // the same with its digits permuted at random, each by those before it
+    sobol,            // six dimensions, Owen-scrambled: a net on the lens
+    r2,               // additive recurrence by powers of the plastic number
+};
+
+// Coarser meshes for objects whose blur or size hides the difference (Jeong, Kim and Lee 2011).
+enum class LodMode {
+    fractional,  // samples split between ⌊λ⌋ and ⌊λ⌋ + 1
+    continuous,  // the same, and the sample at the boundary is split over its pixels
+    nearest,     // every sample draws round(λ)
+    off,         // full detail
+};
+
+// What levels are chosen by.
+enum class LodMetric {
+    size,   // target edge length in px
+    error,  // target deviation in px
+};
+
+// The target is max(blur · c, size) px for a circle of confusion of c px. What isn't given follows the number of
+// samples, so that long renders converge to full detail.
+struct GivenThresholds {
+    std::optional<double> blur;  // px a px of blur, ≥ 0
+    std::optional<double> size;  // px, ≥ 0
+};
+
+struct RenderSettings {
+    std::uint32_t sampleCount = 64;  // lens samples, 1 … mostSamples
+    Sequence sequence = Sequence::sobol;
+    std::uint32_t seed = 0;         // picks another set of sample points
+    std::uint32_t firstSample = 0;  // offset into the sequence (a reference takes its own)
+    LodMode lod = LodMode::fractional;
+    LodMetric metric = LodMetric::size;
+    bool lodCocAtCentre = false;  // c at the box's centre (the paper) instead of the smallest over the box
+    GivenThresholds thresholds;
+    double cocTolerance = 0.5;  // px by which C may differ from its interpolation inside a triangle, > 0
+    bool keepAll = false;       // leave nothing out: the image must be the same
+};
+
+// Where the frame's time lies in the exposure.
+enum class ShutterPosition { start, centre, end };
+
+// How long the shutter is open, and how what moves meanwhile is followed.
+struct ShutterSettings {
+    double seconds = 0;  // that the shutter stays open; 0: everything stands still
+    ShutterPosition position = ShutterPosition::centre;
+    std::uint32_t motionSegments = 1;  // straight lines that a vertex's way is cut into, 1 … 64
+    bool exactMotion = false;          // a pose of its own for each sample instead
+    bool operator==(const ShutterSettings&) const = default;
+};
+
+// Pixels of the layer that a lens sample is drawn into.
+enum class LayerFormat {
+    automatic,  // rgba16f, or rgba32f where the scene's radiance may exceed 6e4
+    rgba16f,    // half floats: 2⁻¹¹ relative error a sample
+    rgba32f,    // references
+    rgb9e5,     // 32 bits with a shared exponent, dithered over the samples: half the memory; opaque scenes only
+    rgba8,      // clips at 1: a bound for the table of formats, not for pictures
+};
+
+}  // namespace defocus

@@ -1,0 +1,25 @@
+#pragma once
+// The request of the public API, with what the library's own rooms need to read it.
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "defocus/request.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+inline glm::dvec3 asVector(const Vector3& v) {
+    return {v[0], v[1], v[2]};
+}
+inline Vector3 asArray(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+inline glm::ivec2 asVector(const Pixel& pixel) {
+    return {pixel.column, pixel.row};
+}
+
+// The method with its settings. Throws UsageError for settings that it doesn't take.
+MethodUse chosenMethod(const Request& request);
+
+}  // namespace defocus

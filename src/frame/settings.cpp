@@ -1,0 +1,628 @@
+#include "frame/settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "core/error.h"
+#include "core/parse.h"
+#include "core/suggestion.h"
+#include "image/tone_map.h"
+#include "lens/lens_fields.h"
+#include "lod/pyramid/level_selection.h"
+
+namespace defocus {
+
+namespace {
+
+// ---- kinds of rows: each takes a member, as a function from a request, const or not, to the value ----------------
+
+template <typename Value>
+struct IsOptional : std::false_type {};
+template <typename Value>
+struct IsOptional<std::optional<Value>> : std::true_type {};
+
+// The value of a member; none for an optional that holds nothing.
+template <typename Member>
+auto valueOf(const Request& request, Member member) {
+    const auto& value = member(request);
+    if constexpr (IsOptional<std::decay_t<decltype(value)>>::value)
+        return value;
+    else
+        return std::optional(value);
+}
+
+// Takes a member back to what a default-made request has.
+template <typename Member>
+auto clearing(Member member) {
+    return [=](Request& request) {
+        const Request standard;
+        member(request) = member(standard);
+    };
+}
+
+Setting row(SettingKind kind, std::string name, std::string option, std::string metavar, std::string help) {
+    Setting setting;
+    setting.kind = kind;
+    setting.name = std::move(name);
+    setting.option = std::move(option);
+    setting.metavar = std::move(metavar);
+    setting.help = std::move(help);
+    return setting;
+}
+
+template <typename Member>
+Setting number(std::string name, std::string option, std::string metavar, double least, double most, Member member,
+               std::string help) {
+    Setting setting = row(SettingKind::number, std::move(name), std::move(option), std::move(metavar), std::move(help));
+    setting.least = least;
+    setting.most = most;
+    setting.set = [=](Request& request, const std::string& text) {
+        member(request) = parseNumber(text, {least, most});
+    };
+    setting.clear = clearing(member);
+    setting.text = [=](const Request& request) -> std::optional<std::string> {
+        const std::optional<double> value = valueOf(request, member);
+        return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
+    };
+    return setting;
+}
+
+template <typename Member>
+Setting whole(std::string name, std::string option, std::uint64_t least, std::uint64_t most, Member member,
+              std::string help) {
+    Setting setting = row(SettingKind::whole, std::move(name), std::move(option), "N", std::move(help));
+    setting.least = static_cast<double>(least);
+    setting.most = static_cast<double>(most);
+    setting.set = [=](Request& request, const std::string& text) {
+        auto& value = member(request);
+        value = static_cast<std::decay_t<decltype(value)>>(parseWhole(text, least, most));
+    };
+    setting.clear = clearing(member);
+    setting.text = [=](const Request& request) { return std::optional(fmt::format("{}", member(request))); };
+    return setting;
+}
+
+bool parseTruth(const std::string& text) {
+    return parseChoice(text, {"false", "true"}) == 1;
+}
+
+template <typename Member>
+Setting truth(std::string name, std::string option, Member member, std::string help) {
+    Setting setting = row(SettingKind::truth, std::move(name), std::move(option), "", std::move(help));
+    setting.set = [=](Request& request, const std::string& text) { member(request) = parseTruth(text); };
+    setting.clear = clearing(member);
+    setting.text = [=](const Request& request) {
+        return std::optional<std::string>(member(request) ? "true" : "false");
+    };
+    return setting;
+}
+
+template <typename Value, typename Member>
+Setting choice(std::string name, std::string option, std::vector<std::pair<std::string, Value>> choices, Member member,
+               std::string help) {
+    std::vector<std::string> names;
+    for (const auto& [text, value] : choices) names.push_back(text);
+    Setting setting = row(SettingKind::choice, std::move(name), std::move(option),
+                          fmt::format("{}", fmt::join(names, "|")), std::move(help));
+    setting.choices = names;
+    setting.set = [=](Request& request, const std::string& text) {
+        member(request) = choices[parseChoice(text, names)].second;
+    };
+    setting.clear = clearing(member);
+    setting.text = [=](const Request& request) -> std::optional<std::string> {
+        const auto found = std::ranges::find(choices, member(request), &std::pair<std::string, Value>::second);
+        return found == choices.end() ? std::nullopt : std::optional(found->first);
+    };
+    return setting;
+}
+
+template <typename Member>
+Setting text(std::string name, std::string option, std::string metavar, Member member, std::string help) {
+    Setting setting = row(SettingKind::text, std::move(name), std::move(option), std::move(metavar), std::move(help));
+    setting.set = [=](Request& request, const std::string& given) { member(request) = given; };
+    setting.clear = clearing(member);
+    setting.text = [=](const Request& request) {
+        return member(request).empty() ? std::nullopt : std::optional<std::string>(member(request));
+    };
+    return setting;
+}
+
+template <typename Member>
+Setting path(std::string name, std::string option, std::string metavar, Member member, std::string help) {
+    Setting setting = row(SettingKind::path, std::move(name), std::move(option), std::move(metavar), std::move(help));
+    setting.set = [=](Request& request, const std::string& given) { member(request) = given; };
+    setting.clear = clearing(member);
+    setting.text = [=](const Request& request) {
+        return member(request).empty() ? std::nullopt : std::optional(member(request).string());
+    };
+    return setting;
+}
+
+template <typename Set, typename Text>
+Setting other(std::string name, std::string option, std::string metavar, Set set, Text text, std::string help) {
+    Setting setting = row(SettingKind::other, std::move(name), std::move(option), std::move(metavar), std::move(help));
+    setting.set = set;
+    setting.text = text;
+    setting.clear = [=](Request& request) {
+        if (const std::optional<std::string> standard = text(Request{})) set(request, *standard);
+    };
+    return setting;
+}
+
+// What a member of Request is called in the rows below.
+#define MEMBER(path)             \
+    [](auto& request) -> auto& { \
+        return request.path;     \
+    }
+
+// ---- values with a form of their own ------------------------------------------------------------------------------
+
+void setShutter(Request& request, const std::string& text) {
+    request.shutter.seconds = parseSeconds(text);
+}
+
+void setSegments(Request& request, const std::string& text) {
+    constexpr std::uint64_t mostSegments = 64;
+    request.shutter.exactMotion = text == "exact";
+    if (!request.shutter.exactMotion)
+        request.shutter.motionSegments = static_cast<std::uint32_t>(parseWhole(text, 1, mostSegments));
+}
+
+std::optional<std::string> segmentsText(const Request& request) {
+    return request.shutter.exactMotion ? "exact" : fmt::format("{}", request.shutter.motionSegments);
+}
+
+void setBackground(Request& request, const std::string& text) {
+    if (text.find(',') != std::string::npos) {
+        const std::vector<double> color = parseNumbers(text, 3, {0, 1e9});
+        request.background = Background::uniform;
+        for (std::size_t i = 0; i < 3; ++i) request.backgroundColor[i] = static_cast<float>(color[i]);
+        return;
+    }
+    const std::size_t chosen = parseChoice(text, {"environment", "none", "R,G,B"});
+    if (chosen > 1) fail("give three numbers for R,G,B, such as 0.2,0.2,0.2");
+    request.background = chosen == 0 ? Background::environment : Background::none;
+}
+
+std::optional<std::string> backgroundText(const Request& request) {
+    if (request.background == Background::uniform) return fmt::format("{}", fmt::join(request.backgroundColor, ","));
+    return request.background == Background::none ? "none" : "environment";
+}
+
+template <typename Member>
+Setting point(std::string name, std::string option, Member member, std::string help) {
+    return other(
+        std::move(name), std::move(option), "X,Y,Z",
+        [=](Request& request, const std::string& text) {
+            const std::vector<double> xyz = parseNumbers(text, 3, {-1e12, 1e12});
+            member(request) = Vector3{xyz[0], xyz[1], xyz[2]};
+        },
+        [=](const Request& request) -> std::optional<std::string> {
+            if (!member(request)) return std::nullopt;
+            return fmt::format("{}", fmt::join(*member(request), ","));
+        },
+        std::move(help));
+}
+
+void setSize(Request& request, const std::string& text) {
+    const std::size_t cross = text.find_first_of("xX");
+    if (cross == std::string::npos) fail("'{}' is not WIDTHxHEIGHT, such as 1024x768", text);
+    try {
+        request.width = static_cast<int>(parseWhole(text.substr(0, cross), 1, mostPixels));
+        request.height = static_cast<int>(parseWhole(text.substr(cross + 1), 1, mostPixels));
+    } catch (const Error&) {
+        fail("'{}': width and height must be whole numbers from 1 to {}, such as 1024x768", text, mostPixels);
+    }
+}
+
+void setFocusPixel(Request& request, const std::string& text) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos) fail("'{}' is not X,Y (column and row, 0,0 at the top left)", text);
+    request.focusPixel = Pixel{static_cast<int>(parseWhole(text.substr(0, comma), 0, mostPixels - 1)),
+                               static_cast<int>(parseWhole(text.substr(comma + 1), 0, mostPixels - 1))};
+}
+
+std::optional<std::string> focusPixelText(const Request& request) {
+    if (!request.focusPixel) return std::nullopt;
+    return fmt::format("{},{}", request.focusPixel->column, request.focusPixel->row);
+}
+
+void setFocusPoints(Request& request, const std::string& text) {
+    const std::vector<double> numbers = parseNumbers(text, 6, {0, mostPixels - 1});
+    std::array<Pixel, 3>& points = request.focusPoints.emplace();
+    for (std::size_t i = 0; i < 3; ++i)
+        points[i] = {static_cast<int>(numbers[2 * i]), static_cast<int>(numbers[2 * i + 1])};
+}
+
+std::optional<std::string> focusPointsText(const Request& request) {
+    if (!request.focusPoints) return std::nullopt;
+    std::vector<int> numbers;
+    for (const Pixel& point : *request.focusPoints) numbers.insert(numbers.end(), {point.column, point.row});
+    return fmt::format("{}", fmt::join(numbers, ","));
+}
+
+// A name may hold an equals sign.
+void addNodeBlur(Request& request, const std::string& text) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0) fail("'{}' is not NAME=SCALE, such as Fish3=0", text);
+    request.nodeBlur[text.substr(0, equals)] = parseNumber(text.substr(equals + 1), {0, 1e3});
+}
+
+std::vector<std::string> nodeBlurTexts(const Request& request) {
+    std::vector<std::string> texts;
+    for (const auto& [name, scale] : request.nodeBlur) texts.push_back(fmt::format("{}={}", name, scale));
+    return texts;
+}
+
+void setMethod(Request& request, const std::string& text) {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    static_cast<void>(parseChoice(text.substr(0, text.find(':')), names));
+    request.method = parseMethodUse(text).text();
+}
+
+// ---- the lens -------------------------------------------------------------------------------------------------------
+
+std::string unitOf(std::string_view metavar) {
+    if (metavar == "MM") return "mm";
+    if (metavar == "M") return "m";
+    if (metavar == "DEG") return "degrees";
+    if (metavar == "PX") return "px";
+    if (metavar == "D") return "dioptres";
+    if (metavar == "S") return "s";
+    return "";
+}
+
+double parseLensValue(const LensField& field, const std::string& text) {
+    if (std::holds_alternative<bool Lens::*>(field.member)) return parseTruth(text) ? 1 : 0;
+    if (std::holds_alternative<int Lens::*>(field.member))
+        return static_cast<double>(
+            parseWhole(text, static_cast<std::uint64_t>(field.least), static_cast<std::uint64_t>(field.most)));
+    if (std::string_view(field.unit) == "S") return parseSeconds(text);
+    return parseNumber(text, {field.least, field.most});
+}
+
+Setting lensSetting(const LensField& field) {
+    const SettingKind kind = std::holds_alternative<bool Lens::*>(field.member)  ? SettingKind::truth
+                             : std::holds_alternative<int Lens::*>(field.member) ? SettingKind::whole
+                                                                                 : SettingKind::number;
+    Setting setting = row(kind, field.name, field.option, field.unit, field.description);
+    setting.unit = unitOf(field.unit);
+    setting.least = field.least;
+    setting.most = field.most;
+    setting.shotPlace = fmt::format("/lens/{}", field.name);
+    setting.keyed = true;
+    setting.lensField = true;
+    setting.clear = [&field](Request& request) { giveLensValue(request.lens, field, std::nullopt); };
+    setting.set = [&field](Request& request, const std::string& text) {
+        giveLensValue(request.lens, field, parseLensValue(field, text));
+    };
+    setting.text = [&field, kind](const Request& request) -> std::optional<std::string> {
+        const std::optional<double> value = givenLensValue(request.lens, field);
+        if (!value) return std::nullopt;
+        if (kind == SettingKind::truth) return *value != 0 ? "true" : "false";
+        return fmt::format("{}", std::min(*value, field.most));
+    };
+    return setting;
+}
+
+// ---- the rows -------------------------------------------------------------------------------------------------------
+
+using Rows = std::vector<Setting>;
+
+Setting inShot(Setting setting, std::string place) {
+    setting.shotPlace = std::move(place);
+    return setting;
+}
+
+Setting withUnit(Setting setting, std::string unit) {
+    setting.unit = std::move(unit);
+    return setting;
+}
+
+void add(Rows& rows, SettingGroup group, Rows more) {
+    for (Setting& setting : more) {
+        setting.group = group;
+        rows.push_back(std::move(setting));
+    }
+}
+
+Rows sceneRows() {
+    return {
+        inShot(path("scene", "SCENE", "FILE", MEMBER(scene),
+                    "glTF file (.gltf, .glb); without one, the built-in school of fish"),
+               "/scene"),
+        inShot(whole("fishCount", "--fish", 1, 10'000, MEMBER(fishCount), "Number of fish in the built-in school"),
+               "/fish/count"),
+        inShot(whole("trianglesPerFish", "--fish-triangles", 200, 10'000'000, MEMBER(trianglesPerFish),
+                     "Triangles a fish, about"),
+               "/fish/triangles"),
+        withUnit(inShot(number("time", "--time", "S", -1e9, 1e9, MEMBER(time),
+                               "Seconds into the animation; before and after it, its ends"),
+                        "/animation/start"),
+                 "s"),
+        inShot(text("clip", "--clip", "NAME|N", MEMBER(clip),
+                    "Which of the file's animations plays: its name or number (see 'defocus info'); without it, the "
+                    "first"),
+               "/animation/clip"),
+        inShot(truth("loop", "--loop", MEMBER(loop), "Repeat the animation instead of holding its ends"),
+               "/animation/loop"),
+        withUnit(inShot(other(
+                            "shutter", "--shutter", "S", setShutter,
+                            [](const Request& request) -> std::optional<std::string> {
+                                return fmt::format("{}", request.shutter.seconds);
+                            },
+                            "Seconds that the shutter stays open, as 0.02 or 1/48 (half of a frame of 24 a second): "
+                            "what the animation moves meanwhile is blurred; without it, one moment"),
+                        "/shutter/seconds"),
+                 "s"),
+        inShot(
+            choice<ShutterPosition>(
+                "shutterPosition", "--shutter-position",
+                {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
+                MEMBER(shutter.position), "Where --time lies in the exposure"),
+            "/shutter/position"),
+        inShot(other("motionSegments", "--motion-segments", "N|exact", setSegments, segmentsText,
+                     "Straight lines that a vertex's way is cut into while the shutter is open (1 to 64), or 'exact' "
+                     "for a pose of its own for each sample"),
+               "/shutter/segments"),
+        inShot(path("environment", "--environment", "FILE", MEMBER(environment),
+                    "Equirectangular image that lies behind the scene and lights it (.hdr or .exr)"),
+               "/environment"),
+        inShot(
+            other("background", "--background", "WHAT", setBackground, backgroundText,
+                  "'environment' (the default), 'none' for a transparent image, or R,G,B (linear) for one colour all "
+                  "around"),
+            "/background"),
+    };
+}
+
+Rows cameraRows() {
+    return {
+        inShot(text("camera", "--camera", "NAME", MEMBER(camera),
+                    "Name of a camera of the file, or 'auto' for one that frames the scene; without it, the first"),
+               "/camera/name"),
+        withUnit(point("cameraPosition", "--camera-position", MEMBER(cameraPosition),
+                       "Moves the camera there (m); lights stay as for the camera"),
+                 "m"),
+        withUnit(point("cameraTarget", "--camera-target", MEMBER(cameraTarget),
+                       "Turns the camera towards this point, upright"),
+                 "m"),
+        point("cameraUp", "--camera-up", MEMBER(cameraUp), "What is up in the image, as a direction"),
+        withUnit(inShot(other(
+                            "size", "--size", "WxH", setSize,
+                            [](const Request& request) -> std::optional<std::string> {
+                                return fmt::format("{}x{}", request.width, request.height);
+                            },
+                            "Image size in pixels"),
+                        "/size"),
+                 "px"),
+    };
+}
+
+Rows focusRows() {
+    return {
+        text("focusNode", "--focus-node", "NAME", MEMBER(focusNode),
+             "Focus on the centre of this node (its mesh's box, or its origin)"),
+        other("focusPixel", "--focus-pixel", "X,Y", setFocusPixel, focusPixelText,
+              "Focus on the surface seen at this pixel (0,0 is the top left one)"),
+        other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
+              "Tilt the focus plane so that it goes through what three pixels show"),
+        truth("focusAuto", "--focus-auto", MEMBER(focusAuto),
+              "Focus on the median depth of what the image's middle shows"),
+    };
+}
+
+Rows lensRows() {
+    Rows rows;
+    for (const LensField& field : lensFields()) {
+        rows.push_back(lensSetting(field));
+        if (rows.back().name == "focusDistance") std::ranges::move(focusRows(), std::back_inserter(rows));
+    }
+    Setting nodeBlur = other(
+        "nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur,
+        [](const Request& request) -> std::optional<std::string> {
+            return request.nodeBlur.empty() ? std::nullopt
+                                            : std::optional(fmt::format("{}", fmt::join(nodeBlurTexts(request), ",")));
+        },
+        "Scale the blur of a node and all below it; 0 keeps it sharp. Can be given several times");
+    nodeBlur.repeated = true;
+    nodeBlur.texts = nodeBlurTexts;
+    rows.push_back(std::move(nodeBlur));
+    rows.push_back(path("apertureImage", "--aperture-image", "FILE", MEMBER(lens.apertureImage),
+                        "Image of the aperture, in place of blades and rings: light passes where it is bright; its "
+                        "longer side spans the lens"));
+    return rows;
+}
+
+Rows sampleRows() {
+    std::vector<std::pair<std::string, Sequence>> sequences;
+    for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence), sequence);
+    std::vector<std::pair<std::string, LodMode>> modes;
+    for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off})
+        modes.emplace_back(lodModeName(mode), mode);
+    return {
+        inShot(whole("samples", "--samples", 1, mostSamples, MEMBER(settings.sampleCount), "Lens samples"), "/samples"),
+        inShot(choice<Sequence>("sequence", "--sequence", sequences, MEMBER(settings.sequence),
+                                "Where the samples lie on the lens and in the pixel; the paper has halton"),
+               "/sequence"),
+        inShot(whole("seed", "--seed", 0, std::numeric_limits<std::uint32_t>::max(), MEMBER(settings.seed),
+                     "Picks another set of sample points"),
+               "/seed"),
+        inShot(
+            choice<LodMode>("lod", "--lod", modes, MEMBER(settings.lod),
+                            "Coarser meshes for blurred objects: samples split between two levels, the same with one "
+                            "sample split over its pixels, one level, or full detail"),
+            "/lod"),
+        inShot(number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(settings.thresholds.blur),
+                      "Target in pixels per pixel of blur; without it, by the number of samples"),
+               "/blurThreshold"),
+        withUnit(inShot(number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(settings.thresholds.size),
+                               "Least target in pixels; without it, by the number of samples"),
+                        "/sizeThreshold"),
+                 "px"),
+        path("cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
+             "Where simplified meshes are kept; without it, $XDG_CACHE_HOME/defocus or ~/.cache/defocus"),
+        truth("noCache", "--no-cache", MEMBER(noCache), "Simplify the meshes anew and store nothing"),
+    };
+}
+
+Rows methodRows() {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    return {
+        inShot(other(
+                   "method", "--method", "NAME", setMethod,
+                   [](const Request& request) { return std::optional(chosenMethod(request).text()); },
+                   fmt::format("How the image is made: {}; also NAME:SETTING=VALUE,… with the method's settings",
+                               fmt::join(names, ", "))),
+               "/method"),
+        inShot(choice<LayerFormat>("layerFormat", "--layer-format",
+                                   {{"automatic", LayerFormat::automatic},
+                                    {"rgb9e5", LayerFormat::rgb9e5},
+                                    {"rgba16f", LayerFormat::rgba16f},
+                                    {"rgba32f", LayerFormat::rgba32f},
+                                    {"rgba8", LayerFormat::rgba8}},
+                                   MEMBER(layerFormat), "Pixels of a sample's layer; rgba32f for references"),
+               "/layerFormat"),
+    };
+}
+
+Rows displayRows() {
+    return {
+        inShot(choice<ToneMap>("toneMap", "--tonemap",
+                               {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
+                               MEMBER(toneMap), "Film curve of .png and .jpg"),
+               "/toneMap"),
+        withUnit(inShot(number("exposure", "--exposure", "EV", -60, 60, MEMBER(exposure),
+                               "Of .png and .jpg; without it, what --exposure-time, --iso and the f-number make, else "
+                               "0"),
+                        "/exposure"),
+                 "EV"),
+    };
+}
+
+// What only those need who measure or mend the program.
+Rows developerRows() {
+    return {
+        inShot(choice<LodMetric>("lodMetric", "--lod-metric", {{"size", LodMetric::size}, {"error", LodMetric::error}},
+                                 MEMBER(settings.metric),
+                                 "Levels are chosen by the projected size of their edges or of their error"),
+               "/lodMetric"),
+        choice<bool>("lodCoc", "--lod-coc", {{"smallest", false}, {"centre", true}}, MEMBER(settings.lodCocAtCentre),
+                     "The blur that an object may count on: the smallest over its box, or the one at its centre"),
+        withUnit(number("cocTolerance", "--coc-tolerance", "PX", 1e-3, 1e3, MEMBER(settings.cocTolerance),
+                        "By how much the blur inside a triangle may differ from what its corners give; larger ones are "
+                        "divided"),
+                 "px"),
+        truth("keepAll", "--keep-all", MEMBER(settings.keepAll),
+              "Leave out nothing, not even what cannot be seen (same image, slower)"),
+        whole("wave", "--wave", 0, 64, MEMBER(wave), "Samples drawn at once; 0: as memory allows (same image)"),
+    };
+}
+
+#undef MEMBER
+
+Rows allRows() {
+    Rows rows;
+    add(rows, SettingGroup::scene, sceneRows());
+    add(rows, SettingGroup::camera, cameraRows());
+    add(rows, SettingGroup::lens, lensRows());
+    add(rows, SettingGroup::samples, sampleRows());
+    add(rows, SettingGroup::method, methodRows());
+    add(rows, SettingGroup::display, displayRows());
+    add(rows, SettingGroup::developer, developerRows());
+    return rows;
+}
+
+// "farComponents" → "far-components"
+std::string dashed(std::string_view name) {
+    std::string text = snakeCase(name);
+    std::ranges::replace(text, '_', '-');
+    return text;
+}
+
+const MethodSetting* methodSettingNamed(std::string_view name) {
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings)
+            if (setting.name == name) return &setting;
+    return nullptr;
+}
+
+}  // namespace
+
+std::span<const Setting> settings() {
+    static const Rows rows = allRows();
+    return rows;
+}
+
+const Setting* settingNamed(std::string_view name) {
+    const auto found = std::ranges::find(settings(), name, &Setting::name);
+    return found == settings().end() ? nullptr : &*found;
+}
+
+void setByName(Request& request, std::string_view name, const std::string& text) {
+    if (const Setting* setting = settingNamed(name)) {
+        try {
+            return setting->set(request, text);
+        } catch (const Error& error) {
+            throw UsageError(fmt::format("{}: {}", name, error.what()));
+        }
+    }
+    if (const std::string dashes = dashed(name); methodSettingNamed(dashes) != nullptr) {
+        request.methodSettings[dashes] = text;
+        return;
+    }
+    std::vector<std::string> known;
+    for (const Setting& setting : settings()) known.push_back(setting.name);
+    const std::string nearest = nearestWord(std::string(name), known);
+    throw UsageError(nearest.empty() ? fmt::format("there is no setting '{}'", name)
+                                     : fmt::format("there is no setting '{}'; did you mean '{}'?", name, nearest));
+}
+
+std::optional<std::string> changedText(const Setting& setting, const Request& request) {
+    static const Request standard;
+    std::optional<std::string> text = setting.text(request);
+    if (text == setting.text(standard)) return std::nullopt;
+    return text;
+}
+
+std::string snakeCase(std::string_view name) {
+    std::string result;
+    for (const char letter : name) {
+        const auto code = static_cast<unsigned char>(letter);
+        if (std::isupper(code) != 0) result += '_';
+        result += letter == '-' ? '_' : static_cast<char>(std::tolower(code));
+    }
+    return result;
+}
+
+std::string groupTitle(SettingGroup group) {
+    switch (group) {
+        case SettingGroup::scene:
+            return "Scene";
+        case SettingGroup::camera:
+            return "Camera";
+        case SettingGroup::lens:
+            return "Lens";
+        case SettingGroup::samples:
+            return "Samples and level of detail";
+        case SettingGroup::method:
+            return "Method";
+        case SettingGroup::display:
+            return "Output";
+        case SettingGroup::developer:
+            return "For developers";
+    }
+    return "";
+}
+
+}  // namespace defocus
