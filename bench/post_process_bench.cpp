@@ -161,7 +161,7 @@ void storages() {
     const PreparedFrame frame = prepareFrame(scene);
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     fmt::print("Storage of the complex sums, school of fish at {} x {} px, f/{}, against 32-bit floats\n", scene.width,
-               scene.height, scene.lens.fStop);
+               scene.height, *scene.lens.fStop);
     fmt::print("{:<66} {:>9} {:>9} {:>9} {:>11} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
     for (const char* components : {"near-components=1,far-components=2", "near-components=5,far-components=5"}) {
         Image exact;

@@ -165,7 +165,7 @@ FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, cons
     for (const std::string& pattern : options.outputs) {
         FilmSettings settings = options.settings;
         settings.encoding = encodingOf(pattern, film.write);
-        film.settings.push_back(frameSettings(settings, frame));
+        film.settings.push_back(settingsHash(settings, frame));
         fs::path path = framePath(pattern, number);
         if (options.samples) path = partPath(path, *options.samples);
         film.finished = film.finished && (options.samples ? isFinishedPart(path, film.settings.back())

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "capture/frame_sequence.h"
-#include "capture/frame_settings.h"
 #include "capture/partial.h"
+#include "capture/settings_hash.h"
 #include "core/progress.h"
 #include "image/image_io.h"
 #include "render/renderer.h"

@@ -41,7 +41,6 @@ std::string textOf(const Setting& setting, const JsonReader& reader) {
     if (setting.name == "size") return sizeText(reader);
     if (setting.name == "background") return backgroundText(reader);
     if (setting.name == "clip") return clipText(reader);
-    if (setting.name == "shutter") return fmt::format("{}", reader.number(0, 1e6));
     if (setting.name == "motionSegments") return std::to_string(reader.whole(1, 64));
     switch (setting.kind) {
         case SettingKind::number:
@@ -83,7 +82,6 @@ nlohmann::ordered_json settingJson(const Setting& setting, const std::string& te
         for (const float channel : request.backgroundColor) colour.push_back(channel);
         return colour;
     }
-    if (setting.name == "shutter") return request.shutter.seconds;
     if (setting.name == "motionSegments") return request.shutter.motionSegments;
     if (setting.kind == SettingKind::number) return parseNumber(text, {setting.least, setting.most});
     if (setting.kind == SettingKind::whole)

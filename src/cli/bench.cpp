@@ -107,6 +107,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     // What the bench goes through by itself; the time that pyramids take is part of the result.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "lod", "method", "cacheFolder", "noCache"}));
+    addDeveloperSettings(*command, arguments->request);
     command->footer(
         "Examples:\n"
         "  defocus bench speedup --counts 16,64 -o bench-fish\n"

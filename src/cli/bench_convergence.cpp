@@ -314,10 +314,11 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
         bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
     // What the bench goes through by itself.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"samples", "lod", "lodMetric", "blurThreshold", "sizeThreshold", "method",
-                                         "cacheFolder", "noCache"}));
+                settingsOf(frameGroups,
+                           {"samples", "lod", "blurThreshold", "sizeThreshold", "method", "cacheFolder", "noCache"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
+    addDeveloperSettings(*command, arguments->request, {"lodMetric"});
     command->footer(
         "Examples:\n"
         "  defocus bench convergence scene.glb --report report\n"

@@ -116,6 +116,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
             ->type_name("FOLDER")
             ->group("Output");
     addReport(*command, output, arguments->report);
+    addDeveloperSettings(*command, arguments->request);
     command->footer(
         "Examples:\n"
         "  defocus bench popping --fish 6 --fish-triangles 20000 -o popping\n"

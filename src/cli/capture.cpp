@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "capture/film_settings.h"
 #include "capture/frame_files.h"
 #include "capture/shot_json.h"
 #include "capture/shot_options.h"
@@ -179,8 +178,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     Progress progress = terminalProgress(global);
     PreparedFrame prepared = placeFrame(arguments.request, progress);
     const SequenceBase base = sequenceBase(prepared, arguments.request);
-    const FilmOptions options =
-        filmOptions(arguments, filmSettings(prepared, arguments.request, use, global.shaderDir));
+    const FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
     const std::vector<int> frames =
         shardFrames(arguments.range.value_or(shot.range), arguments.shard.index, arguments.shard.count);
     const std::vector<FilmFrame> film = filmFrames(shot, base, frames, options, progress);
@@ -299,13 +297,12 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and film");
     addShot(*command, *arguments);
     addOutputs(*command, *arguments);
-    std::vector<SettingGroup> groups = frameGroups;
-    groups.push_back(SettingGroup::display);
-    addSettings(*command, arguments->request, settingsOf(groups, {"scene"}));
+    addSettings(*command, arguments->request, settingsOf(pictureGroups, {"scene"}));
     command->add_option("--scene", arguments->request.scene, "glTF file, instead of the shot's")
         ->type_name("FILE")
         ->group("Scene");
     addMethodSettings(*command, arguments->request);
+    addDeveloperSettings(*command, arguments->request);
     command->footer(
         "Options replace what the shot says.\n\n"
         "Examples:\n"

@@ -36,6 +36,7 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global);
 void addCompareCommand(CLI::App& program, const GlobalOptions& global);
 void addBenchCommand(CLI::App& program, const GlobalOptions& global);
 void addCacheCommand(CLI::App& program);
+void addSettingsCommand(CLI::App& program);
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global);
 void addMergeCommand(CLI::App& program, const GlobalOptions& global);
 

@@ -267,7 +267,8 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
     const Totals totals = totalsOf(scene, objects);
     const glm::dvec3 size = pose.bounds.size();
-    line("scene", options.seen.scene.empty() ? scene.name : fmt::format("{} ({})", options.seen.scene.string(), scene.name));
+    line("scene",
+         options.seen.scene.empty() ? scene.name : fmt::format("{} ({})", options.seen.scene.string(), scene.name));
     line("size", fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x, size.y, size.z));
     line("triangles", fmt::format("{}, {} in the scene", grouped(totals.triangles), grouped(totals.trianglesInScene)));
     line("vertices", grouped(totals.vertices));

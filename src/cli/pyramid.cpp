@@ -336,10 +336,10 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
     addSettings(*command, arguments->request, sceneSettings);
     command->add_option("--mesh", arguments->mesh, "Only the mesh of this name, as defocus info lists it")
         ->type_name("NAME");
-    addWhole(*command, "--points", arguments->points, 100, 100'000'000,
-             "Points on each of two surfaces at which their distance is measured");
-    command->add_flag("--no-measure", arguments->noMeasure,
-                      "Don't measure distances, which takes longer than the rest");
+    CLI::Option* points = addWhole(*command, "--points", arguments->points, 100, 100'000'000,
+                                   "Points on each of two surfaces at which their distance is measured");
+    command->add_flag("--no-measure", arguments->noMeasure, "Don't measure distances, which takes longer than the rest")
+        ->excludes(points);
     command->add_option("--export", arguments->exportFolder, "Write each level into this folder as a .glb of its own")
         ->type_name("FOLDER");
     command

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "capture/film_settings.h"
 #include "capture/partial.h"
+#include "capture/settings_hash.h"
 #include "cli/command.h"
 #include "cli/render_options.h"
 #include "core/error.h"
@@ -72,7 +72,7 @@ Image renderImage(Renderer& renderer, const FramePlan& plan, const Progress& pro
 }
 
 // Part of the samples: their sums, block by block, to one file.
-void writeSums(const RenderArguments& arguments, FramePart part, const PreparedFrame& frame, const MethodUse& use,
+void writeSums(const RenderArguments& arguments, FramePart part, const PreparedFrame& frame,
                const std::filesystem::path& shaderFolder, const Metadata& metadata) {
     SequenceFrame single;
     single.time = arguments.request.time;
@@ -81,7 +81,7 @@ void writeSums(const RenderArguments& arguments, FramePart part, const PreparedF
     single.lights = frame.world.lights;
     single.view = frame.view;
     single.settings = frame.settings;
-    part.settings = frameSettings(filmSettings(frame, arguments.request, use, shaderFolder), single);
+    part.settings = settingsHash(filmSettings(frame, arguments.request, shaderFolder), single);
     part.metadata = metadata;
     part.metadata["defocus:samples"] = static_cast<int>(part.frameSamples);
     writePart(arguments.outputs.front(), part);
@@ -161,7 +161,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const double exposure = arguments.request.exposure.value_or(photographicExposure(frame.view.lens));
     const Metadata metadata = renderMetadata(report);
     if (arguments.samples)
-        writeSums(arguments, std::move(part), frame, use, global.shaderDir, metadata);
+        writeSums(arguments, std::move(part), frame, global.shaderDir, metadata);
     else
         for (const std::filesystem::path& path : arguments.outputs)
             writeImage(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});

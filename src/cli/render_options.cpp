@@ -49,10 +49,9 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
 
 void addRenderOptions(CLI::App& command, RenderArguments& arguments) {
     addOutputs(command, arguments);
-    std::vector<SettingGroup> groups = frameGroups;
-    groups.push_back(SettingGroup::display);
-    addSettings(command, arguments.request, settingsOf(groups));
+    addSettings(command, arguments.request, settingsOf(pictureGroups));
     addMethodSettings(command, arguments.request);
+    addDeveloperSettings(command, arguments.request);
 }
 
 }  // namespace defocus

@@ -81,6 +81,10 @@ std::vector<std::string> settingsOf(const std::vector<SettingGroup>& groups, con
     return names;
 }
 
+void addDeveloperSettings(CLI::App& command, Request& request, const std::vector<std::string>& without) {
+    addSettings(command, request, settingsOf({SettingGroup::developer}, without));
+}
+
 void addMethodSettings(CLI::App& command, Request& request) {
     std::map<std::string, std::string> owners;
     for (const Method& method : methods())

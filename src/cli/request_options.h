@@ -21,10 +21,16 @@ std::vector<std::string> settingsOf(const std::vector<SettingGroup>& groups,
 // An option for each setting of each method; methods may share one.
 void addMethodSettings(CLI::App& command, Request& request);
 
-// All groups but the display of PNG and JPEG.
-inline const std::vector<SettingGroup> frameGroups = {SettingGroup::scene,  SettingGroup::camera,
-                                                      SettingGroup::lens,   SettingGroup::samples,
-                                                      SettingGroup::method, SettingGroup::developer};
+// What only those need who measure or mend the program: to be added last, so that --help ends with them.
+void addDeveloperSettings(CLI::App& command, Request& request, const std::vector<std::string>& without = {});
+
+// What a frame needs, without the display of PNG and JPEG and what only developers need.
+inline const std::vector<SettingGroup> frameGroups = {SettingGroup::scene, SettingGroup::camera, SettingGroup::lens,
+                                                      SettingGroup::samples, SettingGroup::method};
+// The same with the display.
+inline const std::vector<SettingGroup> pictureGroups = {SettingGroup::display, SettingGroup::scene,
+                                                        SettingGroup::camera,  SettingGroup::lens,
+                                                        SettingGroup::samples, SettingGroup::method};
 // What picks a scene.
 inline const std::vector<std::string> sceneSettings = {"scene", "fishCount", "trianglesPerFish"};
 

@@ -116,6 +116,22 @@ int run(int argc, char** argv) {
     CLI::App program("Depth of field of a real lens, by accumulation over lens samples with fractional level of detail",
                      "defocus");
     GlobalOptions global;
+    addCommands(program, global);
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& shown) {  // --help, --version
+        return program.exit(shown);
+    } catch (const CLI::ParseError& error) {
+        return printFault(wrongCommandLine, parseFault(program, error));
+    } catch (const UsageError& error) {
+        return printFault(wrongCommandLine, fmt::format("{}; {}", error.what(), helpHint(program)));
+    }
+    return 0;
+}
+
+}  // namespace
+
+void addCommands(CLI::App& program, GlobalOptions& global) {
     program.fallthrough();
     program.require_subcommand(1);
     program.formatter(std::make_shared<HelpFormat>());
@@ -130,22 +146,11 @@ int run(int argc, char** argv) {
     addCompareCommand(program, global);
     addBenchCommand(program, global);
     addCacheCommand(program);
+    addSettingsCommand(program);
     program.footer(
         "defocus COMMAND --help explains a command.\n\nExample:\n"
         "  defocus render scene.glb -o out.exr -o out.png --fstop 1.4 --focus-distance 2.5");
-    try {
-        program.parse(argc, argv);
-    } catch (const CLI::Success& shown) {  // --help, --version
-        return program.exit(shown);
-    } catch (const CLI::ParseError& error) {
-        return printFault(wrongCommandLine, parseFault(program, error));
-    } catch (const UsageError& error) {
-        return printFault(wrongCommandLine, fmt::format("{}; {}", error.what(), helpHint(program)));
-    }
-    return 0;
 }
-
-}  // namespace
 
 int runProgram(int argc, char** argv) {
     // A file that grows beyond its limit is a failed write, which the writer reports and cleans up after.

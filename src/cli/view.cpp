@@ -44,10 +44,9 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
             "Keep the state of the view in this file, as JSON, several times a second: focus, samples, times …")
         ->type_name("FILE")
         ->group(group);
-    std::vector<SettingGroup> groups = frameGroups;
-    groups.push_back(SettingGroup::display);
-    addSettings(*command, options->request, settingsOf(groups));
+    addSettings(*command, options->request, settingsOf(pictureGroups));
     addMethodSettings(*command, options->request);
+    addDeveloperSettings(*command, options->request);
     command->footer(
         "Press ? in the window for the keys.\n\nExamples:\n"
         "  defocus view scene.glb --fstop 1.4\n"

@@ -11,7 +11,9 @@
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
+#include "core/parse.h"
 #include "frame/program_facts.h"
+#include "frame/settings.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
 
@@ -44,6 +46,23 @@ glm::dmat4 ndcFromWorld(const FramePlan& plan) {
     return ndcFromCamera * cameraFromWorld(plan.view);
 }
 
+// Settings that change the picture, but for those that stand there already (camera and lens) or hold paths.
+void addSettings(Metadata& metadata, const Request& request) {
+    for (const Setting& setting : settings()) {
+        const bool elsewhere = setting.lensField || setting.group == SettingGroup::camera;
+        const bool samePicture = setting.name == "wave" || setting.name == "noCache" || setting.name == "keepAll";
+        const std::optional<std::string> text = setting.text(request);
+        if (elsewhere || samePicture || setting.kind == SettingKind::path || !text) continue;
+        const std::string name = fmt::format("defocus:{}", setting.name);
+        if (setting.kind == SettingKind::number || setting.kind == SettingKind::whole)
+            metadata[name] = parseNumber(*text, {setting.least, setting.most});
+        else if (setting.kind == SettingKind::truth)
+            metadata[name] = *text == "true" ? 1 : 0;
+        else
+            metadata[name] = *text;
+    }
+}
+
 std::string inMillions(std::uint64_t count) {
     const double value = static_cast<double>(count);
     return count < 1'000'000 ? fmt::format("{}", count) : fmt::format("{:.1f} M", value * 1e-6);
@@ -54,7 +73,6 @@ std::string inMillions(std::uint64_t count) {
 Metadata renderMetadata(const RenderReport& report) {
     const View& view = report.plan.view;
     const Lens& lens = view.lens;
-    const RenderSettings& settings = report.plan.settings;
     Metadata metadata = {
         {"software", "defocus " + programVersion()},
         {"cameraLabel", report.frame.cameraName},
@@ -64,20 +82,18 @@ Metadata renderMetadata(const RenderReport& report) {
         {"worldToCamera", glm::mat4(cameraFromWorld(view))},
         {"worldToNDC", glm::mat4(ndcFromWorld(report.plan))},
         {"defocus:scene", report.frame.sceneName},
-        {"defocus:time", report.options.time},
-        {"defocus:shutter", report.options.shutter.seconds},
-        {"defocus:samples", static_cast<int>(report.stats.samples)},
-        {"defocus:sequence", std::string(sequenceName(settings.sequence))},
-        {"defocus:seed", static_cast<double>(settings.seed)},
         {"defocus:seconds", report.stats.renderMilliseconds / 1000},
-        {"defocus:method", report.method},
-        {"defocus:lod", std::string(lodModeName(settings.lod))},
-        {"defocus:lodMetric", std::string(metricName(settings.metric))},
-        {"defocus:blurThreshold", report.plan.thresholds.blur},
-        {"defocus:sizeThreshold", report.plan.thresholds.size},
-        {"defocus:layerFormat", report.stats.layerFormat},
         {"defocus:device", report.stats.device},
     };
+    Request drawn = report.options;
+    drawn.settings = report.plan.settings;
+    addSettings(metadata, drawn);
+    // What was drawn where a setting leaves it open.
+    metadata["defocus:samples"] = static_cast<int>(report.stats.samples);
+    metadata["defocus:method"] = report.method;
+    metadata["defocus:layerFormat"] = report.stats.layerFormat;
+    metadata["defocus:blurThreshold"] = report.plan.thresholds.blur;
+    metadata["defocus:sizeThreshold"] = report.plan.thresholds.size;
     if (lens.exposureTime > 0) {
         metadata["expTime"] = lens.exposureTime;
         metadata["isoSpeed"] = lens.iso;

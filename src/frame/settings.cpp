@@ -318,6 +318,15 @@ Setting lensSetting(const LensField& field) {
 
 using Rows = std::vector<Setting>;
 
+// A value in seconds, which may be told as a fraction.
+Setting seconds(Setting setting) {
+    setting.kind = SettingKind::number;
+    setting.unit = std::string("s");
+    setting.least = 0;
+    setting.most = 1e6;
+    return setting;
+}
+
 Setting inShot(Setting setting, std::string place) {
     setting.shotPlace = std::move(place);
     return setting;
@@ -355,15 +364,14 @@ Rows sceneRows() {
                "/animation/clip"),
         inShot(truth("loop", "--loop", MEMBER(loop), "Repeat the animation instead of holding its ends"),
                "/animation/loop"),
-        withUnit(inShot(other(
-                            "shutter", "--shutter", "S", setShutter,
-                            [](const Request& request) -> std::optional<std::string> {
-                                return fmt::format("{}", request.shutter.seconds);
-                            },
-                            "Seconds that the shutter stays open, as 0.02 or 1/48 (half of a frame of 24 a second): "
-                            "what the animation moves meanwhile is blurred; without it, one moment"),
-                        "/shutter/seconds"),
-                 "s"),
+        inShot(seconds(other(
+                   "shutter", "--shutter", "S", setShutter,
+                   [](const Request& request) -> std::optional<std::string> {
+                       return fmt::format("{}", request.shutter.seconds);
+                   },
+                   "Seconds that the shutter stays open, as 0.02 or 1/48 (half of a frame of 24 a second): what the "
+                   "animation moves meanwhile is blurred; without it, one moment")),
+               "/shutter/seconds"),
         inShot(
             choice<ShutterPosition>(
                 "shutterPosition", "--shutter-position",
@@ -427,6 +435,9 @@ Rows lensRows() {
         rows.push_back(lensSetting(field));
         if (rows.back().name == "focusDistance") std::ranges::move(focusRows(), std::back_inserter(rows));
     }
+    rows.push_back(path("apertureImage", "--aperture-image", "FILE", MEMBER(lens.apertureImage),
+                        "Image of the aperture, in place of blades and rings: light passes where it is bright; its "
+                        "longer side spans the lens"));
     Setting nodeBlur = other(
         "nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur,
         [](const Request& request) -> std::optional<std::string> {
@@ -437,9 +448,6 @@ Rows lensRows() {
     nodeBlur.repeated = true;
     nodeBlur.texts = nodeBlurTexts;
     rows.push_back(std::move(nodeBlur));
-    rows.push_back(path("apertureImage", "--aperture-image", "FILE", MEMBER(lens.apertureImage),
-                        "Image of the aperture, in place of blades and rings: light passes where it is bright; its "
-                        "longer side spans the lens"));
     return rows;
 }
 

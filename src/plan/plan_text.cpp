@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "lens/lens_fields.h"
+
 namespace defocus {
 
 namespace {
@@ -73,6 +75,24 @@ double shownCoc(double coc) {
     return std::abs(coc) < 0.005 ? 0 : coc;
 }
 
+// Where the camera stands (m) and the directions of its image's right, up and back.
+json cameraJson(const View& view) {
+    const auto column = [&](int c) {
+        const glm::dvec4& v = view.worldFromCamera[c];
+        return json::array({v.x, v.y, v.z});
+    };
+    return {{"position", column(3)}, {"right", column(0)}, {"up", column(1)}, {"back", column(2)}};
+}
+
+json lensJson(const FramePlan& plan) {
+    json lens;
+    for (const LensField& field : lensFields()) lens[field.name] = number(lensFieldValue(plan.view.lens, field));
+    lens["apertureImage"] = plan.view.lens.apertureImage != nullptr;
+    lens["apertureDiameter"] = plan.apertureDiameter;
+    lens["used"] = plan.usesLens;
+    return lens;
+}
+
 }  // namespace
 
 std::string planTable(const FramePlan& plan) {
@@ -106,20 +126,18 @@ std::string planTable(const FramePlan& plan) {
 }
 
 std::string planJson(const FramePlan& plan) {
-    const Lens& lens = plan.view.lens;
     json objects = json::array();
     for (const ObjectPlan& object : plan.objects) objects.push_back(objectJson(object));
     json leftOut = json::array();
     for (const LeftOut& entry : plan.leftOut) leftOut.push_back({{"what", entry.what}, {"reason", entry.reason}});
     const json document = {{"image", {{"width", plan.view.width}, {"height", plan.view.height}}},
-                           {"lens",
-                            {{"focalLength", lens.focalLength},
-                             {"fStop", lens.fStop},
-                             {"focusDistance", number(lens.focusDistance)},
-                             {"horizontalAperture", lens.horizontalAperture},
-                             {"apertureDiameter", plan.apertureDiameter},
-                             {"used", plan.usesLens}}},
+                           {"transparent", plan.needsAlpha},
+                           {"camera", cameraJson(plan.view)},
+                           {"lens", lensJson(plan)},
                            {"samples", plan.samples.size()},
+                           {"sequence", sequenceName(plan.settings.sequence)},
+                           {"seed", plan.settings.seed},
+                           {"cocTolerance", plan.settings.cocTolerance},
                            {"shutter", {{"moments", momentCount(plan)}, {"movingObjects", movingCount(plan)}}},
                            {"lod",
                             {{"mode", lodModeName(plan.settings.lod)},

@@ -33,7 +33,7 @@ private:
 
     [[nodiscard]] bool holds(const json& schema, const std::string& keyword, const json& rule,
                              const json& value) const {
-        static const std::set<std::string> notes = {"$schema", "title", "description", "$defs"};
+        static const std::set<std::string> notes = {"$schema", "title", "description", "$defs", "default"};
         if (notes.contains(keyword)) return true;
         const auto taken = [&](const json& each) { return accepts(each, value); };
         if (keyword == "$ref") return taken(root_.at(json::json_pointer(rule.get<std::string>().substr(1))));

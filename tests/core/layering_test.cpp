@@ -69,11 +69,12 @@ const std::map<std::string, std::vector<std::string>>& allowed() {
             rooms[room] = more;
         };
         addOver("render", "plan", {"gl"});
-        addOver("frame", "render", {"school"});
+        addOver("frame", "render", {});
         addOver("eval", "frame", {});
         addOver("capture", "frame", {});
         addOver("view", "capture", {});
         addOver("cli", "view", {"eval"});
+        rooms["frame"].emplace_back("school");  // nobody else makes the built-in scene
         return rooms;
     }();
     return table;
@@ -90,10 +91,31 @@ TEST(Layering, foldersIncludeOnlyThoseAboveThem) {
         EXPECT_NE(match[1].str().find('/'), std::string::npos) << where(line) << ": includes are relative to src";
         const std::string room = roomOf(match[1]);
         const std::vector<std::string>& rooms = allowed().at(line.folder);
-        const bool known = room == line.folder || std::count(rooms.begin(), rooms.end(), room) > 0;
+        const bool isPublic = room == "defocus";
+        const bool known = isPublic || room == line.folder || std::count(rooms.begin(), rooms.end(), room) > 0;
         EXPECT_TRUE(known) << where(line);
     }
     EXPECT_GT(checked, 100u);  // the sources were found
+}
+
+// Who embeds the library sees nothing of it but its public headers.
+TEST(Layering, publicHeadersIncludeOnlyEachOtherAndTheStandardLibrary) {
+    const std::regex include(R"re(^\s*#\s*include\s*(["<][^">]*[">]))re");
+    const std::regex standard(R"(^<[a-z_]+>$)");
+    const std::regex own(R"(^"defocus/[a-z_]+\.h"$)");
+    std::size_t headers = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(DEFOCUS_SOURCE_DIR) / "include/defocus")) {
+        ++headers;
+        std::ifstream file(entry.path());
+        std::smatch match;
+        for (std::string line; std::getline(file, line);)
+            if (std::regex_search(line, match, include)) {
+                const std::string name = match[1];
+                EXPECT_TRUE(std::regex_match(name, standard) || std::regex_match(name, own))
+                    << entry.path().filename() << ": " << line;
+            }
+    }
+    EXPECT_GE(headers, 6u);
 }
 
 struct Place {

@@ -5,8 +5,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
+#include "frame/prepared_frame.h"
 #include "lod/pyramid/cache.h"
-#include "school/fish_school.h"
 
 namespace defocus {
 
@@ -41,10 +41,10 @@ void surround(ScalingWorld& result) {
 
 ScalingWorld schoolOf(std::uint64_t triangles, const std::filesystem::path& cacheFolder, const Progress& progress) {
     ScalingWorld result;
-    FishSchoolOptions options;
-    options.fishCount = fishCount;
-    options.trianglesPerFish = static_cast<int>(triangles / fishCount);
-    *result.scene = fishSchool(options, progress);
+    Request request;
+    request.fishCount = fishCount;
+    request.trianglesPerFish = static_cast<int>(triangles / fishCount);
+    *result.scene = loadScene(request, progress);
     surround(result);
     result.world.pyramids = cachedPyramids(result.scene->meshes, cacheFolder, {}, progress).pyramids;
     return result;
@@ -52,10 +52,10 @@ ScalingWorld schoolOf(std::uint64_t triangles, const std::filesystem::path& cach
 
 ScalingWorld gridOf(int instances, int triangles, const std::filesystem::path& cacheFolder) {
     ScalingWorld result;
-    FishSchoolOptions options;
-    options.fishCount = 1;
-    options.trianglesPerFish = triangles;
-    *result.scene = fishSchool(options);
+    Request request;
+    request.fishCount = 1;
+    request.trianglesPerFish = triangles;
+    *result.scene = loadScene(request);
     surround(result);
     result.world.pyramids = cachedPyramids(result.scene->meshes, cacheFolder).pyramids;
 

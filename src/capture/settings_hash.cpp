@@ -1,0 +1,100 @@
+#include "capture/settings_hash.h"
+
+#include <fmt/format.h>
+
+#include <span>
+#include <string_view>
+
+#include "core/hash.h"
+#include "frame/program_facts.h"
+#include "frame/settings.h"
+#include "frame/world_hash.h"
+#include "lens/lens_fields.h"
+
+namespace defocus {
+
+namespace {
+
+// Numbers as text that gives exactly them again.
+class HashedText {
+public:
+    template <typename... Values>
+    void add(const Values&... values) {
+        ((text_ += fmt::format("{};", values)), ...);
+    }
+    void add(const glm::dmat4& matrix) {
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row) add(matrix[column][row]);
+    }
+    void add(const glm::dvec3& vector) { add(vector.x, vector.y, vector.z); }
+
+    [[nodiscard]] std::string hash() const {
+        return fmt::format("{:016x}", hashBytes(std::as_bytes(std::span(std::string_view(text_)))));
+    }
+
+private:
+    std::string text_;
+};
+
+void addLens(HashedText& hashed, const Lens& lens) {
+    for (const LensField& field : lensFields()) hashed.add(lensFieldValue(lens, field));
+    if (!lens.apertureImage) return;
+    const Image& image = *lens.apertureImage;
+    hashed.add(image.width, image.height, image.channels, hashBytes(std::as_bytes(std::span(image.pixels))));
+}
+
+void addPose(HashedText& hashed, const Pose& pose) {
+    for (const glm::dmat4& worldFromNode : pose.worldFromNode) hashed.add(worldFromNode);
+    for (const Object& object : pose.objects) {
+        hashed.add(object.cocScale);
+        for (const double weight : object.morphWeights) hashed.add(weight);
+    }
+}
+
+// Samples, levels and method, by their names; where the pyramids are kept and how many samples are drawn at once change
+// nothing.
+void addSettings(HashedText& hashed, const Request& request) {
+    for (const Setting& setting : settings()) {
+        const bool counts = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
+                            setting.group == SettingGroup::developer;
+        if (!counts || setting.kind == SettingKind::path || setting.name == "noCache" || setting.name == "wave")
+            continue;
+        hashed.add(setting.name, setting.text(request).value_or(""));
+    }
+}
+
+}  // namespace
+
+FilmSettings filmSettings(const PreparedFrame& frame, const Request& request,
+                          const std::filesystem::path& shaderFolder) {
+    return {.world = worldHash(frame.world, frame.view, shaderFolder), .request = request, .encoding = ""};
+}
+
+std::string settingsHash(const FilmSettings& film, const SequenceFrame& frame) {
+    HashedText hashed;
+    hashed.add(film.world, programVersion(), film.encoding);
+    hashed.add(frame.frame, frame.time);
+    addPose(hashed, frame.pose);
+    hashed.add(frame.shutter.perSample);
+    for (const Pose& pose : frame.shutter.poses) addPose(hashed, pose);
+    for (const glm::dmat4& worldFromCamera : frame.view.shutterCameras) hashed.add(worldFromCamera);
+    for (const PlacedLight& placed : frame.lights) {
+        const Light& light = placed.light;
+        hashed.add(placed.position);
+        hashed.add(placed.direction);
+        hashed.add(light.color.r, light.color.g, light.color.b, light.intensity, light.range, light.innerConeAngle,
+                   light.outerConeAngle);
+    }
+    hashed.add(frame.view.worldFromCamera);
+    hashed.add(frame.view.nearPlane, frame.view.width, frame.view.height);
+    addLens(hashed, frame.view.lens);
+    Request request = film.request;
+    request.settings = frame.settings;
+    addSettings(hashed, request);
+    const LodThresholds thresholds =
+        chosenThresholds(frame.settings.thresholds, frame.settings.metric, frame.settings.sampleCount);
+    hashed.add(frame.settings.firstSample, thresholds.blur, thresholds.size);
+    return hashed.hash();
+}
+
+}  // namespace defocus

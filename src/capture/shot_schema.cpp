@@ -1,0 +1,105 @@
+#include "capture/shot_schema.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "capture/setting_json.h"
+
+namespace defocus {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// As a number of JSON, whole where it is whole.
+Json numberJson(double value) {
+    if (value == static_cast<double>(static_cast<std::int64_t>(value))) return static_cast<std::int64_t>(value);
+    return value;
+}
+
+Json rangeJson(const char* type, const Setting& setting) {
+    return {{"type", type}, {"minimum", numberJson(setting.least)}, {"maximum", numberJson(setting.most)}};
+}
+
+// A value of the setting. Forms of their own stand here; a clip is a name or a number, a blade count is 0 or 3 and
+// more.
+Json valueSchema(const Setting& setting) {
+    const Json text = {{"type", "string"}, {"minLength", 1}};
+    if (setting.name == "size") {
+        const Json side = {{"type", "integer"}, {"minimum", 1}, {"maximum", mostPixels}};
+        return {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", side}};
+    }
+    if (setting.name == "background") {
+        const Json channel = {{"type", "number"}, {"minimum", 0}, {"maximum", 1'000'000'000}};
+        return {{"anyOf",
+                 {{{"enum", {"environment", "none"}}},
+                  {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", channel}}}}};
+    }
+    if (setting.name == "clip")
+        return {{"anyOf", {{{"type", "integer"}, {"minimum", 0}, {"maximum", 1'000'000}}, text}}};
+    if (setting.name == "motionSegments") return {{"type", "integer"}, {"minimum", 1}, {"maximum", 64}};
+    if (setting.name == "bladeCount")
+        return {{"anyOf", {{{"enum", Json::array({0})}}, {{"type", "integer"}, {"minimum", 3}, {"maximum", 64}}}}};
+    switch (setting.kind) {
+        case SettingKind::number:
+            return rangeJson("number", setting);
+        case SettingKind::whole:
+            return rangeJson("integer", setting);
+        case SettingKind::truth:
+            return {{"type", "boolean"}};
+        case SettingKind::choice:
+            return {{"enum", setting.choices}};
+        case SettingKind::text:
+        case SettingKind::path:
+        case SettingKind::other:
+            break;
+    }
+    return text;
+}
+
+// The value, fixed or with keys.
+Json trackSchema(const Setting& setting) {
+    const Json value = valueSchema(setting);
+    const Json key = {{"type", "object"},
+                      {"additionalProperties", false},
+                      {"required", {"frame", "value"}},
+                      {"properties", {{"frame", {{"$ref", "#/$defs/frame"}}}, {"value", value}}}};
+    const Json keys = {{"type", "object"},
+                       {"additionalProperties", false},
+                       {"required", Json::array({"keys"})},
+                       {"properties",
+                        {{"keys", {{"type", "array"}, {"minItems", 1}, {"items", key}}},
+                         {"interpolation", {{"$ref", "#/$defs/interpolation"}}}}}};
+    return {{"anyOf", {value, keys}}};
+}
+
+Json schemaOf(const Setting& setting) {
+    Json schema = Json::object();
+    schema["description"] = setting.unit.empty() ? setting.help : fmt::format("{} ({})", setting.help, setting.unit);
+    const std::optional<std::string> standard = setting.text(Request{});
+    if (standard) schema["default"] = settingJson(setting, *standard);
+    schema.update(setting.keyed ? trackSchema(setting) : valueSchema(setting));
+    return schema;
+}
+
+// "/animation/clip" → "/properties/animation/properties/clip"
+Json::json_pointer schemaPlace(std::string_view place) {
+    Json::json_pointer pointer;
+    while (!place.empty()) {
+        const std::size_t end = std::min(place.find('/', 1), place.size());
+        pointer = pointer / "properties" / std::string(place.substr(1, end - 1));
+        place.remove_prefix(end);
+    }
+    return pointer;
+}
+
+}  // namespace
+
+nlohmann::ordered_json withSettings(Json schema) {
+    for (const Setting& setting : settings())
+        if (!setting.shotPlace.empty()) schema[schemaPlace(setting.shotPlace)] = schemaOf(setting);
+    return schema;
+}
+
+}  // namespace defocus
