@@ -27,10 +27,12 @@ struct SpeedupArguments {
     SpeedupOptions speedup;
     std::filesystem::path folder;  // empty: only the table
     std::filesystem::path report;  // empty: none
+    bool allowChanged = false;
 };
 
 void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) {
     const std::filesystem::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    refuseChangedSources(folder, arguments.allowChanged);
     makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
     Progress progress = terminalProgress(global);
     Request scene = arguments.request;
@@ -104,6 +106,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
             ->type_name("FOLDER")
             ->group("Output");
     addReport(*command, output, arguments->report);
+    addAllowChanged(*command, arguments->allowChanged);
     // What the bench goes through by itself; the time that pyramids take is part of the result.
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "lod", "method", "cacheFolder", "noCache"}));
@@ -123,6 +126,21 @@ void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list
     std::filesystem::create_directories(folder, fault);
     if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
     for (const char* name : files) checkWritable(folder / name);
+}
+
+void addAllowChanged(CLI::App& command, bool& allowed) {
+    command
+        .add_flag("--allow-changed", allowed,
+                  "Write results even if the program was built from sources that differ from their commit")
+        ->group("Output");
+}
+
+void refuseChangedSources(const std::filesystem::path& output, bool allowed, const std::string& commit) {
+    if (output.empty() || allowed || !commit.ends_with("-changed")) return;
+    fail(
+        "{}: the program was built from changed sources ({}), so nobody could repeat these results; commit the sources "
+        "and build again, or pass --allow-changed",
+        output.string(), commit);
 }
 
 BenchSubject benchSubject(const GlContext& context) {

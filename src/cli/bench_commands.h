@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <string>
 
 #include "cli/command.h"
 #include "eval/bench_subject.h"
 #include "frame/prepared_frame.h"
+#include "frame/program_facts.h"
 #include "gl/context.h"
 
 namespace defocus {
@@ -14,6 +16,15 @@ namespace defocus {
 // Makes `folder` and checks that these files can be written there, before the long work; nothing for an empty path.
 // Throws Error.
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files);
+
+// Adds --allow-changed, which sets `allowed`.
+void addAllowChanged(CLI::App& command, bool& allowed);
+
+// Throws Error if results would go to `output` although the program was built from sources that differ from `commit`
+// (see programCommit): no one could check such results out and repeat them. Does nothing if `output` is empty or
+// `allowed` is set.
+void refuseChangedSources(const std::filesystem::path& output, bool allowed,
+                          const std::string& commit = programCommit());
 
 // This program, command and machine, the device of `context`, and what is measured: one frame, or what the bench makes
 // by itself.

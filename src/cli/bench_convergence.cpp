@@ -46,6 +46,7 @@ struct ConvergenceArguments {
     fs::path report;  // empty: none
     bool resume = false;
     bool overwrite = false;
+    bool allowChanged = false;
 };
 
 fs::path resultsFolder(const ConvergenceArguments& arguments) {
@@ -55,6 +56,7 @@ fs::path resultsFolder(const ConvergenceArguments& arguments) {
 
 void makeFolders(const ConvergenceArguments& arguments) {
     const fs::path results = resultsFolder(arguments);
+    refuseChangedSources(results, arguments.allowChanged);
     makeOutputFolder(results, {"results.csv", "results.json", "runs.csv", "reference.exr"});
     makeOutputFolder(results / "images", {"reference.png"});
     makeOutputFolder(arguments.report, {"index.html", "results.csv", "results.json"});
@@ -304,6 +306,7 @@ void addOutput(CLI::App& command, ConvergenceArguments& arguments) {
                     "Folder for index.html: plots, tables and pictures in one file (needs python3-matplotlib)")
         ->type_name("FOLDER")
         ->group(group);
+    addAllowChanged(command, arguments.allowChanged);
 }
 
 }  // namespace

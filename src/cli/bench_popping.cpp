@@ -30,6 +30,7 @@ struct PoppingArguments {
     PoppingOptions options;
     fs::path folder;  // empty: only the table
     fs::path report;  // empty: none
+    bool allowChanged = false;
 };
 
 void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) {
@@ -37,6 +38,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
         fail("--frames {}: the whole movement has {} (--path-frames)", arguments.options.frames,
              arguments.options.pathFrames);
     const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    refuseChangedSources(folder, arguments.allowChanged);
     makeOutputFolder(folder, {"popping.csv", "popping.json"});
     Progress progress = terminalProgress(global);
     PreparedFrame frame = placeFrame(arguments.request, progress);
@@ -116,6 +118,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
             ->type_name("FOLDER")
             ->group("Output");
     addReport(*command, output, arguments->report);
+    addAllowChanged(*command, arguments->allowChanged);
     addDeveloperSettings(*command, arguments->request);
     command->footer(
         "Examples:\n"

@@ -29,10 +29,12 @@ struct ScalingArguments {
     Request request;  // its cache folder alone
     fs::path folder;  // empty: only the table
     fs::path report;  // empty: none
+    bool allowChanged = false;
 };
 
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
     const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    refuseChangedSources(folder, arguments.allowChanged);
     makeOutputFolder(folder, {"scaling.csv", "scaling.json"});
     const Progress progress = terminalProgress(global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
@@ -102,6 +104,7 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
             ->type_name("FOLDER")
             ->group("Output");
     addReport(*command, output, arguments->report);
+    addAllowChanged(*command, arguments->allowChanged);
     command->footer(
         "Examples:\n"
         "  defocus bench scaling -o scaling\n"

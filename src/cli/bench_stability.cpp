@@ -21,6 +21,7 @@ namespace {
 struct StabilityArguments {
     std::filesystem::path output;  // JSON; empty: only the table
     std::filesystem::path report;  // folder; empty: none
+    bool allowChanged = false;
 };
 
 std::vector<StabilityRow> printedCases(const Progress& progress) {
@@ -64,9 +65,10 @@ std::vector<HonestyRow> printedHonesty(const Progress& progress) {
 }
 
 void runStability(const StabilityArguments& arguments, const GlobalOptions& global) {
-    makeOutputFolder(arguments.report, {"stability.json"});
     const std::filesystem::path output =
         arguments.report.empty() ? arguments.output : arguments.report / "stability.json";
+    refuseChangedSources(output, arguments.allowChanged);
+    makeOutputFolder(arguments.report, {"stability.json"});
     if (!output.empty()) checkWritable(output);
     const auto context = createHeadlessContext();
     const Progress progress = terminalProgress(global);
@@ -89,6 +91,7 @@ void addStabilityCommand(CLI::App& bench, const GlobalOptions& global) {
                               ->type_name("FILE")
                               ->group("Output");
     addReport(*command, output, arguments->report);
+    addAllowChanged(*command, arguments->allowChanged);
     command->footer("Example:\n  defocus bench stability -o stability.json");
     command->callback([arguments, &global] { runStability(*arguments, global); });
 }

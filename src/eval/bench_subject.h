@@ -1,5 +1,5 @@
 #pragma once
-// What the rows of a bench were measured on and with.
+// Describes what a bench measured, and with which program and machine.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -13,22 +13,22 @@ namespace defocus {
 
 struct BenchSubject {
     std::string program;                // name and version
-    std::string commit;                 // of the program; empty: not known
-    std::vector<std::string> commands;  // each one that added to these results
+    std::string commit;                 // of the program; empty if it isn't known
+    std::vector<std::string> commands;  // all commands that contributed to these results
     Machine machine;
     std::string device;
     std::string driver;
-    bool software = false;  // a software driver: its timer queries miss vertex work
-    std::string scene;      // empty: the bench has scenes of its own
+    bool software = false;  // true for a software driver, whose timer queries miss the work on vertices
+    std::string scene;      // empty if the bench has scenes of its own
     std::string camera;
-    std::optional<Lens> lens;  // none: the bench goes through lenses of its own
-    int width = 0;             // px; 0: the bench goes through sizes of its own
+    std::optional<Lens> lens;  // none if the bench has lenses of its own
+    int width = 0;             // px; 0 if the bench has sizes of its own
     int height = 0;            // px
-    int runs = 0;              // of each frame; 0: nothing is timed
+    int runs = 0;              // of each frame; 0 if nothing is timed
     double pyramidMilliseconds = 0;
 };
 
-// The head of a bench's JSON file: all of the above that says something, under `bench`, the command's name.
+// Returns the head of a bench's JSON file: all of the above that is set. `bench` is the name of the command.
 nlohmann::ordered_json subjectJson(const std::string& bench, const BenchSubject& subject);
 
 }  // namespace defocus

@@ -1,12 +1,12 @@
 #pragma once
-// Numbers in JSON, which knows neither NaN nor infinity.
+// Writes numbers to JSON, which has neither NaN nor infinity.
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace defocus {
 
-// null for what is not finite.
+// Returns null for a value that isn't finite.
 inline nlohmann::json jsonNumber(double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }

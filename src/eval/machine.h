@@ -1,5 +1,5 @@
 #pragma once
-// The computer that a bench runs on, in the words that its system has for it.
+// Describes the computer that a bench runs on, in the words of its operating system.
 
 #include <cstdint>
 #include <string>
@@ -7,8 +7,8 @@
 namespace defocus {
 
 struct Machine {
-    std::string processor;  // "AMD EPYC …"; empty: not known
-    unsigned threads = 0;   // that run at once
+    std::string processor;  // "AMD EPYC …"; empty if it isn't known
+    unsigned threads = 0;   // hardware threads
     std::uint64_t memoryBytes = 0;
     std::string system;  // "Linux 6.1.0 x86_64"
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The middle of repeated measurements and how far they scatter.
+// Summarises repeated measurements by their median and their scatter.
 
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
@@ -12,10 +12,11 @@ struct Spread {
     double high = 0;  // 90th percentile
 };
 
-// Between the values it is interpolated linearly (Hyndman and Fan's type 7). `share` in [0, 1]; at least one value.
+// Returns the value below which `share` ∈ [0, 1] of the values lie. It interpolates linearly between two values
+// (Hyndman and Fan 1996, type 7) and needs at least one.
 double percentile(std::vector<double> values, double share);
 
-// No values: all 0.
+// Without values, all of the result is 0.
 Spread spreadOf(const std::vector<double>& values);
 
 nlohmann::ordered_json spreadJson(const Spread& spread);

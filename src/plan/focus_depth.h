@@ -1,6 +1,7 @@
 #pragma once
-// Where to focus: how far along the view axis (m) a node, what a pixel shows, or what the image's middle shows lies at
-// one moment. All of the view but its focus distance must be set. `who` opens the messages: "--focus-pixel", "focus".
+// Finds where to focus: the depth (m along the view axis) of a node, of what a pixel shows, or of what the middle of
+// the image shows, at one moment. Everything in the view except its focus distance must be set. Error messages begin
+// with `who`, such as "--focus-pixel" or "focus".
 
 #include <glm/vec2.hpp>
 #include <optional>
@@ -11,22 +12,24 @@
 
 namespace defocus {
 
-// The depth of the node's centre. Throws Error for a name that isn't there and for a node behind the camera.
+// Returns the depth of the node's centre. Throws Error if there is no such node or if it lies behind the camera.
 double depthOfNode(const Scene& scene, const Pose& pose, const View& view, std::string_view name, const char* who);
 
-// The first surfaces behind places of the image (px from its top left corner), in view space, for the field of view
-// that `lens` has; nothing where there is none.
+// Returns, for each place in the image (px from the top left corner), the nearest surface point in view space, or
+// nothing if the place shows no surface. `lens` gives the field of view.
 std::vector<std::optional<glm::dvec3>> surfacesAt(const Scene& scene, const Pose& pose, const View& view,
                                                   const Lens& lens, const std::vector<glm::dvec2>& places);
 
-// What a pixel shows through `lens`. Throws Error for a pixel outside the image and for one that shows nothing.
+// Returns the surface point that a pixel shows through `lens`. Throws Error if the pixel lies outside the image or
+// shows no surface.
 glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view, const Lens& lens,
                           const glm::ivec2& pixel, const char* who);
 
-// The depth of what a pixel (column from the left, row from the top) shows. Throws as surfaceAtPixel.
+// Returns the depth of the surface that a pixel (column from the left, row from the top) shows. Throws like
+// surfaceAtPixel.
 double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, const glm::ivec2& pixel, const char* who);
 
-// The median depth of what the image's central third shows. Throws Error where that is nothing.
+// Returns the median depth of what the central third of the image shows. Throws Error if it shows no surface.
 double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, const char* who);
 
 }  // namespace defocus

@@ -1,6 +1,6 @@
 #pragma once
-// FramePlan: everything decided about a frame before a GL call is made, as plain data that can be printed, tested and
-// compared without a GPU. A renderer only executes it.
+// A FramePlan holds everything that is decided about a frame before the first GL call. It is plain data, so it can be
+// printed, tested and compared without a GPU. A renderer only executes it.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -14,39 +14,41 @@
 
 namespace defocus {
 
-// When a sample is taken: at `fraction` of the way from a moment of the shutter to the next.
+// The time of a sample: `fraction` of the way from one moment of the shutter to the next.
 struct SampleMoment {
     std::uint32_t moment = 0;
-    float fraction = 0;  // [0, 1); 0 at the last moment
+    float fraction = 0;  // [0, 1); it is 0 at the last moment
 };
 
-// A level of an object and the lens samples that draw it.
+// One level of an object, and the lens samples that draw it.
 struct LevelDraw {
     std::uint32_t level = 0;
     std::uint32_t firstSample = 0;  // into FramePlan::samples
     std::uint32_t sampleCount = 0;
-    std::uint32_t triangleCount = 0;  // of the level, all primitives, less what ObjectPlan::visible leaves out
+    std::uint32_t triangleCount = 0;  // of all primitives, without what ObjectPlan::visible leaves out
 };
 
-// What is left of a level without the clusters that no lens sample shows; see visibility.h.
+// The part of a level that remains when the clusters that no lens sample shows are left out; see visibility.h.
 struct VisibleLevel {
     std::uint32_t level = 0;
-    std::vector<std::vector<IndexRange>> primitives;  // runs into Pyramid::indices, one list a primitive of the mesh
-    std::uint32_t facingAway = 0;                     // triangles left out as they show their back to all of the lens
-    std::uint32_t outside = 0;                        // triangles left out as they lie outside the image
+    std::vector<std::vector<IndexRange>> primitives;  // runs in Pyramid::indices, one list for each primitive
+    std::uint32_t facingAway = 0;                     // triangles left out because all of the lens sees their back
+    std::uint32_t outside = 0;                        // triangles left out because they lie outside the image
 };
 
-// What it takes to keep C linear inside each drawn triangle, to RenderSettings::cocTolerance.
+// How the triangles of an object are divided so that C is linear inside each of them, within
+// RenderSettings::cocTolerance.
 enum class Refinement {
-    none,       // the triangles as they are
-    split,      // along the kinks of C, and at the near plane before the shear
-    subdivide,  // into small ones (C is curved), and split
+    none,       // not at all
+    split,      // they are cut along the kinks of C, and at the near plane before the shear
+    subdivide,  // they are divided into small ones, because C is curved, and then split
 };
 
-// Where the vertices of an object are at one moment.
+// The positions of an object's vertices at one moment.
 struct ObjectPose {
-    std::vector<glm::dmat4> viewFromJoint;  // camera-relative, composed in double; one, for the object, without a skin
-    std::vector<double> morphWeights;       // one a morph target of the mesh
+    // Relative to the camera, composed in double. An object without a skin has one matrix.
+    std::vector<glm::dmat4> viewFromJoint;
+    std::vector<double> morphWeights;  // one for each morph target of the mesh
     bool operator==(const ObjectPose&) const = default;
 };
 
@@ -54,28 +56,28 @@ struct ObjectPlan {
     int object = -1;  // into World::pose.objects
     int mesh = -1;
     std::string name;
-    glm::dmat4 viewFromObject{1.0};  // camera-relative, composed in double
+    glm::dmat4 viewFromObject{1.0};  // relative to the camera, composed in double
     ObjectPose pose;                 // in the middle of the exposure
-    std::vector<ObjectPose> motion;  // at the moments of the shutter; empty: it stands still before the camera
+    std::vector<ObjectPose> motion;  // at the moments of the shutter; empty if it doesn't move relative to the camera
     bool skinned = false;
-    bool deformed = false;      // by its skin or by morph targets
-    Bounds viewBox;             // around all that the frame shows of it, in view space
-    double nearestDepth = 0;    // m, of the bounding box; ≤ near plane when the box reaches it
+    bool deformed = false;      // its skin or its morph targets move vertices against each other
+    Bounds viewBox;             // view space; it contains the object at all moments of the frame
+    double nearestDepth = 0;    // m, of the bounding box; ≤ near plane if the box reaches it
     double farthestDepth = 0;   // m
     CocRange coc;               // px, over the box
     CocDeviation cocDeviation;  // px, of the drawn levels
-    double projectedEdge = 0;   // mean edge of level 0 in px at the nearest depth
+    double projectedEdge = 0;   // px; the mean edge of level 0 at the nearest depth
     double lambda = 0;          // fractional level
-    LevelDraw coarse;           // samples [0, n) at level ⌊λ⌋ + 1; none when λ is whole
-    LevelDraw fine;             // samples [n, N) at level ⌊λ⌋
-    // LodMode::continuous: where the two overlap by a sample (`coarse` then ends with sample n), the share of that
-    // sample's pixels that draw `coarse`; the others draw `fine`.
+    LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; there are none if λ is a whole number
+    LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
+    // With LodMode::continuous, `coarse` and `fine` may share sample n. Then this share of its pixels draws `coarse`,
+    // and the others draw `fine`.
     double boundaryShare = 0;
-    std::vector<VisibleLevel> visible;  // of the levels that are drawn; any other is drawn whole
-    double cocScale = 1;                // of the object's blur, ≥ 0
+    std::vector<VisibleLevel> visible;  // levels that are drawn in part; a level that isn't here is drawn whole
+    double cocScale = 1;                // factor on the object's blur, ≥ 0
     Refinement refinement = Refinement::none;
-    bool mirrored = false;  // the transform flips winding
-    bool blended = false;   // has alpha-blended primitives
+    bool mirrored = false;  // the transform flips the winding of triangles
+    bool blended = false;   // it has alpha-blended primitives
 };
 
 struct LeftOut {
@@ -88,38 +90,41 @@ struct FramePlan {
     RenderSettings settings;
     LodThresholds thresholds;  // of settings, what they leave open by the number of samples
     double tanHalfHorizontal = 0;
-    double apertureDiameter = 0;  // m; 0 when the lens is left out
+    double apertureDiameter = 0;  // m; 0 if the lens is left out
     ClipCircleOfConfusion coc;
-    std::vector<LensSample> samples;         // those that are drawn, in order
-    std::vector<SampleMoment> moments;       // one a sample; empty: nothing moves during the exposure
-    std::vector<glm::dmat4> middleFromView;  // of cameras at the moments of the shutter; empty: the camera stands still
-    std::vector<ObjectPlan> objects;         // those that are drawn, front to back
+    std::vector<LensSample> samples;    // the samples to draw, in order
+    std::vector<SampleMoment> moments;  // one for each sample; empty if nothing moves during the exposure
+    // From the view at each moment of the shutter to the view in its middle; empty if the camera doesn't move.
+    std::vector<glm::dmat4> middleFromView;
+    std::vector<ObjectPlan> objects;  // the objects to draw, front to back
     std::vector<LeftOut> leftOut;
-    std::vector<std::vector<bool>> levelsUsed;  // per mesh and level: does any object draw it
-    bool usesLens = true;                       // false: nothing is blurred by half a pixel, only antialiasing samples
-    bool usesCocControls = false;               // C isn't a + b·w for all that is drawn
-    bool usesCocScales = false;                 // some of what is drawn scales its blur
+    std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: whether any object draws it
+    bool usesLens = true;          // false: no blur reaches half a pixel, and the samples only smooth edges
+    bool usesCocControls = false;  // C differs from a + b·w somewhere
+    bool usesCocScales = false;    // some object or vertex scales its blur
     bool usesTextures = false;
     bool usesBlending = false;
-    bool needsAlpha = false;                  // transparent background: the accumulation keeps coverage
-    std::uint64_t trianglesDrawn = 0;         // over all samples
-    std::uint64_t trianglesFacingAway = 0;    // over all samples, of the drawn levels: left out with their clusters
-    std::uint64_t trianglesOutside = 0;       // the same
-    std::uint64_t trianglesAtFullDetail = 0;  // over all samples: level 0, nothing left out
+    bool needsAlpha = false;  // the background is transparent, so the accumulation keeps coverage
+    // Sums over all samples.
+    std::uint64_t trianglesDrawn = 0;
+    std::uint64_t trianglesFacingAway = 0;  // left out of the drawn levels, because their clusters face away
+    std::uint64_t trianglesOutside = 0;  // left out of the drawn levels, because their clusters lie outside the image
+    std::uint64_t trianglesAtFullDetail = 0;  // what level 0 of the drawn objects has, with no cluster left out
 };
 
-// Samples that remain when nothing is blurred: they only smooth edges.
+// The number of samples that remain if nothing is blurred. They only smooth edges.
 inline constexpr std::uint32_t antialiasingSamples = 16;
-// Blur below this diameter is left out (with keepAll it is not).
+// If no blur is wider than this diameter, the lens is left out (unless keepAll is set).
 inline constexpr double leastBlur = 0.5;  // px
 
-// What is left of `level`; null if it is drawn whole.
+// Returns the part of `level` that is drawn, or null if all of it is drawn.
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);
 
-// The sample that an object draws at both levels, each at its own pixels; none in most modes.
+// Returns the sample that an object draws at both levels, each at its own pixels. Only LodMode::continuous has one.
 std::optional<std::uint32_t> boundarySample(const ObjectPlan& object);
 
-// Throws Error for an impossible lens, size or sample count, and for a shutter whose moments don't fit together.
+// Throws Error if the lens, the size or the number of samples is impossible, or if the moments of the shutter don't fit
+// together.
 FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings);
 
 }  // namespace defocus

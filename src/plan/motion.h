@@ -1,19 +1,20 @@
 #pragma once
-// What moves while the shutter is open, for a plan.
+// Finds what moves while the shutter is open, for a plan.
 
 #include "plan/frame_plan.h"
 
 namespace defocus {
 
-// Throws Error when the shutter's poses and cameras aren't of one scene at the same moments, or fewer than the samples
-// need.
+// Throws Error if the shutter's poses and cameras don't belong to one scene at the same moments, or if there are fewer
+// of them than the samples need.
 void checkShutter(const World& world, const View& view, const RenderSettings& settings);
 
-// An object at the shutter's moments, each in the space of the camera of that moment. Empty where it stands still
-// before the camera, to a billionth of its matrices' size, as it does in `pose`.
+// Returns the poses of an object at the moments of the shutter, each in the view space of that moment. The result is
+// empty if they all equal `pose`, to a billionth of the size of its matrices: the object doesn't move relative to the
+// camera.
 std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::size_t object, const ObjectPose& pose);
 
-// Fills plan.moments and plan.middleFromView; they stay empty where none of the plan's objects moves.
+// Fills plan.moments and plan.middleFromView. They stay empty if none of the plan's objects moves.
 void planMoments(FramePlan& plan, const World& world);
 
 }  // namespace defocus

@@ -1,5 +1,5 @@
 #pragma once
-// A FramePlan in words: a table for people, JSON for programs.
+// Writes a FramePlan as text: as a table for people, and as JSON for programs.
 
 #include <string>
 
@@ -8,8 +8,9 @@
 namespace defocus {
 
 std::string planTable(const FramePlan& plan);
-// Keys: image, lens, samples, shutter, objects[] (name, depth, coc, projectedEdge, lambda, blended, moves, draws[], and
-// boundaryShare where the first of the draws shares its last sample with the second), leftOut[], triangles.
+// The keys are image, lens, samples, shutter, objects[], leftOut[] and triangles. An object has name, depth, coc,
+// projectedEdge, lambda, blended, moves and draws[], and boundaryShare if its first draw shares its last sample with
+// the second.
 std::string planJson(const FramePlan& plan);
 
 }  // namespace defocus

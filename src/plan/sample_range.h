@@ -1,13 +1,13 @@
 #pragma once
-// A part of a frame's lens samples as a plan of its own, for a frame that several machines share: the levels and their
+// Makes a plan of a part of a frame's lens samples, so that several machines can share a frame. The levels and their
 // split stay those of the whole frame.
 
 #include "plan/frame_plan.h"
 
 namespace defocus {
 
-// Samples [first, first + count) of `plan`: sample i of the result is sample first + i. They must lie within the plan;
-// objects are kept even where none of these samples draws them.
+// Returns the plan of samples [first, first + count) of `plan`: sample i of the result is sample first + i. The range
+// must lie within the plan. Objects stay in the plan even if none of these samples draws them.
 FramePlan samplesOf(const FramePlan& plan, std::uint32_t first, std::uint32_t count);
 
 }  // namespace defocus

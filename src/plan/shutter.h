@@ -1,5 +1,5 @@
 #pragma once
-// How long the shutter of a frame is open, and which of its moments a plan needs the scene's poses for.
+// Says how long the shutter of a frame is open, and poses the scene at the moments that a plan needs.
 
 #include <functional>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace defocus {
 
-// The middle of the exposure, s from the frame's time.
+// Returns the middle of the exposure, in seconds from the frame's time.
 double shutterMiddle(const ShutterSettings& shutter);
 
 // A scene and its camera at one moment.
@@ -17,9 +17,9 @@ struct ShutterMoment {
     glm::dmat4 worldFromCamera{1.0};
 };
 
-// Fills `opened` (World::shutter) and view.shutterCameras with what `momentAt` gives for times in s from the frame's;
-// both stay empty where the shutter opens and closes at one moment, the cameras where theirs stands still. `view` and
-// `settings` are the frame's: with exact motion they say when its samples are taken.
+// Fills `opened` (World::shutter) and view.shutterCameras with what `momentAt` returns for times in seconds from the
+// frame's time. Both stay empty if the shutter opens and closes at one moment; the cameras also stay empty if the
+// camera doesn't move. With exact motion, `view` and `settings` of the frame decide when its samples are taken.
 void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
                  const std::function<ShutterMoment(double)>& momentAt, Shutter& opened, View& view);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A view: from where, through which lens, at which size a posed scene is rendered.
+// A view says from where, through which lens and at which size a posed scene is rendered.
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
@@ -18,35 +18,35 @@
 namespace defocus {
 
 struct View {
-    glm::dmat4 worldFromCamera{1.0};  // rigid; the camera looks along its −z
+    glm::dmat4 worldFromCamera{1.0};  // a rigid transform; the camera looks along its −z axis
     Lens lens;
     double nearPlane = 0.01;  // m, > 0
     int width = 1024;         // px
     int height = 768;         // px
-    // worldFromCamera at the moments of World::shutter, as many as it has poses; empty: the camera stands still.
+    // worldFromCamera at each moment of World::shutter; empty if the camera doesn't move.
     std::vector<glm::dmat4> shutterCameras;
 };
 
-// What the scene does while the shutter is open.
+// The poses of the scene while the shutter is open.
 struct Shutter {
-    std::vector<Pose> poses;  // the same objects as World::pose; empty: the scene stands still
-    // false: the moments are evenly spaced, opening and closing included, and vertices move in straight lines from one
-    // to the next (Munkberg, Toth and Akenine-Möller 2012, with one such step); true: one moment a lens sample, at its
-    // LensSample::time.
+    std::vector<Pose> poses;  // they have the same objects as World::pose; empty if the scene doesn't move
+    // false: the moments are evenly spaced, from opening to closing, and vertices move in straight lines from one to
+    // the next (Munkberg, Toth and Akenine-Möller 2012 have one such line). true: each lens sample has a moment of its
+    // own, at its LensSample::time.
     bool perSample = false;
 };
 
-// A scene ready to be planned: posed, lit, with one pyramid a mesh.
+// A scene that is ready to be planned: it has a pose, lights and one pyramid for each mesh.
 struct World {
     std::shared_ptr<const Scene> scene;
     Pose pose;        // in the middle of the exposure
-    Shutter shutter;  // lights and sky stay as they are in its middle
+    Shutter shutter;  // lights and sky keep their state from the middle of the exposure
     std::vector<PlacedLight> lights;
     Environment environment;
-    std::vector<Pyramid> pyramids;  // one a mesh of the scene
+    std::vector<Pyramid> pyramids;  // one for each mesh of the scene
 };
 
-// A scene that its caller keeps alive for as long as the world.
+// Returns a pointer that doesn't own the scene. The caller must keep the scene alive for as long as the world.
 inline std::shared_ptr<const Scene> borrowed(const Scene& scene) {
     return {std::shared_ptr<const void>(), &scene};
 }

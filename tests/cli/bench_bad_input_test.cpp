@@ -1,7 +1,9 @@
 // defocus bench: what is wrong with its command line is one line.
 
+#include "cli/bench_commands.h"
 #include "cli/program.h"
 #include "cli/two_quads.h"
+#include "core/error.h"
 
 namespace defocus {
 namespace {
@@ -52,7 +54,21 @@ TEST_F(Bench, whatIsGivenTwiceIsNamed) {
 
 TEST_F(Bench, convergenceLeavesNothingWhereItCannotBegin) {
     expectFault(1, "missing.glb", {"convergence", "missing.glb", "-o", "out"});
-    expectFault(1, "quads.gltf", {"convergence", "quads.gltf", "-o", "quads.gltf"});
+    expectFault(1, "quads.gltf", {"convergence", "quads.gltf", "-o", "quads.gltf", "--allow-changed"});
+}
+
+TEST(BenchResults, areNotWrittenFromChangedSources) {
+    try {
+        refuseChangedSources("out", false, "0123456789ab-changed");
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("out: "), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("--allow-changed"), std::string::npos) << error.what();
+    }
+    EXPECT_NO_THROW(refuseChangedSources("out", true, "0123456789ab-changed"));
+    EXPECT_NO_THROW(refuseChangedSources("", false, "0123456789ab-changed"));  // only a table on the terminal
+    EXPECT_NO_THROW(refuseChangedSources("out", false, "0123456789ab"));
+    EXPECT_NO_THROW(refuseChangedSources("out", false, ""));  // not built in a checkout
 }
 
 TEST_F(Bench, diffNamesTheFileThatIsNoResult) {

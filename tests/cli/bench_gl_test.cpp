@@ -29,9 +29,10 @@ protected:
     }
 
     Outcome bench(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(), {"--quiet", "bench", "convergence", "quads.gltf", "--size", "64x48",
-                                             "--fstop", "1", "--counts", "2,8", "--methods", "accumulation",
-                                             "--threshold-factors", "1", "--runs", "2", "--reference-samples", "16"});
+        arguments.insert(arguments.begin(),
+                         {"--quiet", "bench", "convergence", "quads.gltf", "--size", "64x48", "--fstop", "1",
+                          "--counts", "2,8", "--methods", "accumulation", "--threshold-factors", "1", "--runs", "2",
+                          "--reference-samples", "16", "--allow-changed"});
         return run(arguments);
     }
 
@@ -188,11 +189,11 @@ TEST_F(BenchConvergence, reportHasASectionForEachBench) {
         fs::copy(fs::path(DEFOCUS_SOURCE_DIR) / "bench/results" / (std::string("llvmpipe-") + name + ".json"),
                  folder() / "page" / (std::string(name) + ".json"));
     ASSERT_EQ(run({"--quiet", "bench", "speedup", "quads.gltf", "--counts", "2,4", "--size", "32x24", "--runs", "1",
-                   "--report", "page"})
+                   "--report", "page", "--allow-changed"})
                   .exitCode,
               0);
     const Outcome outcome = run({"--quiet", "bench", "popping", "quads.gltf", "--counts", "2", "--size", "32x24",
-                                 "--frames", "3", "--report", "page"});
+                                 "--frames", "3", "--report", "page", "--allow-changed"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     for (const char* file : {"speedup.csv", "speedup.json", "popping.csv", "popping.json"})
         EXPECT_TRUE(fs::exists(folder() / "page" / file)) << file;

@@ -1,6 +1,6 @@
 #pragma once
-// Frames made into rows, one a case: medians with their spread, which rows no other beats, and how far each setting of
-// the levels stays from full detail however many lens samples there are.
+// Summarises the frames of each case as one row: the medians with their spread, whether another row beats it, and for
+// each setting of the levels how far it stays from full detail with any number of lens samples.
 
 #include <optional>
 #include <span>
@@ -15,27 +15,28 @@ namespace defocus {
 struct ConvergenceRow {
     std::string method;
     std::string setting;
-    std::uint32_t asked = 0;    // lens samples asked for; 0: the method takes none
-    std::uint32_t samples = 0;  // drawn
+    std::uint32_t asked = 0;    // lens samples asked for; 0 if the method takes none
+    std::uint32_t samples = 0;  // lens samples drawn
     int runs = 0;
-    Spread milliseconds;             // a frame, wall clock
-    Spread setupMilliseconds;        // of the renderer, not in `milliseconds`
-    double pyramidMilliseconds = 0;  // of the pyramids, not in `milliseconds`
+    Spread milliseconds;             // wall clock, of a frame
+    Spread setupMilliseconds;        // of the renderer; not part of `milliseconds`
+    double pyramidMilliseconds = 0;  // of building the pyramids; not part of `milliseconds`
     double gpuMilliseconds = 0;      // median
-    ImageError error;                // from the reference
-    std::optional<ImageError> bias;  // with levels: from full detail at the same lens samples
+    ImageError error;                // against the reference
+    std::optional<ImageError> bias;  // only with levels: against full detail at the same lens samples
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;
-    bool front = false;          // no row of any method has both a lower or equal time and MSE, and one of them lower
+    bool front = false;          // no other row of any method beats it: see paretoFront, with time and MSE
     bool frontOfMethod = false;  // the same among the rows of its method
-    bool frontByFlip = false;    // as `front`, by FLIP
-    // The error is below the reference's own: it says no more than that.
+    bool frontByFlip = false;    // the same as `front`, with FLIP instead of MSE
+    // True if the error is smaller than the reference's own error; then its value means nothing else.
     bool mseBelowReference = false;
     bool flipBelowReference = false;
-    std::string fault;  // why the image is not what it claims to be: the row is on no front
+    std::string fault;  // says why the image isn't valid; such a row is on no front
 };
 
-// In the order in which the cases first appear. `remaining`: the reference's estimate of its own error.
+// Returns the rows in the order in which their cases first appear. `remaining` is the reference's estimate of its own
+// error.
 std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining = {});
 
 struct Trial {
@@ -43,20 +44,21 @@ struct Trial {
     double error = 0;
 };
 
-// For each trial: is there no other with a lower or equal cost and error of which one is lower? (Pareto's front; equal
-// trials are all on it or all off it.)
+// Returns for each trial whether it is on the Pareto front. A trial is off the front if another one has a lower or
+// equal cost and a lower or equal error, and one of them is lower. Equal trials are all on the front or all off it.
 std::vector<bool> paretoFront(std::span<const Trial> trials);
 
-// With this setting's thresholds of the largest number of samples measured, more lens samples bring the image no closer
-// to full detail than this: sampling noise, the same in both images, cancels in their difference.
+// How close one setting of the levels comes to full detail. With the thresholds of the largest number of samples that
+// was measured, more lens samples would not bring the image closer: the sampling noise is the same in both images and
+// cancels in their difference.
 struct BiasFloor {
     std::string method;
     std::string setting;
-    std::uint32_t samples = 0;  // where it was measured
+    std::uint32_t samples = 0;  // lens samples at which it was measured
     ImageError error;
 };
 
-// One for each setting with levels.
+// Returns one floor for each setting with levels.
 std::vector<BiasFloor> biasFloors(std::span<const ConvergenceRow> rows);
 
 }  // namespace defocus

@@ -1,6 +1,6 @@
 #pragma once
-// What bench convergence prints and writes: a table for people, results as CSV and JSON, and the journal of single
-// frames that a killed run is taken up from.
+// Writes what bench convergence measures: a table for people, results as CSV and JSON, and a journal of single frames
+// from which an interrupted run continues.
 
 #include <cstdint>
 #include <span>
@@ -19,12 +19,13 @@ namespace defocus {
 
 std::string convergenceHeader();                         // two lines
 std::string convergenceLine(const ConvergenceRow& row);  // one line
-// The reference, the rows that no other beats, and the bias floors, in sentences; who takes how long to which error.
+// Describes in sentences the reference, the rows that no other row beats, the bias floors, and the times to equal
+// errors.
 std::string convergenceSummary(std::span<const ConvergenceRow> rows, const ReferenceImage& reference);
 
 // ---- results --------------------------------------------------------------------------------------------------------
 
-// What the rows were measured on and with.
+// Describes what the rows were measured on, and with what.
 struct ConvergenceSubject {
     BenchSubject bench;
     std::vector<Crop> crops;
@@ -36,9 +37,10 @@ struct ConvergenceSubject {
     std::vector<LeftOut> leftOut;
 };
 
-// The file names, under the results' folder, of a row's image and its FLIP map.
+// The names of a row's image and of its FLIP map, relative to the folder of the results.
 std::string imageName(std::string_view method, std::string_view setting, std::uint32_t asked);
-inline constexpr float errorMapFullScale = 0.25f;  // the FLIP that is drawn brightest: most errors are small
+inline constexpr float errorMapFullScale =
+    0.25f;  // the FLIP value that is drawn brightest, because most errors are small
 std::string errorMapName(std::string_view method, std::string_view setting, std::uint32_t asked);
 
 std::string convergenceCsv(std::span<const ConvergenceRow> rows);
@@ -47,12 +49,12 @@ std::string convergenceJson(std::span<const ConvergenceRow> rows, const Referenc
 
 // ---- journal --------------------------------------------------------------------------------------------------------
 
-// One line a frame, numbers to their last bit. `subject` stands for all that frames of one journal must have in common
-// (scene, reference, device, program).
+// Writes one line for each frame, with numbers to their last bit. `subject` is a hash of everything that the frames of
+// one journal must have in common (scene, reference, device, program).
 std::string runsCsv(std::span<const ConvergenceRun> runs, std::uint64_t subject);
 
-// The runs of a journal, whatever byte it was cut off at: a last line without its end is dropped. Throws Error, naming
-// the file `name`, for another subject and for lines that are no runs.
+// Reads the runs of a journal. The text may be cut off at any byte: a last line without its end is dropped. Throws
+// Error, with the file `name`, if the subject differs or a line isn't a run.
 std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t subject, const std::string& name);
 
 }  // namespace defocus

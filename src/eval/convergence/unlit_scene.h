@@ -1,14 +1,14 @@
 #pragma once
-// A scene that every method shades alike, ray tracers too: unlit and opaque, with a fixed light painted on. What is
-// left to compare is geometry, visibility, the lens and its sampling.
+// Makes a scene that every method shades alike, ray tracers included: it is unlit and opaque, and a fixed light is
+// painted on it. Then only geometry, visibility, the lens and its sampling can differ.
 
 #include "scene/scene.h"
 
 namespace defocus {
 
-// Each material becomes unlit and opaque and takes the mean colour of its texture; Lambert shading under one light,
-// fixed to each mesh, goes into 8-bit vertex colours, which methods interpolate linearly. Meshes, nodes, cameras and
-// surroundings stay.
+// Each material becomes unlit and opaque and takes the mean colour of its texture. Lambert shading under one light,
+// which is fixed to each mesh, goes into 8-bit vertex colours; the methods interpolate these linearly. Meshes, nodes,
+// cameras and environment don't change.
 Scene unlitScene(Scene scene);
 
 }  // namespace defocus

@@ -1,5 +1,5 @@
 #pragma once
-// Movements of camera and scene over which levels of detail change: what popping is measured along.
+// The movements of focus, camera and scene along which popping is measured, because levels of detail change on the way.
 
 #include <vector>
 
@@ -14,25 +14,25 @@ enum class Movement {
     clip,       // an animation of the scene plays once, such as a walk cycle; the camera stands still
 };
 
-const char* movementName(Movement movement);  // as the command line has it
+const char* movementName(Movement movement);  // the name on the command line
 
 struct MovementFrame {
     View view;
     Pose pose;
 };
 
-// The whole movement in `frames` frames; `view` lies in the middle of the dolly and of the turntable, and the pose is
-// the world's but for Movement::clip, which plays the scene's clip number `clip`. Throws Error for less than two
-// frames, where nothing lies in front of the camera, and for a clip that the scene doesn't have.
+// Returns the whole movement as `frames` frames. `view` is in the middle of the dolly and of the turntable. All frames
+// have the world's pose, except with Movement::clip, which plays the scene's clip number `clip`. Throws Error if there
+// are fewer than two frames, if nothing lies in front of the camera, or if the scene doesn't have the clip.
 std::vector<MovementFrame> framesAlong(Movement movement, const World& world, const View& view, int frames,
                                        int clip = 0);
 
-// Puts the world into the frame's pose.
+// Gives the world the pose of the frame.
 void poseWorld(World& world, const MovementFrame& frame);
 
-// The stretch of `length` frames, the first of several, over which the whole levels nearest to the objects' λ change
-// most often: where LodMode::nearest pops. Leaves `world` in the last frame's pose. Throws Error for more frames than
-// there are.
+// Returns the `length` consecutive frames in which LodMode::nearest pops most often, that is in which the whole levels
+// nearest to the objects' λ change most often; of equal stretches, the first. Leaves `world` in the pose of the last
+// frame. Throws Error if `length` is larger than the number of frames.
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
                                           const RenderSettings& settings, int length);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Rows of the scaling benchmark as a table for people, as CSV and as JSON, with the exponents fitted to them.
+// Writes the rows of the scaling benchmark, with the exponents fitted to them, as a table for people, as CSV and as
+// JSON.
 
 #include <span>
 #include <string>
@@ -13,11 +14,11 @@ namespace defocus {
 std::string scalingHeader();                     // two lines
 std::string scalingLine(const ScalingRow& row);  // one line
 
-// Exponents of the time against each axis, and what bounds the frame along it, in sentences.
+// Gives the exponent of the time along each axis, and what bounds the frame there, in sentences.
 std::string scalingSummary(std::span<const ScalingRow> rows);
 
-// "fill up to 300 k, vertex work and fill alike from 1 M": the largest parts of the rows of one axis and mode, in their
-// order.
+// Describes the largest parts of the rows of one axis and mode, in their order, such as "fill up to 300 k, vertex work
+// and fill alike from 1 M".
 std::string boundsAlong(std::span<const ScalingRow> rows);
 
 struct ScalingLeftOut {

@@ -1,5 +1,5 @@
 #pragma once
-// The scenes of the scaling benchmark: made here, so that one number at a time can grow while the rest stays.
+// Makes the scenes of the scaling benchmark, so that one number at a time can grow while the rest stays.
 
 #include <filesystem>
 #include <memory>
@@ -13,16 +13,16 @@ namespace defocus {
 struct ScalingWorld {
     std::shared_ptr<Scene> scene = std::make_shared<Scene>();
     World world;
-    View view;  // the school's own camera; size: 640 × 480 px
+    View view;  // the school's own camera, 640 × 480 px
 };
 
-// The first eight fish of the built-in school, of `triangles` in all, about (1,600 … 80,000,000): the same shapes at
-// the same places whatever their number. Pyramids come from the cache in `cacheFolder` or go there (empty: none).
+// Returns the first eight fish of the built-in school with about `triangles` in all (1,600 … 80,000,000). Shapes and
+// places don't depend on the number of triangles. Pyramids are kept in `cacheFolder`, unless it is empty.
 ScalingWorld schoolOf(std::uint64_t triangles, const std::filesystem::path& cacheFolder, const Progress& progress = {});
 
-// One fish of about `triangles`, `instances` times, before the same camera: on a grid of as many columns and rows as
-// layers behind each other, which always fills the same part of the view. A fish is as large as its cell: the pixels
-// that it covers shrink as they become more, and all together they cover about as many a layer.
+// Returns `instances` copies of one fish of about `triangles`, before the same camera. They stand on a grid with as
+// many columns and rows as layers behind each other, which always fills the same part of the view. Each fish is as
+// large as its cell, so a fish covers fewer pixels as their number grows, and a layer covers about as many as before.
 ScalingWorld gridOf(int instances, int triangles, const std::filesystem::path& cacheFolder);
 
 }  // namespace defocus

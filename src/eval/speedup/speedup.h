@@ -1,9 +1,9 @@
 #pragma once
-// The benchmark of Jeong, Kim and Lee 2011 (their Figure 2): a fixed camera, and how much faster a frame is with levels
-// of detail than at full detail, over the number of lens samples, the f-number and the focus distance.
+// The benchmark of Jeong, Kim and Lee 2011 (their Figure 2). With a fixed camera, it measures how much faster a frame
+// is with levels of detail than at full detail, over the number of lens samples, the f-number and the focus distance.
 //
-// Held equal within a row's group: scene, camera, lens, lens samples, image size, layers drawn at once, process,
-// renderer. Runs of the three modes alternate, so that a machine that slows down slows all of them.
+// Held equal between the three modes: scene, camera, lens, lens samples, image size, layers drawn at once, process,
+// renderer. Runs of the modes alternate, so that a machine that slows down slows all of them.
 
 #include <functional>
 #include <optional>
@@ -23,12 +23,13 @@ struct SpeedupOptions {
     std::vector<double> fStops;                                             // further f-numbers, at `sweepSamples`
     std::vector<double> focusDistances;  // further focus distances, m, at `sweepSamples`
     std::uint32_t sweepSamples = 64;
-    int runs = 3;  // of each mode; 1 or more
-    // Of a converged reference (reference_image.h) for each lens. None: eight times the most that are measured with the
-    // lens, which takes about two thirds of the time of three runs of all modes. 0: no reference.
+    int runs = 3;  // of each mode, ≥ 1
+    // Lens samples of the converged reference for each lens (reference_image.h). If unset, it has eight times the
+    // largest number of samples measured with the lens, which takes about two thirds of the time of three runs of all
+    // modes. 0 makes no reference.
     std::optional<std::uint32_t> referenceSamples;
-    double pyramidMilliseconds = 0;  // what the world's pyramids took
-    RenderSettings plan;             // of all that is measured, but samples and mode
+    double pyramidMilliseconds = 0;  // time that building the world's pyramids took
+    RenderSettings plan;             // of everything that is measured, except samples and mode
     RendererOptions renderer;
 };
 
@@ -39,21 +40,21 @@ struct SpeedupRow {
     double focusDistance = 0;  // m
     LodMode mode = LodMode::off;
     int runs = 0;
-    Spread milliseconds;             // a frame, wall clock
-    Spread gpuMilliseconds;          // timer queries; on a software driver these miss vertex work
-    double setupMilliseconds = 0;    // of the renderer, not in `milliseconds`
-    double pyramidMilliseconds = 0;  // of the pyramids, where levels are used; not in `milliseconds`
-    double speedUp = 1;              // full detail's median over this one's
+    Spread milliseconds;             // wall clock, of a frame
+    Spread gpuMilliseconds;          // by timer queries, which miss the work on vertices on a software driver
+    double setupMilliseconds = 0;    // of the renderer; not part of `milliseconds`
+    double pyramidMilliseconds = 0;  // of building the pyramids, if levels are used; not part of `milliseconds`
+    double speedUp = 1;              // the median of full detail divided by this one
     std::uint64_t triangles = 0;
-    std::uint64_t gpuBytes = 0;  // resources held by the renderer, at their peak
-    Difference fromFullDetail;   // at the same number of samples
+    std::uint64_t gpuBytes = 0;  // the most that the renderer's resources took
+    Difference fromFullDetail;   // at the same lens samples
     std::optional<Difference> fromReference;
-    std::uint32_t referenceSamples = 0;  // 0: there is none
+    std::uint32_t referenceSamples = 0;  // 0 if there is no reference
     Difference referenceRemaining;       // the reference's estimate of its own error
 };
 
-// Calls `visit` with each row as soon as it is measured: full detail, nearest level, fractional level for each setting.
-// Needs a current GL context. Throws Error as planning and rendering do.
+// Calls `visit` with each row as soon as it is measured: for each setting, full detail, nearest level and fractional
+// level. Needs a current GL context. Throws Error like planning and rendering.
 void measureSpeedup(const World& world, const View& view, const SpeedupOptions& options,
                     const std::function<void(const SpeedupRow&)>& visit, const Progress& progress = {});
 

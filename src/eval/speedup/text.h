@@ -1,5 +1,5 @@
 #pragma once
-// Rows of the speed-up benchmark as a table for people, as CSV and as JSON.
+// Writes the rows of the speed-up benchmark as a table for people, as CSV and as JSON.
 
 #include <span>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes with closed-form images: upright unlit boards before a uniform background.
+// Makes scenes whose images have a closed form: upright unlit boards before a uniform background.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -17,10 +17,10 @@ struct Board {
     glm::vec3 radiance{1};   // linear
 };
 
-// A camera at the origin, 50 mm on 36 mm, f/1 focused at 2 m.
+// Returns a camera at the origin with a 50 mm lens on a sensor of 36 mm, f/1, focused at 2 m.
 View boardView(int width = 96, int height = 64);
 
-// Owns what its world points to: not copied or moved.
+// It owns what its world points to, so it can't be copied or moved.
 class BoardScene {
 public:
     BoardScene(const View& boardsView, const std::vector<Board>& boards, const glm::vec3& background = glm::vec3(0));
@@ -33,31 +33,33 @@ public:
     RenderSettings settings;  // full detail, everything kept
 };
 
-// The rendered image, by `method` (as parseMethodUse has it).
+// Renders the scene with `method`, written as for parseMethodUse.
 Image rendered(const BoardScene& boards, const std::string& method = "accumulation",
                const RendererOptions& options = {});
 
-// A square board that is `pixels` wide around the image's middle, moved by `offset` px (right, up).
+// Returns a square board that is `pixels` wide and centred in the image, moved by `offset` px (right, up).
 Board squareAt(const View& view, double depth, double pixels, const glm::vec3& radiance,
                const glm::dvec2& offset = glm::dvec2(0));
 
-// In front of the focus, at it and behind it: nearest and farthest depth as given, the middle one 2 m.
+// Returns three boards: in front of the focus at depth `nearest`, in focus at 2 m, and behind it at depth `farthest`.
 std::vector<Board> threeBoards(const View& view, double nearest, double farthest);
 
-// Of any channel of any pixel of two images of one size, linear; infinite where one image has a value that isn't
-// finite.
+// Returns the largest difference of any channel of any pixel, linear. The images must have the same size. The result is
+// infinite if one of them has a value that isn't finite.
 double largestError(const Image& a, const Image& b);
 
-// The blur diameter in px of DESIGN's formula, c = A·|1/s − 1/z|·W / (2 tan(θx/2)), in double from the lens alone.
+// Computes the diameter of the blur in px, c = A·|1/s − 1/z|·W / (2 tan(θx/2)), in double and from the lens alone.
 double blurDiameter(const View& view, double depth);
 
-// How far a light that squareAt made is from the closed form: its disk's diameter by the second moment, and its centre.
+// The errors of a light made by squareAt against the closed form. The diameter of its disk comes from the second
+// moment.
 struct BlurredLight {
     double diameterError = 0;  // px
-    double placeError = 0;     // px
+    double placeError = 0;     // px, of the disk's centre
 };
 
-// `light` is as the view's squareAt took it. By one channel of the image, which shows nothing else near the disk.
+// The arguments that squareAt took for the light, and the channel of the image to measure. The channel must show
+// nothing else near the disk.
 struct LightPlace {
     double depth = 6;      // m
     double pixels = 3;     // wide
@@ -66,7 +68,7 @@ struct LightPlace {
 };
 BlurredLight blurredLight(const Image& image, const View& view, const LightPlace& light);
 
-// Sets blurScale so that depth `depth` is blurred by `pixels`.
+// Sets blurScale so that the blur at `depth` (m) is `pixels` wide.
 void setBlur(View& view, double depth, double pixels);
 
 }  // namespace defocus

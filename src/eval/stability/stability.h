@@ -1,6 +1,7 @@
 #pragma once
-// Stiff and extreme cases, each with what is measured, against which truth, and a limit that stands in the code before
-// anything is measured. The benchmark prints them; a test holds them.
+// Measures numerically stiff and extreme cases. Each case says what is measured, against which truth, and how large the
+// error may be; the limit stands in the code before anything is measured. The benchmark prints the cases, and a test
+// holds them to their limits.
 
 #include <functional>
 #include <limits>
@@ -15,27 +16,27 @@ inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct StabilityCase {
     std::string area;      // "sums", "lens", "motion", "space", "values", "levels", "traced"
-    std::string name;      // what is stiff about it
-    std::string measured;  // what the error is of, with its unit
+    std::string name;      // what makes it stiff or extreme
+    std::string measured;  // what the error measures, with its unit
     std::string truth;     // "closed form", "double sum", …
-    double limit = 0;      // the largest error that passes; infinity: for comparison only
+    double limit = 0;      // the largest error that passes; infinity if the case is for comparison only
     std::function<double()> error;
-    std::string method = {};  // of the table of methods, that the truth is; empty: none
+    std::string method = {};  // the method that the truth comes from, of the table of methods; empty if there is none
 };
 
 struct StabilityRow {
     StabilityCase subject;
     double error = 0;
-    bool leftOut = false;  // this program doesn't have the case's method
+    bool leftOut = false;  // true if this program doesn't have the method that the truth comes from
     [[nodiscard]] bool failed() const { return !leftOut && !(error <= subject.limit); }  // a NaN fails
 };
 
-// Needs a current GL context while they are measured.
+// Measuring the cases needs a current GL context.
 std::vector<StabilityCase> stabilityCases();
 
 void measureStability(const std::function<void(const StabilityRow&)>& visit, const Progress& progress = {});
 
-// The parts of stabilityCases, one a file.
+// The parts of stabilityCases, one for each file.
 void addSumCases(std::vector<StabilityCase>& cases);
 void addLensCases(std::vector<StabilityCase>& cases);
 void addEdgeCases(std::vector<StabilityCase>& cases);

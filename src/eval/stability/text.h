@@ -1,5 +1,5 @@
 #pragma once
-// Rows of the stability benchmark and of lens honesty as tables for people and as JSON.
+// Writes the rows of the stability benchmark and of lens honesty as tables for people and as JSON.
 
 #include <span>
 #include <string>
@@ -10,11 +10,12 @@
 
 namespace defocus {
 
-// With a heading where `before` (null: none) measured something else, or against something else.
+// Returns one line, with a heading above it if `before` measured something else or against another truth. `before` is
+// null for the first row.
 std::string stabilityLine(const StabilityRow& row, const StabilityRow* before);
 std::string honestyHeader();
 std::string honestyLine(const HonestyRow& row);
-// A line for each method with its settings: how far it is off at most, and how many of its rows follow the lens.
+// Returns a line for each method with its settings: its largest error, and how many of its rows follow the lens.
 std::string honestySummary(std::span<const HonestyRow> rows);
 std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const HonestyRow> honesty,
                           const BenchSubject& subject);

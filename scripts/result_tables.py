@@ -1,0 +1,350 @@
+"""The tables of docs/results.md, each made from a committed run: what scripts/readme_tables writes there.
+
+Each function of TABLES returns Markdown: a table, and under it the command that printed its figures, what was held equal, and a
+link to the run. Results are JSON where the bench writes it, else the text that it prints.
+"""
+
+import json
+import pathlib
+import re
+
+RESULTS = pathlib.Path(__file__).resolve().parent.parent / "bench" / "results"
+MOVEMENTS = ("focus-pull", "dolly", "turntable")
+MODES = {"off": "full detail", "nearest": "nearest level", "fractional": "split samples", "continuous": "split pixels"}
+
+
+def results_of(name):
+    return json.loads((RESULTS / f"llvmpipe-{name}.json").read_text())
+
+
+def lines_of(name):
+    return (RESULTS / f"llvmpipe-{name}.txt").read_text().splitlines()
+
+
+def command_of(results):
+    """As it was called, but for where it wrote."""
+    return re.sub(r" (-o \S+|--report \S+|--quiet)", "", results["commands"][0])
+
+
+def warning(results):
+    """What must stand above figures that nobody can check out and repeat."""
+    if not results["commit"].endswith("-changed"):
+        return ""
+    return (f"**These figures come from a program with uncommitted changes ({results['commit']}). They can't be repeated exactly, and "
+            "they are due to be measured again.**\n\n")
+
+
+def numbers(text):
+    return [float(word) for word in re.findall(r"-?\d+\.?\d*(?:e[+-]\d+)?", text)]
+
+
+def numbers_after(lines, beginning):
+    """All numbers of the only line that begins so, without those in the beginning itself."""
+    (line,) = [line for line in lines if line.startswith(beginning)]
+    return numbers(line[len(beginning):])
+
+
+def span(values, digits):
+    low, high = (f"{value:.{digits}f}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def mean_of(values):
+    values = list(values)
+    return sum(values) / len(values)
+
+
+def table(header, rows):
+    return "\n".join("| " + " | ".join(row) + " |" for row in [header, ["---"] * len(header), *rows]) + "\n"
+
+
+def source(command, held_equal, file):
+    return f"\nCommand: `{command}` ([the run](../bench/results/{file})). Held equal: {held_equal}.\n"
+
+
+def source_of(name):
+    results = results_of(name)
+    held = results["heldEqual"].rstrip(".")
+    commit = f", commit {results['commit']}"
+    return warning(results), source(command_of(results), held, f"llvmpipe-{name}.json").replace("the run]", f"the run{commit}]")
+
+
+# ---- speed ----------------------------------------------------------------------------------------------------------
+
+
+def samples_sweep(name):
+    """(samples, {mode: row}) of the view's own lens."""
+    rows = [row for row in results_of(name)["rows"] if row["sweep"] == "samples"]
+    counts = sorted({row["samples"] for row in rows})
+    return [(count, {row["lod"]: row for row in rows if row["samples"] == count}) for count in counts]
+
+
+def seconds(row):
+    return row["milliseconds"]["median"] / 1000
+
+
+def error_ratio(modes):
+    return modes["fractional"]["fromReference"]["rmse"] / modes["off"]["fromReference"]["rmse"]
+
+
+def missed(value, aim):
+    """In bold where it is above its aim."""
+    return f"**{value:.2f}**" if value > aim else f"{value:.2f}"
+
+
+def speed_table(name):
+    above, below = source_of(name)
+    rows = []
+    for count, modes in samples_sweep(name):
+        off, levels = modes["off"], modes["fractional"]
+        rows.append([str(count), f"{seconds(off):.2f} s", f"{seconds(levels):.2f} s", f"{levels['speedUp']:.1f}",
+                     f"{off['fromReference']['rmse']:.4f}", f"{levels['fromReference']['rmse']:.4f}", missed(error_ratio(modes), 1.2),
+                     f"{levels['fromFullDetail']['psnr']:.1f} dB", f"{levels['fromFullDetail']['flip']:.4f}"])
+    header = ["lens samples", "full detail", "levels", "times as fast", "RMSE, full detail", "RMSE, levels", "times the error",
+              "PSNR between the two", "FLIP between the two"]
+    return above + table(header, rows) + below
+
+
+def speedup():
+    return speed_table("speedup-fish")
+
+
+def helmets():
+    return speed_table("speedup-helmets")
+
+
+def lenses():
+    above, below = source_of("speedup-fish")
+    results = results_of("speedup-fish")
+    rows = []
+    for row in results["rows"]:
+        if row["lod"] != "fractional" or row["samples"] != 64:
+            continue
+        (full,) = [other for other in results["rows"] if other["lod"] == "off" and
+                   all(other[key] == row[key] for key in ("sweep", "samples", "fStop", "focusDistance"))]
+        rows.append([f"f/{row['fStop']:g}", f"{row['focusDistance']:g} m", f"{seconds(full):.2f} s", f"{seconds(row):.2f} s",
+                     f"{row['speedUp']:.1f}", f"{row['fromFullDetail']['psnr']:.1f} dB"])
+    return above + table(["f-number", "focus", "full detail", "levels", "times as fast", "PSNR between the two"], rows) + below
+
+
+def speed_sentence():
+    """README's line on speed and quality."""
+    by_count = dict(samples_sweep("speedup-fish"))
+    results = results_of("speedup-fish")
+    some, many = by_count[64], by_count[256]
+    levels, full = some["fractional"], some["off"]
+    text = (f"On {results['machine']['threads']} CPU cores without a GPU, this scene takes {seconds(levels):.1f} s at {results['width']} × "
+            f"{results['height']} with 64 lens samples. That is {levels['speedUp']:.1f} times as fast as with full meshes, at "
+            f"{error_ratio(some):.1f} times their error (RMSE {levels['fromReference']['rmse']:.4f} and {full['fromReference']['rmse']:.4f} against a "
+            f"converged reference). With 256 samples it is {many['fractional']['speedUp']:.1f} times as fast, at {error_ratio(many):.2f} times "
+            "the error.")
+    competitors = {entry["name"]: entry["times"] for entry in results_of("methods-fish")["timesToErrors"]}
+    pairs = zip(competitors["accumulation with levels"], competitors["embree-shared"])
+    ratios = [f"{theirs['milliseconds'] / ours['milliseconds']:.1f} times as long for an RMSE of {ours['rmse']:g}"
+              for ours, theirs in pairs if ours["milliseconds"] and theirs["milliseconds"]]
+    text += f" A CPU ray tracer that traces the same lens samples for every pixel takes {' and '.join(ratios)}."
+    text += " [Results](docs/results.md) has all measurements"
+    devices = {json.loads(path.read_text())["device"].split()[0] for path in RESULTS.glob("*.json")}
+    return wrapped(text + ("; none of them is from a GPU yet." if devices == {"llvmpipe"} else "."))
+
+
+def wrapped(text, width=128):
+    lines, line = [], ""
+    for word in text.split(" "):
+        if line and len(line) + 1 + len(word) > width:
+            lines.append(line)
+            line = word
+        else:
+            line = f"{line} {word}".strip()
+    return "\n".join([*lines, line]) + "\n"
+
+
+def demo():
+    lines = lines_of("demo")
+    rows = []
+    for name in ("full detail", "fractional levels"):
+        (line,) = [line for line in lines if line.startswith(name)]
+        rows.append([name, *re.split(r"\s{2,}", line.strip())[1:]])
+    ratio = numbers_after(lines, "speed-up of the frame")[0]
+    psnr, ssim, flip = numbers_after(lines, "image difference")
+    text = table(["1024 × 768, 64 lens samples", "frame", "a sample", "triangles drawn", "peak memory"], rows)
+    text += f"\nThe second frame is {ratio:.1f} times as fast. The two images differ by PSNR {psnr:.1f} dB, SSIM {ssim:.3f}, FLIP {flip:.4f}.\n"
+    return text + source("scripts/demo", "program, renderer, lens samples, buffers, and the removal of triangles that face away or lie "
+                         "outside the image", "llvmpipe-demo.txt")
+
+
+def seeds():
+    """What the demo's difference is as large as."""
+    rows, name = [], ""
+    for line in lines_of("seeds"):
+        if line.startswith("$ "):
+            name = line.split()[-1].removesuffix(".exr")
+            rows.append([{"seed": "full detail, other lens samples (`--seed 1`)", "levels": "levels, same lens samples"}[name]])
+        elif line.startswith(("rmse", "psnr", "ssim", "flip")):
+            value = numbers(line)[0]
+            rows[-1].append(f"{value:.1f} dB" if line.startswith("psnr") else f"{value:.4f}")
+    return table(["against full detail", "RMSE", "PSNR", "SSIM", "FLIP"], rows) + source(
+        "defocus compare full.exr levels.exr", "scene, camera, lens, image size, number of lens samples", "llvmpipe-seeds.txt")
+
+
+def scaling():
+    above, below = source_of("scaling")
+    axes = {"triangles": "triangles, 100 k to 10 M", "instances": "instances, 1 to 10,000", "samples": "lens samples, 2 to 64",
+            "pixels": "pixels, 640 × 480 to 3840 × 2160", "blur": "blur, f/16 to f/1"}
+    curves = {(curve["axis"], curve["lod"]): curve for curve in results_of("scaling")["curves"]}
+    rows = [[name, *(f"{curves[axis, lod]['time']['exponent']:.2f}" for lod in ("off", "fractional")),
+             curves[axis, "fractional"]["bounds"]] for axis, name in axes.items()]
+    header = ["what grows", "exponent, full detail", "exponent, levels", "what takes the time, with levels"]
+    return above + table(header, rows) + below
+
+
+# ---- popping --------------------------------------------------------------------------------------------------------
+
+
+def popping():
+    above, below = source_of("popping")
+    rows = {(row["movement"], row["lod"]): row for row in results_of("popping")["rows"] if row["samples"] == 32}
+    cells = []
+    for movement in MOVEMENTS:
+        for mode in ("nearest", "fractional", "continuous"):
+            row = rows[movement, mode]
+            aims = {"stepRmse": {"fractional": 0.25, "continuous": 0.05}.get(mode, 1)}
+            cells.append([movement.replace("-", " "), MODES[mode], *(
+                f"{row[kind]['worst']:.4f}" + ("" if mode == "nearest" else f" ({missed(row[kind]['ofNearest'], aims.get(kind, 1))})")
+                for kind in ("stepRmse", "stepFlip", "changeRmse"))])
+    header = ["movement", "levels", "largest pop, RMSE", "largest pop, FLIP", "largest change, RMSE"]
+    return above + table(header, cells) + below
+
+
+# ---- pyramids -------------------------------------------------------------------------------------------------------
+
+def cache():
+    rows = [numbers(line) for line in lines_of("cache") if re.match(r" *\d+ ", line)]
+    return span([row[5] / 1000 for row in rows], 2)
+
+
+def pyramids():
+    lines = lines_of("pyramids")
+    blank = [index for index, line in enumerate(lines) if not line.strip()]
+    times, distances, looks, normals = (lines[begin:end] for begin, end in zip([0, *blank], [*blank, None]))
+
+    def values_of(section, count):
+        """(name, numbers) of the lines that end in so many numbers, what stands in brackets aside."""
+        for line in section:
+            words = line.split("  (")[0].split()
+            if len(words) > count and all(re.fullmatch(r"[\d.]+", word) for word in words[-count:]):
+                yield " ".join(words[:-count]), [float(word) for word in words[-count:]]
+
+    whole = list(values_of(times, 9))
+    large = [values for _, values in whole if values[0] >= 50_000]
+    bytes_each = {name: values[1] for name, values in [*values_of(times, 6), *whole]}
+    fish = min((values for name, values in whole if name == "fish"), key=lambda values: values[0])
+    rows = dict(values_of(distances, 5))
+    all_levels = rows.pop("all")
+    worst = max(rows, key=lambda name: rows[name][3])
+    gains = [values[4] - values[5] for _, values in values_of(looks, 8)]
+    fitted = [(values[3] - values[4], values[3] - values[5]) for _, values in values_of(normals, 9)]
+    rows = [
+        ["PSNR against meshoptimizer's level of as many triangles, under the blur that picks the level",
+         f"{mean_of(gains):.1f} dB better in the mean of {len(gains)} levels ({span(gains, 1)})"],
+        ["PSNR of fitted normals against normals averaged over the level's faces",
+         f"{mean_of(gain for gain, _ in fitted):.1f} dB better in the mean of {len(fitted)} levels "
+         f"({span([gain for gain, _ in fitted], 1)})"],
+        ["PSNR of fitted normals against those of the surviving vertices",
+         f"{mean_of(gain for _, gain in fitted):.1f} dB better in the mean of {len(fitted)} levels "
+         f"({span([gain for _, gain in fitted], 1)})"],
+        ["mean distance to the mesh, over that of meshoptimizer's level of as many triangles",
+         f"{all_levels[2]:.2f} in the mean of {all_levels[1]:.0f} levels of {len(rows)} meshes; at most 1.1 in "
+         f"{100 * all_levels[4] / all_levels[1]:.0f} % of the levels; {all_levels[3]:.1f} at worst ({worst})"],
+        [f"time of whole pyramids of {min(values[0] for values in large) / 1000:.0f} k to 1 M triangles, against OpenMesh's DecimaterT "
+         "alone, one thread", f"{span([values[8] for values in large], 1)} times as fast; {fish[2]:.2f} s for a fish of 90 k triangles"],
+        ["peak memory of building the same pyramids", f"{span([values[1] for values in large], 0)} bytes a triangle; meshes with flat "
+         f"shading take more (bike {bytes_each['bike']:.0f}, Suzanne {bytes_each['Suzanne']:.0f})"],
+        ["loading the pyramids of 1.8 M triangles from the cache (`defocus_cache_bench`)", f"{cache()} s"]]
+    return table(["what", "figure"], rows) + source(
+        "defocus_pyramid_bench MODEL…", "mesh and number of triangles; for the images also camera, lens, level and lens samples",
+        "llvmpipe-pyramids.txt")
+
+
+# ---- correctness ----------------------------------------------------------------------------------------------------
+
+
+def truth():
+    scenes = [json.loads(line) for line in lines_of("truth") if line.startswith("{")]
+    rows = [[scene["scene"], f"{scene['psnr']:.1f} dB", f"{scene['psnrAtEqualLensPoints']:.1f} dB", f"{scene['flip']:.4f}"]
+            for scene in scenes]
+    return table(["scene", "PSNR, other lens points", "PSNR, same lens points", "FLIP, other lens points"], rows) + source(
+        "defocus_truth_bench --sequence halton --samples 256 --size 512x384 [SCENE …]",
+        "scene with painted light, camera, lens, number of samples", "llvmpipe-truth.txt")
+
+
+def stability():
+    results = results_of("stability")
+    areas = {}
+    for case in results["cases"]:
+        if case["limit"] is not None and not case["leftOut"]:
+            areas.setdefault(case["area"], []).append(case)
+    rows = [[area, str(len(cases)), str(sum(case["passed"] for case in cases))] for area, cases in areas.items()]
+    return warning(results) + table(["area", "cases", "within their limit"], rows) + source(
+        command_of(results), "each case has its own truth and a limit that stands in the source", "llvmpipe-stability.json")
+
+
+def honesty():
+    results = results_of("stability")
+    rows = []
+    for method in dict.fromkeys(row["method"] for row in results["lensHonesty"]):
+        cases = [row for row in results["lensHonesty"] if row["method"] == method]
+        worst = max((row["measuredDiameter"] - row["expectedDiameter"] for row in cases), key=abs)
+        rows.append([f"`{method}`", f"{worst:+.2f} px", f"{sum(row['followsLens'] for row in cases)} of {len(cases)}"])
+    return warning(results) + table(["method", "largest error of the disk's diameter", "cases within half a pixel and 5 % of the energy"],
+                                    rows) + source(command_of(results), "a point of light; one value of the lens, the image or the "
+                                                   "sampling changes at a time", "llvmpipe-stability.json")
+
+
+# ---- parts ----------------------------------------------------------------------------------------------------------
+
+
+def sequences():
+    lines = lines_of("sequences")
+    (begin,) = [index for index, line in enumerate(lines) if line.startswith("fish school")]
+    rows = []
+    for line in lines[begin + 3:begin + 7]:
+        rmse = numbers(line.split(maxsplit=1)[1])[::2]
+        rows.append([f"`{line.split()[0]}`", *(f"{rmse[column] / 1000:.5f}" for column in (1, 3, 5, 7))])
+    return table(["RMSE, school of fish", "16 samples", "64", "256", "1,024"], rows) + source(
+        "defocus_sequence_bench", "scene, camera, lens, 160 × 120 px, full detail", "llvmpipe-sequences.txt")
+
+
+def parts():
+    fastest = {}
+    for sky in ("uniform", "gradient"):
+        rows = [line.split() for line in lines_of("waves") if line.startswith(sky) and " rgba16f " in line]
+        fastest[sky] = min(float(row[3]) for row in rows)
+    shares, ratios = [], []
+    for levels in ("off", "fractional"):
+        whole, away, outside, _, _, _, ratio = numbers_after(lines_of("clusters"), levels)[:7]
+        shares.append(f"{100 * (away + outside) / whole:.0f}")
+        ratios.append(f"{ratio:.2f}")
+    culled = numbers_after(lines_of("elisions"), "most fish out of view (culling)")[2]
+    sharp = numbers_after(lines_of("elisions"), "f/64: nothing blurred (lens samples)")[2]
+    separable, direct = numbers_after(lines_of("post-process"), "  exponent")
+
+    def printed_by(name):
+        return f"`defocus_{name.replace('-', '_')}_bench` ([run](../bench/results/llvmpipe-{PRINTED[name]}.txt))"
+
+    return table(["what", "figure", "command"], [
+        ["one lens sample of 1024 × 768 px in which nothing is drawn: clear, compose, add",
+         f"{fastest['uniform']:.1f} ms; {fastest['gradient']:.1f} ms with a gradient sky", printed_by("wave")],
+        ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
+         f"{shares[0]} % at full detail, {shares[1]} % with levels", printed_by("cluster")],
+        ["the same: times as fast, same image", f"{ratios[0]} at full detail, {ratios[1]} with levels", printed_by("cluster")],
+        ["objects that no lens sample sees are left out, most fish out of view: times as fast", f"{culled:.1f}", printed_by("elision")],
+        ["16 samples instead of 64 if no blur reaches half a pixel (f/64): times as fast", f"{sharp:.1f}", printed_by("elision")],
+        ["cost of a circular disk over its radius, 8 to 64 px: exponent", f"{separable:.2f} separable, {direct:.2f} direct",
+         printed_by("post-process")]])
+
+
+PRINTED = {"wave": "waves", "cluster": "clusters", "elision": "elisions", "post-process": "post-process"}
+TABLES = {"speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "lenses": lenses, "helmets": helmets, "scaling": scaling,
+          "popping": popping, "pyramids": pyramids, "truth": truth, "stability": stability, "honesty": honesty,
+          "sequences": sequences, "parts": parts}
