@@ -1,5 +1,5 @@
 // Compiled in rather than linked, XXH3 hashes twelve bytes in 4 ns instead of the 15 ns of the mixing it replaced, and
-// long pieces at 28 GB/s instead of 6 (19 through the shared library; one core of a Xeon).
+// long pieces at 28 GB/s instead of 6 (19 through the shared library; one core of an EPYC).
 #define XXH_INLINE_ALL
 #include "core/hash.h"
 

@@ -1,88 +1,79 @@
 #include "core/parallel.h"
 
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <utility>
-#include <vector>
 
 namespace defocus {
 
+// A call whose bodies do nothing takes 1 µs; it took 28 µs with threads of its own (64 bodies, two cores).
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
+    // Each worker takes the next index: TBB's own ranges would begin in the middle too, and end with what costs most.
     std::atomic<std::size_t> next = 0;
-    std::exception_ptr failure;
-    std::mutex failureMutex;
-    const auto work = [&] {
+    const auto work = [&](std::size_t) {
         for (std::size_t i = next++; i < count; i = next++) {
             try {
                 body(i);
             } catch (...) {
-                const std::scoped_lock lock(failureMutex);
-                if (!failure) failure = std::current_exception();
                 next = count;
+                throw;
             }
         }
     };
-    const std::size_t workers = std::min<std::size_t>(count, std::max(1u, std::thread::hardware_concurrency()));
-    {
-        std::vector<std::jthread> threads;
-        for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
-        work();
-    }
-    if (failure) std::rethrow_exception(failure);
+    const std::size_t workers =
+        std::min(count, static_cast<std::size_t>(std::max(1, tbb::this_task_arena::max_concurrency())));
+    if (workers <= 1) return work(0);
+    // Apart from all other work: who waits for an inner loop would else take up one of an outer.
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, workers, work, tbb::simple_partitioner()); });
 }
 
-Tasks::Tasks(std::size_t workers) {
-    for (std::size_t i = 0; i < workers; ++i) threads_.emplace_back([this] { work(true); });
-}
+struct Tasks::Arena {
+    explicit Arena(std::size_t workers) : arena(static_cast<int>(workers) + 1) {}
 
-Tasks::~Tasks() {
-    {
-        const std::scoped_lock lock(mutex_);
-        stopped_ = true;
-        pending_.clear();
-    }
-    changed_.notify_all();
-}
-
-void Tasks::add(std::function<void()> task) {
-    if (threads_.empty()) return task();
-    {
-        const std::scoped_lock lock(mutex_);
-        pending_.push_back(std::move(task));
-    }
-    changed_.notify_all();
-}
-
-void Tasks::wait() {
-    work(false);
-    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-}
-
-void Tasks::work(bool untilStopped) {
-    std::unique_lock lock(mutex_);
-    for (;;) {
-        const auto done = [&] { return untilStopped ? stopped_ : running_ == 0; };
-        changed_.wait(lock, [&] { return !pending_.empty() || done(); });
-        if (pending_.empty()) return;
-        std::function<void()> task = std::move(pending_.front());
-        pending_.pop_front();
-        ++running_;
-        lock.unlock();
-        std::exception_ptr failure;
+    // Keeps the first exception for wait(); the other tasks are done all the same.
+    void run(const std::function<void()>& task) {
         try {
             task();
         } catch (...) {
-            failure = std::current_exception();
+            const std::scoped_lock lock(mutex);
+            if (!failure) failure = std::current_exception();
         }
-        task = {};
-        lock.lock();
-        if (failure && !failure_) failure_ = failure;
-        --running_;
-        changed_.notify_all();
     }
+
+    tbb::task_arena arena;
+    tbb::task_group group;
+    std::mutex mutex;
+    std::exception_ptr failure;
+};
+
+Tasks::Tasks(std::size_t workers) {
+    // TBB has no more, and says so on stderr where they are asked for.
+    const auto available = static_cast<std::size_t>(std::max(1, tbb::info::default_concurrency() - 1));
+    if (workers > 0) arena_ = std::make_unique<Arena>(std::min(workers, available));
+}
+
+Tasks::~Tasks() {
+    if (!arena_) return;
+    arena_->group.cancel();
+    arena_->arena.execute([this] { arena_->group.wait(); });
+}
+
+void Tasks::add(std::function<void()> task) {
+    if (!arena_) return task();
+    arena_->arena.enqueue(arena_->group.defer([arena = arena_.get(), work = std::move(task)] { arena->run(work); }));
+}
+
+void Tasks::wait() {
+    if (!arena_) return;
+    arena_->arena.execute([this] { arena_->group.wait(); });
+    if (arena_->failure) std::rethrow_exception(std::exchange(arena_->failure, nullptr));
 }
 
 }  // namespace defocus

@@ -1,25 +1,22 @@
 #pragma once
-// Work on several cores. Results must not depend on the order.
+// Work on several cores, by oneTBB: however deep it nests, no more threads work than the process may use cores.
+// Results must not depend on the order.
 
-#include <condition_variable>
 #include <cstddef>
-#include <deque>
-#include <exception>
 #include <functional>
-#include <mutex>
-#include <thread>
-#include <vector>
+#include <memory>
 
 namespace defocus {
 
-// Runs body(0) … body(count - 1) on all cores, each index once, in no set order; returns when all are done. The first
-// exception of a body is thrown again in the caller.
+// Runs body(0) … body(count - 1) on all cores, each index once; returns when all are done. Indices are begun in their
+// order: what costs most is best put first. The first exception of a body is thrown again in the caller. Bodies may
+// call it in their turn; one that waits there begins no further index of its own loop.
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body);
 
 // Work that comes up one piece after the other, done by threads beside the one that finds it.
 class Tasks {
 public:
-    explicit Tasks(std::size_t workers);  // 0: add() does the work itself
+    explicit Tasks(std::size_t workers);  // at most, and of the cores; 0: add() does the work itself
     ~Tasks();                             // drops what nobody waited for
     Tasks(const Tasks&) = delete;
     Tasks& operator=(const Tasks&) = delete;
@@ -29,15 +26,8 @@ public:
     void wait();
 
 private:
-    void work(bool untilStopped);
-
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::deque<std::function<void()>> pending_;
-    std::size_t running_ = 0;
-    bool stopped_ = false;
-    std::exception_ptr failure_;
-    std::vector<std::jthread> threads_;
+    struct Arena;
+    std::unique_ptr<Arena> arena_;  // none without workers
 };
 
 }  // namespace defocus

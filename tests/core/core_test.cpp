@@ -11,6 +11,7 @@
 #include <numeric>
 #include <string>
 
+#include <thread>
 #include "core/bounds.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -162,3 +163,37 @@ TEST(Bounds, emptyStaysEmptyAndTransformsKeepTheCorners) {
 
 }  // namespace
 }  // namespace defocus
+// A body that waits for a loop of its own works on that, not on another index of the outer one: it may hold what that
+// needs, and two would need twice the memory.
+TEST(ParallelFor, nestsWithoutMixingAndWithoutMoreThreadsThanCores) {
+    static thread_local int inside = 0;
+    std::vector<std::atomic<int>> visits(64 * 64);
+    std::atomic<unsigned> working = 0;
+    std::atomic<unsigned> most = 0;
+    std::atomic<bool> mixed = false;
+    parallelFor(64, [&](std::size_t i) {
+        if (++inside != 1) mixed = true;
+        parallelFor(64, [&](std::size_t k) {
+            const unsigned now = ++working;
+            for (unsigned seen = most; seen < now && !most.compare_exchange_weak(seen, now);) continue;
+            ++visits[64 * i + k];
+            --working;
+        });
+        --inside;
+    });
+    for (const auto& count : visits) EXPECT_EQ(count, 1);
+    EXPECT_FALSE(mixed);
+    EXPECT_LE(most, std::max(1u, std::thread::hardware_concurrency()));
+}
+
+TEST(ParallelFor, passesOnAFailureOfAnInnerLoop) {
+    EXPECT_EQ(messageOf([] {
+                  parallelFor(8, [](std::size_t i) {
+                      parallelFor(8, [i](std::size_t k) {
+                          if (i == 3 && k == 5) fail("three, five");
+                      });
+                  });
+              }),
+              "three, five");
+}
+
