@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include "capture/setting_json.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_text.h"
 #include "lens/lens_fields.h"
 #include "render/methods.h"
 
@@ -279,20 +281,45 @@ Shot shotOf(const json& document, const fs::path& file) {
     return shot;
 }
 
+// "FILE: line 3, column 7: MESSAGE" of a place in the text.
+[[noreturn]] void failAt(std::string_view text, std::size_t place, const fs::path& file, std::string_view message) {
+    const std::string_view before = text.substr(0, place);
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const std::size_t lineBreak = before.rfind('\n');
+    fail("{}: line {}, column {}: {}", file.string(), line,
+         lineBreak == std::string_view::npos ? before.size() + 1 : before.size() - lineBreak, message);
+}
+
+// Finds the number that json::parse refuses without saying where: the first one that is infinite as a double.
+std::size_t placeOfOverflow(std::string_view text) {
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (inString && c == '\\') ++i;
+        if (c == '"') inString = !inString;
+        if (inString || (c != '-' && (c < '0' || c > '9'))) continue;
+        const std::size_t end = std::min(text.find_first_not_of("+-.0123456789eE", i), text.size());
+        if (std::isinf(std::strtod(std::string(text.substr(i, end - i)).c_str(), nullptr))) return i;
+        i = end - 1;
+    }
+    return 0;
+}
+
 json parsed(std::string_view text, const fs::path& file) {
+    if (jsonNesting(text) > deepestJson) fail("{}: JSON nested deeper than {} levels", file.string(), deepestJson);
     try {
         return json::parse(text);
     } catch (const json::parse_error& error) {
         const std::size_t end = std::min(error.byte, text.size());
-        const std::string_view before = text.substr(0, end > 0 ? end - 1 : 0);
-        const auto line = 1 + std::ranges::count(before, '\n');
-        const std::size_t lineBreak = before.rfind('\n');
-        fail("{}: line {}, column {}: not JSON: something is missing or too much here", file.string(), line,
-             lineBreak == std::string_view::npos ? before.size() + 1 : before.size() - lineBreak);
+        failAt(text, end > 0 ? end - 1 : 0, file, "not JSON: something is missing or too much here");
+    } catch (const json::out_of_range&) {
+        failAt(text, placeOfOverflow(text), file, "the number is too large");
     }
 }
 
 void replaceValue(json& document, const ShotOverride& given) {
+    if (jsonNesting(given.value) > deepestJson || std::ranges::count(given.pointer, '/') > deepestJson)
+        fail("--set {}: nested deeper than {} levels", given.pointer.substr(0, 40), deepestJson);
     json value = json::parse(given.value, nullptr, false);
     if (value.is_discarded()) value = given.value;
     try {

@@ -89,6 +89,8 @@ TEST(ShotJson, faultsNameTheirPlaceAndWhatWasExpected) {
         {R"([1])", "shots/x.json: /: expected an object, not [1]"},
         {"{\"samples\": 4,\n  oops}",
          "shots/x.json: line 2, column 3: not JSON: something is missing or too much here"},
+        {"{\"samples\":\n [1e-999, \"1e999\", -1e999]}", "shots/x.json: line 2, column 20: the number is too large"},
+        {"1e999", "shots/x.json: line 1, column 1: the number is too large"},
         {"", "shots/x.json: line 1, column 1: not JSON: something is missing or too much here"},
     };
     for (const auto& [text, message] : cases) EXPECT_EQ(faultOf(text), message) << text;
@@ -106,6 +108,15 @@ TEST(ShotJson, overridesReplaceValuesByTheirPlace) {
     EXPECT_NE(faultOf(R"({"samples": 4})", {parseShotOverride("/samples/3=3")}), "");
     EXPECT_THROW(parseShotOverride("samples=3"), Error);
     EXPECT_THROW(parseShotOverride("/samples"), Error);
+}
+
+TEST(ShotJson, deepNestingIsRefused) {
+    const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+    std::string pointer;
+    for (int i = 0; i < 1'000'000; ++i) pointer += "/a";
+    EXPECT_EQ(faultOf(R"({"size": )" + deep + "}"), "shots/x.json: JSON nested deeper than 64 levels");
+    EXPECT_EQ(faultOf("{}", {{"/size", deep}}), "--set /size: nested deeper than 64 levels");
+    EXPECT_NE(faultOf("{}", {{pointer, "1"}}).find("nested deeper than 64 levels"), std::string::npos);
 }
 
 TEST(ShotJson, rangesOfTheCommandLine) {

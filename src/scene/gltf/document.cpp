@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/file.h"
+#include "core/json_text.h"
 
 namespace defocus::gltf {
 
@@ -19,7 +20,6 @@ constexpr std::uint32_t binChunk = 0x004E4942;   // "BIN"
 constexpr std::size_t headerBytes = 12;
 constexpr std::size_t chunkHeaderBytes = 8;
 constexpr std::size_t longestMessage = 400;  // bytes
-constexpr int deepestNesting = 64;           // glTF itself needs ten levels; deeper JSON would only cost stack
 
 using Bytes = std::span<const std::byte>;
 
@@ -69,27 +69,10 @@ Container splitGlb(const Document& document, Bytes bytes) {
     return result;
 }
 
-// How deep the text's arrays and objects nest, whether or not it is valid. Looked at before parsing, since everything
-// after it may recurse. (A parser's own callback could count too, but makes long arrays quadratic in this library.)
-int nestingDepth(std::string_view text) {
-    int depth = 0;
-    int deepest = 0;
-    bool inString = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (inString && c == '\\') ++i;
-        if (c == '"') inString = !inString;
-        if (inString) continue;
-        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-        if (c == ']' || c == '}') --depth;
-    }
-    return deepest;
-}
-
 nlohmann::json parseJson(const Document& document, Bytes bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("\xEF\xBB\xBF")) fault(document, "not valid glTF JSON: it starts with a byte order mark");
-    if (nestingDepth(text) > deepestNesting) fault(document, "JSON nested deeper than {} levels", deepestNesting);
+    if (jsonNesting(text) > deepestJson) fault(document, "JSON nested deeper than {} levels", deepestJson);
     try {
         nlohmann::json json = nlohmann::json::parse(text.begin(), text.end());
         if (!json.is_object()) fault(document, "not glTF: its JSON is not an object");
