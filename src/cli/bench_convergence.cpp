@@ -19,6 +19,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "core/message.h"
 #include "eval/convergence/text.h"
 #include "eval/convergence/unlit_scene.h"
 #include "frame/prepared_frame.h"
@@ -194,7 +195,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
         [&](const ConvergenceRun& run, const Image* image, const Image* flipMap) { results.add(run, image, flipMap); },
         [&](const ConvergenceCase& wanted, const std::string& reason) {
             results.leaveOut(wanted, reason);
-            if (!global.quiet) fmt::print(stderr, "warning: {} is left out: {}\n", wanted.use.text(), reason);
+            if (!global.quiet) printMessage("warning: {} is left out: {}\n", wanted.use.text(), reason);
         }};
     measureConvergence(frame.world, frame.view, reference, options, frame.pyramidMilliseconds, done, visitor, progress);
     progress = {};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/message.h"
 
 namespace defocus {
 
@@ -71,8 +72,7 @@ void drawReport(const std::filesystem::path& results, const std::filesystem::pat
     if (runScript(results, report))
         fmt::print("\nreport: {}\n", (report / "index.html").string());
     else
-        fmt::print(
-            stderr,
+        printMessage(
             "no report: there is no python3 with matplotlib (Debian: python3-matplotlib); the results in {} stand "
             "on their own\n",
             report.string());

@@ -21,6 +21,7 @@
 #include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/message.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "gl/context.h"
@@ -148,7 +149,7 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
             "and {:.2f} M triangles a frame)",
             figures.rendered, total, total / render, render, 1000 * render / figures.rendered,
             static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
-    fmt::print(stderr, "{}\n", text);
+    printMessage("{}\n", text);
 }
 
 FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,

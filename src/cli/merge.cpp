@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/option_text.h"
 #include "core/file.h"
+#include "core/message.h"
 #include "gl/context.h"
 #include "image/image_io.h"
 
@@ -46,8 +47,7 @@ void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
         names += (names.empty() ? "" : ", ") + path.string();
     }
     if (!global.quiet)
-        fmt::print(stderr, "{}: {}x{}, {} parts\n", names, merged.image.width, merged.image.height,
-                   arguments.parts.size());
+        printMessage("{}: {}x{}, {} parts\n", names, merged.image.width, merged.image.height, arguments.parts.size());
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "cli/render_options.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/message.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "gl/context.h"
@@ -104,25 +105,24 @@ void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Im
     writeImage(derivedPath(output, "work.png"), workColourMap(work, samples));
     const WorkSummary summary = workSummary(work, samples);
     if (!quiet)
-        fmt::print(stderr, "work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean,
-                   summary.most);
+        printMessage("work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean, summary.most);
 }
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report) {
     std::string names;
     for (const std::filesystem::path& path : arguments.outputs) names += (names.empty() ? "" : ", ") + path.string();
     for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
-    fmt::print(stderr, "{}: {}\n", names, summary(report));
+    printMessage("{}: {}\n", names, summary(report));
 }
 
 void printChoices(const GlContext* context, const FramePlan& plan, const RenderReport& report) {
     if (context != nullptr)
-        for (const std::string& line : context->log()) fmt::print(stderr, "{}\n", line);
-    fmt::print(stderr, "{} layers of {} at once\n", report.stats.wave, report.stats.layerFormat);
-    for (const LeftOut& entry : plan.leftOut) fmt::print(stderr, "left out: {}: {}\n", entry.what, entry.reason);
-    fmt::print(stderr, "load {:.0f} ms, pyramids {:.0f} ms, set-up {:.0f} ms, render {:.0f} ms\n",
-               report.frame.loadMilliseconds, report.frame.pyramidMilliseconds, report.stats.setupMilliseconds,
-               report.stats.renderMilliseconds);
+        for (const std::string& line : context->log()) printMessage("{}\n", line);
+    printMessage("{} layers of {} at once\n", report.stats.wave, report.stats.layerFormat);
+    for (const LeftOut& entry : plan.leftOut) printMessage("left out: {}: {}\n", entry.what, entry.reason);
+    printMessage("load {:.0f} ms, pyramids {:.0f} ms, set-up {:.0f} ms, render {:.0f} ms\n",
+                 report.frame.loadMilliseconds, report.frame.pyramidMilliseconds, report.stats.setupMilliseconds,
+                 report.stats.renderMilliseconds);
 }
 
 void runRender(const RenderArguments& arguments, const GlobalOptions& global) {

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <memory>
 #include <new>
 #include <string>
@@ -15,6 +16,7 @@
 #include "cli/command.h"
 #include "cli/help_format.h"
 #include "core/error.h"
+#include "core/message.h"
 #include "core/suggestion.h"
 #include "frame/program_facts.h"
 
@@ -28,7 +30,7 @@ constexpr int wrongCommandLine = 2;
 int printFault(int code, std::string message) {
     for (char& letter : message)
         if (letter == '\n') letter = ' ';
-    fmt::print(stderr, "defocus: {}\n", message);
+    printMessage("defocus: {}\n", message);
     return code;
 }
 
@@ -155,9 +157,12 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
 int runProgram(int argc, char** argv) {
     // A file that grows beyond its limit is a failed write, which the writer reports and cleans up after.
     std::signal(SIGXFSZ, SIG_IGN);
+    claimClosedOutputs();
     try {
         const int code = run(argc, argv);
-        if (std::fflush(stdout) != 0 && code == 0) return printFault(failed, "the output cannot be written to stdout");
+        std::cout.flush();  // help and version
+        const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+        if (lost && code == 0) return printFault(failed, "the output cannot be written to stdout");
         return code;
     } catch (const std::bad_alloc&) {
         return printFault(failed, "out of memory; try a smaller --size, fewer layers (--wave) or triangles");

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "cli/command.h"
+#include "core/message.h"
 
 namespace defocus {
 
@@ -41,7 +42,7 @@ public:
         if (terminal_)
             drawBar(stage, share);
         else
-            fmt::print(stderr, "{}: {:.0f} %\n", stage, 100 * share);
+            printMessage("{}: {:.0f} %\n", stage, 100 * share);
     }
 
 private:
@@ -53,16 +54,14 @@ private:
         const int filled = static_cast<int>(share * width);
         const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                                 std::string(static_cast<std::size_t>(width - filled), '-');
-        fmt::print(stderr, "\r\x1b[K{} [{}] {:3.0f} %", stage, bar, 100 * share);
-        std::fflush(stderr);
+        printMessage("\r\x1b[K{} [{}] {:3.0f} %", stage, bar, 100 * share);
         drawn_ = true;
     }
 
     // What comes next, a summary or an error, begins on a clean line.
     void erase() {
         if (!drawn_) return;
-        fmt::print(stderr, "\r\x1b[K");
-        std::fflush(stderr);
+        writeMessage("\r\x1b[K");
     }
 
     bool terminal_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/message.h"
 #include "core/stopwatch.h"
 
 namespace defocus {
@@ -33,7 +34,7 @@ ViewSettings rememberedSettings() {
     try {
         return readViewSettings(viewSettingsPath());
     } catch (const Error& error) {
-        fmt::print(stderr, "warning: {}\n", error.what());
+        printMessage("warning: {}\n", error.what());
         return {};
     }
 }
@@ -72,7 +73,7 @@ ViewSession::~ViewSession() {
         }
         writeViewSettings(viewSettingsPath(), settings_);
     } catch (const std::exception& error) {
-        if (!quiet_) fmt::print(stderr, "warning: settings are not kept: {}\n", error.what());
+        if (!quiet_) printMessage("warning: settings are not kept: {}\n", error.what());
     }
 }
 

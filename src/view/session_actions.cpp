@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/message.h"
 #include "core/stopwatch.h"
 #include "frame/focus.h"
 #include "frame/render_command_text.h"
@@ -159,7 +160,7 @@ void ViewSession::takeScreenshot(const std::filesystem::path& path) {
 
 void ViewSession::say(std::string text, bool fault) {
     if (fault) fault_ = text;
-    if (fault && !quiet_ && options_.frames == 0) fmt::print(stderr, "defocus: {}\n", text);
+    if (fault && !quiet_ && options_.frames == 0) printMessage("defocus: {}\n", text);
     state_.messages.push_back({std::move(text), fault, now() + (fault ? 9.0 : 3.0)});
     if (state_.messages.size() > 4) state_.messages.pop_front();
 }

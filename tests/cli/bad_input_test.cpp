@@ -1,6 +1,10 @@
 // Whatever is wrong gives one line and an exit code, and leaves no file behind.
 
+#include <fmt/format.h>
+#include <sys/stat.h>
+
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -259,6 +263,25 @@ TEST_F(BadInput, hostileModels) {
             expectOneLine(outcome, 1);
             EXPECT_NE(outcome.err.find(entry.path().stem().string()), std::string::npos) << outcome.err;
         }
+    }
+    EXPECT_EQ(fileCount(), 1u);
+}
+
+// The exit code tells all the same, and what is lost of the answer is a failure.
+TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
+    const auto exitCode = [&](const std::string& words) {
+        const std::string command = fmt::format("cd '{}' && '{}' {}", folder().string(), DEFOCUS_PROGRAM, words);
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    };
+    for (const char* errors : {"2>/dev/full", "2>&-"}) {
+        EXPECT_EQ(exitCode(fmt::format("info quads.gltf >/dev/null {}", errors)), 0) << errors;
+        EXPECT_EQ(exitCode(fmt::format("info missing.gltf >/dev/null {}", errors)), 1) << errors;
+        EXPECT_EQ(exitCode(fmt::format("nonsense >/dev/null {}", errors)), 2) << errors;
+    }
+    for (const char* words : {"info quads.gltf", "info --json quads.gltf", "--help", "--version", "plan quads.gltf"}) {
+        EXPECT_EQ(exitCode(fmt::format("{} >/dev/full 2>/dev/null", words)), 1) << words;
+        EXPECT_EQ(exitCode(fmt::format("{} >&- 2>/dev/null", words)), 1) << words;
     }
     EXPECT_EQ(fileCount(), 1u);
 }
