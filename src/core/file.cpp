@@ -54,6 +54,17 @@ std::vector<std::byte> readFile(const fs::path& path) {
     return bytes;
 }
 
+fs::path fileWithin(const fs::path& folder, const fs::path& relative) {
+    const fs::path normal = relative.lexically_normal();
+    if (relative.empty() || relative.is_absolute() || *normal.begin() == "..")
+        fail("'{}' leads out of its folder; only files beside or below are read", relative.string());
+    fs::path path = folder / relative;
+    std::error_code status;
+    if (fs::exists(path, status) && !fs::is_regular_file(path, status))
+        fail("{}: is a device, a pipe or a folder, not a file", path.string());
+    return path;
+}
+
 void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
     PendingFile pending(path);
     FileHandle file = openFile(pending.temporaryPath(), "wb");

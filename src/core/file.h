@@ -14,6 +14,10 @@ namespace defocus {
 // The bytes of `path`. Throws Error naming the path and the reason (missing, a directory, unreadable).
 std::vector<std::byte> readFile(const std::filesystem::path& path);
 
+// `relative`, which another file names, as a path to a regular file inside `folder`. Throws Error where it is absolute,
+// climbs out of the folder, or is a device, a pipe or a folder; a file that is missing is left to who reads it.
+std::filesystem::path fileWithin(const std::filesystem::path& folder, const std::filesystem::path& relative);
+
 // Replaces `path` by `bytes` through a temporary file and rename. Throws Error naming the path and the reason.
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeFile(const std::filesystem::path& path, std::string_view text);

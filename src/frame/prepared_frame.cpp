@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
@@ -51,7 +52,7 @@ Lens chosenLens(const Request& request, const Camera& camera, std::vector<std::s
         lens.apertureImage = loadApertureImage(request.lens.apertureImage);
     } else if (!camera.apertureImage.empty()) {
         try {
-            lens.apertureImage = loadApertureImage(request.scene.parent_path() / camera.apertureImage);
+            lens.apertureImage = loadApertureImage(fileWithin(request.scene.parent_path(), camera.apertureImage));
         } catch (const Error& error) {
             refused.emplace_back(error.what());
         }

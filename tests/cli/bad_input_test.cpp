@@ -242,8 +242,48 @@ TEST_F(BadInput, apertureImagesThatPassNoLight) {
     EXPECT_EQ(fileCount(), 4u);
 }
 
+// Neither waits for a pipe nor reads a device, nor what lies outside of the scene's folder.
+TEST_F(BadInput, apertureImagesOfTheSceneThatAreNoFilesBesideIt) {
+    fs::create_directory(folder() / "scenes");
+    writeImage(folder() / "outside.png", Image(4, 4, 3));
+    ASSERT_EQ(::mkfifo((folder() / "scenes" / "pipe").c_str(), 0600), 0);
+    for (const char* name : {"pipe", "/dev/zero", "../outside.png"}) {
+        GltfBuilder builder;
+        builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}}});
+        builder.json["cameras"] = {{{"type", "perspective"},
+                                    {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}},
+                                    {"extras", {{"apertureImage", name}}}}};
+        builder.add("nodes", {{"camera", 0}, {"translation", {0, 0, 3}}});
+        GltfBuilder::save(folder() / "scenes" / "scene.glb", builder.glb());
+        const Outcome outcome = run({"plan", "scenes/scene.glb"});
+        EXPECT_EQ(outcome.exitCode, 0) << name;
+        EXPECT_TRUE(outcome.err.starts_with("warning: camera")) << outcome.err;
+        EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("not used"), std::string::npos) << outcome.err;
+    }
+}
+
 TEST_F(BadInput, shaderFolderThatIsNone) {
     expectFault(2, "--shader-dir", {"--shader-dir", "missing"});
+}
+
+// The exit code tells all the same, and what is lost of the answer is a failure.
+TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
+    const auto exitCode = [&](const std::string& words) {
+        const std::string command = fmt::format("cd '{}' && '{}' {}", folder().string(), DEFOCUS_PROGRAM, words);
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    };
+    for (const char* errors : {"2>/dev/full", "2>&-"}) {
+        EXPECT_EQ(exitCode(fmt::format("info quads.gltf >/dev/null {}", errors)), 0) << errors;
+        EXPECT_EQ(exitCode(fmt::format("info missing.gltf >/dev/null {}", errors)), 1) << errors;
+        EXPECT_EQ(exitCode(fmt::format("nonsense >/dev/null {}", errors)), 2) << errors;
+    }
+    for (const char* words : {"info quads.gltf", "info --json quads.gltf", "--help", "--version", "plan quads.gltf"}) {
+        EXPECT_EQ(exitCode(fmt::format("{} >/dev/full 2>/dev/null", words)), 1) << words;
+        EXPECT_EQ(exitCode(fmt::format("{} >&- 2>/dev/null", words)), 1) << words;
+    }
+    EXPECT_EQ(fileCount(), 1u);
 }
 
 // Each hostile file is refused with a line that names it, or loads; it never ends the program in another way.
@@ -263,25 +303,6 @@ TEST_F(BadInput, hostileModels) {
             expectOneLine(outcome, 1);
             EXPECT_NE(outcome.err.find(entry.path().stem().string()), std::string::npos) << outcome.err;
         }
-    }
-    EXPECT_EQ(fileCount(), 1u);
-}
-
-// The exit code tells all the same, and what is lost of the answer is a failure.
-TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
-    const auto exitCode = [&](const std::string& words) {
-        const std::string command = fmt::format("cd '{}' && '{}' {}", folder().string(), DEFOCUS_PROGRAM, words);
-        const int status = std::system(command.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    };
-    for (const char* errors : {"2>/dev/full", "2>&-"}) {
-        EXPECT_EQ(exitCode(fmt::format("info quads.gltf >/dev/null {}", errors)), 0) << errors;
-        EXPECT_EQ(exitCode(fmt::format("info missing.gltf >/dev/null {}", errors)), 1) << errors;
-        EXPECT_EQ(exitCode(fmt::format("nonsense >/dev/null {}", errors)), 2) << errors;
-    }
-    for (const char* words : {"info quads.gltf", "info --json quads.gltf", "--help", "--version", "plan quads.gltf"}) {
-        EXPECT_EQ(exitCode(fmt::format("{} >/dev/full 2>/dev/null", words)), 1) << words;
-        EXPECT_EQ(exitCode(fmt::format("{} >&- 2>/dev/null", words)), 1) << words;
     }
     EXPECT_EQ(fileCount(), 1u);
 }

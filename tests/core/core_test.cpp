@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,8 +11,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 #include <string>
-
 #include <thread>
+
 #include "core/bounds.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -121,6 +122,21 @@ TEST_F(Files, errorsNameThePathAndTheReason) {
     EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+TEST_F(Files, whatAnotherFileNamesLiesInItsFolderAndIsAFile) {
+    fs::create_directory(folder_ / "below");
+    writeFile(folder_ / "below" / "a.png", std::string_view("a"));
+    ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+    fs::create_symlink("/dev/zero", folder_ / "link");
+    EXPECT_EQ(fileWithin(folder_, "below/a.png"), folder_ / "below" / "a.png");
+    EXPECT_EQ(fileWithin(folder_, "below/../below/./a.png"), folder_ / "below/../below/./a.png");
+    EXPECT_EQ(fileWithin(folder_, "missing"), folder_ / "missing");
+    for (const char* outside : {"", "/dev/zero", "..", "../a.png", "below/../../a.png", "./../a.png"})
+        EXPECT_NE(messageOf([&] { fileWithin(folder_, outside); }).find("leads out of its folder"), std::string::npos)
+            << outside;
+    for (const char* other : {"pipe", "link", "below", "."})
+        EXPECT_NE(messageOf([&] { fileWithin(folder_, other); }).find("not a file"), std::string::npos) << other;
+}
+
 TEST(Hash, everyByteMattersAndPiecesChain) {
     std::string text(37, 'a');
     const auto hash = [](std::string_view s, std::uint64_t seed = hashSeed) {
@@ -150,19 +166,6 @@ TEST(ParallelFor, passesOnTheFirstFailure) {
                  Error);
 }
 
-TEST(Bounds, emptyStaysEmptyAndTransformsKeepTheCorners) {
-    EXPECT_TRUE(transformed(Bounds{}, glm::dmat4(1)).empty());
-    Bounds box;
-    box.extend(glm::dvec3(0));
-    box.extend(glm::dvec3(1, 2, 3));
-    const Bounds turned = transformed(box, glm::rotate(glm::dmat4(1), glm::radians(90.0), glm::dvec3(0, 0, 1)));
-    EXPECT_NEAR(turned.minimum.x, -2, 1e-12);
-    EXPECT_NEAR(turned.maximum.y, 1, 1e-12);
-    EXPECT_NEAR(turned.maximum.z, 3, 1e-12);
-}
-
-}  // namespace
-}  // namespace defocus
 // A body that waits for a loop of its own works on that, not on another index of the outer one: it may hold what that
 // needs, and two would need twice the memory.
 TEST(ParallelFor, nestsWithoutMixingAndWithoutMoreThreadsThanCores) {
@@ -197,3 +200,16 @@ TEST(ParallelFor, passesOnAFailureOfAnInnerLoop) {
               "three, five");
 }
 
+TEST(Bounds, emptyStaysEmptyAndTransformsKeepTheCorners) {
+    EXPECT_TRUE(transformed(Bounds{}, glm::dmat4(1)).empty());
+    Bounds box;
+    box.extend(glm::dvec3(0));
+    box.extend(glm::dvec3(1, 2, 3));
+    const Bounds turned = transformed(box, glm::rotate(glm::dmat4(1), glm::radians(90.0), glm::dvec3(0, 0, 1)));
+    EXPECT_NEAR(turned.minimum.x, -2, 1e-12);
+    EXPECT_NEAR(turned.maximum.y, 1, 1e-12);
+    EXPECT_NEAR(turned.maximum.z, 3, 1e-12);
+}
+
+}  // namespace
+}  // namespace defocus
