@@ -3,7 +3,6 @@
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(OpenImageIO QUIET REQUIRED)
-find_package(TinyGLTF REQUIRED)
 find_package(draco REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -144,7 +144,7 @@ std::vector<glm::dmat4> jointMatrices(const Skin& skin, const std::vector<glm::d
     return matrices;
 }
 
-void placeObjects(const Scene& scene, const SceneState& state, int nodeIndex, Pose& pose) {
+void placeObjects(const Scene& scene, const SceneState& state, int nodeIndex, double cocScale, Pose& pose) {
     const Node& node = scene.nodes[static_cast<std::size_t>(nodeIndex)];
     if (node.mesh < 0) return;
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
@@ -155,9 +155,7 @@ void placeObjects(const Scene& scene, const SceneState& state, int nodeIndex, Po
     object.name = !node.name.empty() ? node.name : mesh.name;
     object.worldFromObject = worldFromNode;
     object.morphWeights = state.nodes[static_cast<std::size_t>(nodeIndex)].morphWeights;
-    for (int i = nodeIndex; i >= 0;
-         i = scene.nodes[static_cast<std::size_t>(i)].parent)  // a group is scaled as a whole
-        object.cocScale *= scene.nodes[static_cast<std::size_t>(i)].cocScale;
+    object.cocScale = cocScale;
     if (node.instances.empty()) {
         if (node.skin >= 0 && !mesh.vertices.joints.empty()) {
             object.worldFromJoint = jointMatrices(scene.skins[static_cast<std::size_t>(node.skin)], pose.worldFromNode);
@@ -192,9 +190,11 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     SceneState state = stateAt(scene, time, clip);
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
+    std::vector<double> cocScales(scene.nodes.size(), 1.0);  // a group is scaled as a whole
     std::vector<bool> visited(scene.nodes.size());
     const auto place = [&](int node, int parent) {
         const auto index = static_cast<std::size_t>(node);
+        cocScales[index] = scene.nodes[index].cocScale * (parent < 0 ? 1 : cocScales[static_cast<std::size_t>(parent)]);
         const glm::dmat4 local = scene.nodes[index].matrix ? *scene.nodes[index].matrix : matrixOf(state.nodes[index]);
         pose.worldFromNode[index] = parent < 0 ? local : pose.worldFromNode[static_cast<std::size_t>(parent)] * local;
     };
@@ -206,7 +206,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     // Objects and lights in the order of their nodes.
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         if (!drawn[i]) continue;
-        placeObjects(scene, state, static_cast<int>(i), pose);
+        placeObjects(scene, state, static_cast<int>(i), cocScales[i], pose);
         placeLight(scene, state, static_cast<int>(i), pose);
     }
     pose.cameras = std::move(state.cameras);

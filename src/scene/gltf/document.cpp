@@ -176,8 +176,14 @@ std::string oneLine(std::string text) {
     return text.substr(0, end) + "…";
 }
 
-std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what) {
-    if (uri.starts_with("data:")) return readDataUri(document, uri, what);
+std::size_t entryCount(const Document& document, std::string_view name) {
+    const auto found = document.json.find(name);
+    return found != document.json.end() && found->is_array() ? found->size() : 0;
+}
+
+std::optional<std::filesystem::path> uriFile(const Document& document, const std::string& uri,
+                                             const std::string& what) {
+    if (uri.starts_with("data:")) return std::nullopt;
     if (hasScheme(uri)) fault(document, "{}: '{}' is not a relative path; only local files are read", what, uri);
 
     // Some exporters write names as they are, others percent-coded as the standard says, which goes first.
@@ -187,8 +193,13 @@ std::vector<std::byte> readUri(const Document& document, const std::string& uri,
         fault(document, "{}: '{}' is not a relative path", what, uri);
     std::error_code status;
     for (const std::filesystem::path& path : {decoded, asWritten})
-        if (std::filesystem::is_regular_file(path, status)) return readFile(path);
+        if (std::filesystem::is_regular_file(path, status)) return path;
     fault(document, "{}: '{}' does not exist beside it", what, uri);
+}
+
+std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what) {
+    const std::optional<std::filesystem::path> file = uriFile(document, uri, what);
+    return file ? readFile(*file) : readDataUri(document, uri, what);
 }
 
 Document readDocument(const std::filesystem::path& path) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
@@ -26,8 +27,14 @@ struct Document {
 // Error.
 Document readDocument(const std::filesystem::path& path);
 
-// The bytes behind a URI: data: of any media type (base64 or percent-coded), or a regular file relative to the
-// document. `what` names the user in messages.
+// How many entries the JSON's array `name` has.
+std::size_t entryCount(const Document& document, std::string_view name);
+
+// The regular file, relative to the document, that a URI stands for; none for data: of its own. Throws Error where
+// there is no such file. `what` names the user in messages.
+std::optional<std::filesystem::path> uriFile(const Document& document, const std::string& uri, const std::string& what);
+
+// The bytes behind a URI: data: of any media type (base64 or percent-coded), or its file.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
 // `text` with control characters as spaces and cut after a few hundred bytes: names from a file must not break an error

@@ -34,8 +34,9 @@ void checkPlacement(const gltf::Source& source, const Scene& scene) {
 }
 
 std::vector<std::string> extensionsOf(const gltf::Source& source) {
-    std::set<std::string> names(source.model.extensionsUsed.begin(), source.model.extensionsUsed.end());
-    names.insert(source.model.extensionsRequired.begin(), source.model.extensionsRequired.end());
+    std::set<std::string> names;
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        names.merge(source.document.json.value(list, std::set<std::string>()));
     return {names.begin(), names.end()};
 }
 

@@ -144,7 +144,8 @@ std::vector<std::byte> encodedImage(const Source& source, const nlohmann::json& 
 
 std::vector<Material> readMaterials(Source& source) {
     std::vector<Material> materials;
-    for (std::size_t i = 0; i < source.model.materials.size(); ++i) materials.push_back(readMaterial(source, i));
+    const std::size_t count = entryCount(source.document, "materials");
+    for (std::size_t i = 0; i < count; ++i) materials.push_back(readMaterial(source, i));
     return materials;
 }
 

@@ -16,7 +16,7 @@ namespace {
 struct VertexSource {
     std::map<std::string, int> attributes;
     std::vector<std::map<std::string, int>> targets;
-    bool operator==(const VertexSource&) const = default;
+    auto operator<=>(const VertexSource&) const = default;
 };
 
 // Primitives of one mesh over the same vertices.
@@ -85,18 +85,20 @@ bool drawable(Source& source, const tinygltf::Primitive& primitive, const std::s
 std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, const nlohmann::json& json,
                                    const std::string& label) {
     std::vector<Group> groups;
+    std::map<VertexSource, std::size_t> places;  // of those that aren't compressed, into `groups`
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const tinygltf::Primitive& primitive = mesh.primitives[i];
         if (!drawable(source, primitive, fmt::format("{}, primitive {}", label, i))) continue;
         const bool compressed = findExtension(json["primitives"][i], "KHR_draco_mesh_compression") != nullptr;
         const VertexSource vertices{primitive.attributes, primitive.targets};
-        const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-            return !compressed && !group.compressed && group.vertices == vertices;
-        });
-        if (same != groups.end())
-            same->members.push_back(i);
-        else
-            groups.push_back({vertices, {i}, compressed});
+        if (!compressed) {
+            const auto [place, added] = places.try_emplace(vertices, groups.size());
+            if (!added) {
+                groups[place->second].members.push_back(i);
+                continue;
+            }
+        }
+        groups.push_back({vertices, {i}, compressed});
     }
     return groups;
 }

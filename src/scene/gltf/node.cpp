@@ -45,21 +45,24 @@ std::vector<int> parentsOf(const Source& source) {
 
 std::vector<int> sceneRoots(Source& source, const std::vector<int>& parents, std::string& name) {
     std::vector<int> roots;
-    if (source.model.scenes.empty()) {
+    const std::size_t scenes = entryCount(source.document, "scenes");
+    if (scenes == 0) {
         for (std::size_t i = 0; i < parents.size(); ++i)
             if (parents[i] < 0) roots.push_back(static_cast<int>(i));
         return roots;
     }
     const std::size_t chosen = source.document.json.value("scene", std::size_t{0});
-    name = source.model.scenes[chosen].name;
-    for (const int root : source.model.scenes[chosen].nodes) {
+    const nlohmann::json& scene = source.document.json["scenes"][chosen];
+    name = scene.value("name", std::string());
+    std::vector<bool> listed(parents.size());
+    for (const int root : scene.value("nodes", std::vector<int>())) {
         if (parents[static_cast<std::size_t>(root)] >= 0)
             fault(source.document, "scene {} lists node {}, which is a child of node {}", chosen, root,
                   parents[static_cast<std::size_t>(root)]);
-        if (std::find(roots.begin(), roots.end(), root) == roots.end()) roots.push_back(root);
+        if (!listed[static_cast<std::size_t>(root)]) roots.push_back(root);
+        listed[static_cast<std::size_t>(root)] = true;
     }
-    if (source.model.scenes.size() > 1)
-        ignore(source, "scene", "only the file's default scene is drawn", source.model.scenes.size() - 1);
+    if (scenes > 1) ignore(source, "scene", "only the file's default scene is drawn", scenes - 1);
     return roots;
 }
 

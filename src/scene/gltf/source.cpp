@@ -9,6 +9,7 @@
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/meshopt.h"
 #include "scene/gltf/schema.h"
+#include "scene/gltf/structure.h"
 
 namespace defocus::gltf {
 
@@ -52,42 +53,11 @@ void checkExtensions(Source& source) {
     }
 }
 
-// tinygltf would open files, decode images and refuse indices that Draco keeps: those parts are cut out of its copy.
-void parseStructure(Source& source) {
-    nlohmann::json json = source.document.json;
-    json.erase("buffers");
-    json.erase("images");
-    if (json.contains("meshes"))
-        for (nlohmann::json& mesh : json["meshes"])
-            for (nlohmann::json& primitive : mesh["primitives"]) primitive.erase("indices");
-
-    const std::string text = json.dump();
-    std::string error;
-    std::string warning;
-    bool parsed = false;
-    if (text.size() > std::numeric_limits<unsigned int>::max()) fault(source.document, "its JSON is too large");
-    try {
-        parsed = tinygltf::TinyGLTF().LoadASCIIFromString(&source.model, &error, &warning, text.c_str(),
-                                                          static_cast<unsigned int>(text.size()), "");
-    } catch (const std::exception& exception) {
-        error = exception.what();
-    }
-    if (!parsed) fault(source.document, "not valid glTF: {}", error);
-
-    for (std::size_t m = 0; m < source.model.meshes.size(); ++m) {
-        std::vector<tinygltf::Primitive>& primitives = source.model.meshes[m].primitives;
-        const nlohmann::json& originals = source.document.json["meshes"][m]["primitives"];
-        if (primitives.size() != originals.size()) fault(source.document, "mesh {}: a primitive cannot be read", m);
-        for (std::size_t p = 0; p < primitives.size(); ++p) primitives[p].indices = originals[p].value("indices", -1);
-    }
-}
-
 void readBuffers(Source& source, const Progress& progress) {
-    const auto found = source.document.json.find("buffers");
-    const std::size_t count = found != source.document.json.end() ? found->size() : 0;
+    const std::size_t count = entryCount(source.document, "buffers");
     for (std::size_t i = 0; i < count; ++i) {
         report(progress, "reading buffers", i, count);
-        const nlohmann::json& buffer = (*found)[i];
+        const nlohmann::json& buffer = source.document.json["buffers"][i];
         const std::string what = fmt::format("buffer {}", i);
         const auto length = buffer["byteLength"].get<std::uint64_t>();
         std::optional<std::vector<std::byte>> bytes;
@@ -125,7 +95,7 @@ Source openSource(const std::filesystem::path& path, const Progress& progress) {
     checkExtensions(source);
 
     // 2. The structure.
-    parseStructure(source);
+    source.model = readStructure(source.document);
 
     // 3. Buffers; views that need unpacking are unpacked.
     readBuffers(source, progress);
@@ -156,18 +126,16 @@ void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes,
 }
 
 void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count) {
-    for (Ignored& entry : source.ignored)
-        if (entry.what == what && entry.reason == reason) {
-            entry.count += count;
-            return;
-        }
-    source.ignored.push_back({what, reason, count});
+    const auto [place, added] = source.ignoredPlaces.try_emplace({what, reason}, source.ignored.size());
+    if (added)
+        source.ignored.push_back({what, reason, count});
+    else
+        source.ignored[place->second].count += count;
 }
 
 void ignoreDamaged(Source& source, const std::string& what, const std::string& reason, std::uint64_t count) {
     ignore(source, what, reason, count);
-    for (Ignored& entry : source.ignored)
-        if (entry.what == what && entry.reason == reason) entry.damage = true;
+    source.ignored[source.ignoredPlaces.at({what, reason})].damage = true;
 }
 
 const nlohmann::json* findExtension(const nlohmann::json& object, const char* name) {

@@ -3,18 +3,20 @@
 // tinygltf only sees JSON that passed checkSchema, and never touches files, images or binary data. Internal to the
 // loader.
 
-#include <tiny_gltf.h>
-
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+#include <utility>
 
 #include "core/progress.h"
 #include "scene/gltf/document.h"
 #include "scene/scene.h"
+#include "scene/gltf/tinygltf.h"
 
 namespace defocus::gltf {
 
@@ -35,7 +37,7 @@ private:
 
 struct Source {
     Document document;
-    tinygltf::Model model;                                             // without buffers and images
+    tinygltf::Model model;                                             // as readStructure gives it
     std::vector<std::optional<std::vector<std::byte>>> buffers;        // empty: has no data of its own (fallbacks)
     std::vector<std::optional<std::vector<std::byte>>> unpackedViews;  // by buffer view: EXT_meshopt_compression
     UnpackBudget budget{0};
@@ -45,6 +47,7 @@ struct Source {
 // Steps 1 to 4 of loading: container, schema, extensions, structure, buffers (compressed views unpacked), accessors in
 // range.
 Source openSource(const std::filesystem::path& path, const Progress& progress);
+    std::map<std::pair<std::string, std::string>, std::size_t> ignoredPlaces;  // what and reason → into `ignored`
 
 // The bytes of a buffer view. Throws Error when it has none or leaves its buffer.
 std::span<const std::byte> viewBytes(const Source& source, int view);

@@ -1,0 +1,79 @@
+// Files that hold very many of one thing: each is right, and none takes the square of their number (which at these
+// numbers would end in the tests' time-out). What nodes share is counted for each of them.
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "core/error.h"
+#include "models.h"
+#include "scene/gltf/builder.h"
+#include "scene/gltf/source.h"
+#include "scene/pose.h"
+
+namespace defocus {
+namespace {
+
+TEST(LargeGltf, rootsCountOnceHoweverOftenTheyAreListed) {
+    constexpr int count = 500'000;
+    GltfBuilder builder;
+    nlohmann::json::array_t nodes(count, nlohmann::json::object());
+    nlohmann::json::array_t listed;
+    for (int i = 0; i < count; ++i) listed.insert(listed.end(), 2, count - 1 - i);
+    builder.json["nodes"] = std::move(nodes);
+    builder.json["scenes"] = {{{"nodes", std::move(listed)}}};
+    const Scene scene = builder.load();
+    std::vector<int> expected(count);
+    std::iota(expected.rbegin(), expected.rend(), 0);
+    EXPECT_EQ(scene.roots, expected);
+}
+
+TEST(LargeGltf, extensionsAreAllNamed) {
+    constexpr int count = 300'000;
+    GltfBuilder builder;
+    builder.json["extensionsUsed"] = nlohmann::json::array();
+    for (int i = 0; i < count; ++i) builder.json["extensionsUsed"].push_back(fmt::format("EXT_{:06}", i % (count / 2)));
+    const Scene scene = builder.load();
+    ASSERT_EQ(scene.ignored.size(), count / 2u);
+    EXPECT_EQ(scene.ignored.front().what, "extension EXT_000000");
+    EXPECT_EQ(scene.ignored.back().what, "extension EXT_149999");
+    EXPECT_EQ(scene.ignored.back().count, 1u);
+}
+
+TEST(LargeGltf, primitivesShareVerticesByTheirAttributes) {
+    constexpr int sets = 50'000;
+    GltfBuilder builder;
+    const int view = builder.view(unitTriangle);
+    nlohmann::json primitives;
+    for (int i = 0; i < 2 * sets; ++i) {
+        if (i < sets) builder.accessor(view, gltfFloat, "VEC3", 3);
+        primitives.push_back({{"attributes", {{"POSITION", i % sets}, {"NORMAL", i % sets}}}});
+    }
+    builder.mesh(primitives);
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.meshes.at(0).primitives.size(), 2u * sets);
+    EXPECT_EQ(scene.meshes[0].vertices.count(), 3u * sets);
+    EXPECT_EQ(scene.meshes[0].primitives[1].indices, scene.meshes[0].primitives[sets + 1].indices);
+}
+
+TEST(LargeGltf, chainsOfNodesPassTheirBlurOn) {
+    constexpr int count = 200'000;
+    GltfBuilder builder;
+    builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}}});
+    nlohmann::json::array_t nodes;
+    for (int i = 0; i < count; ++i) nodes.push_back({{"mesh", 0}, {"children", {i + 1}}});
+    nodes.push_back({{"mesh", 0}});
+    nodes[1]["extras"]["cocScale"] = 0.5;
+    nodes[count / 2]["extras"]["cocScale"] = 4;
+    builder.json["nodes"] = std::move(nodes);
+    const Pose pose = unmeasuredPoseAt(builder.load(), 0);
+    ASSERT_EQ(pose.objects.size(), count + 1u);
+    EXPECT_EQ(pose.objects[0].cocScale, 1);
+    EXPECT_EQ(pose.objects[1].cocScale, 0.5);
+    EXPECT_EQ(pose.objects[count / 2 - 1].cocScale, 0.5);
+    EXPECT_EQ(pose.objects[count / 2].cocScale, 2);
+    EXPECT_EQ(pose.objects[count].cocScale, 2);
+}
+
+}  // namespace
+}  // namespace defocus
