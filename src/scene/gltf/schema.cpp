@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -224,23 +225,24 @@ constexpr std::uint64_t largestSize = 1ull << 53;
 
 class Checker {
 public:
-    explicit Checker(const Document& document) : document_(document) {}
+    explicit Checker(Document& document) : document_(document) {}
 
-    void checkObject(const Json& json, std::span<const Property> properties, const std::string& place) {
+    void checkObject(Json& json, std::span<const Property> properties, const std::string& place) {
         if (!json.is_object()) fault(document_, "{} must be an object", place);
         for (const Property& property : properties) {
             const auto found = json.find(property.name);
+            if (found == json.end() && !property.required) continue;
             const std::string inside =
                 place.empty() ? std::string(property.name) : fmt::format("{}.{}", place, property.name);
             if (found != json.end())
                 checkValue(*found, property, inside);
-            else if (property.required)
+            else
                 fault(document_, "{} is missing", inside);
         }
     }
 
 private:
-    void checkValue(const Json& json, const Property& property, const std::string& place) {
+    void checkValue(Json& json, const Property& property, const std::string& place) {
         switch (property.kind) {
             case Kind::string:
                 if (!json.is_string()) fault(document_, "{} must be a string", place);
@@ -273,7 +275,7 @@ private:
         }
     }
 
-    void checkArray(const Json& json, const Property& property, const std::string& place) {
+    void checkArray(Json& json, const Property& property, const std::string& place) {
         if (!json.is_array()) fault(document_, "{} must be an array", place);
         if (property.length != 0 && json.size() != property.length)
             fault(document_, "{} must have {} numbers, not {}", place, property.length, json.size());
@@ -299,37 +301,41 @@ private:
         for (std::size_t i = 0; i < json.size(); ++i) checkValue(json[i], entry, fmt::format("{}[{}]", place, i));
     }
 
-    void checkIndexMap(const Json& json, std::string_view target, const std::string& place) {
+    void checkIndexMap(Json& json, std::string_view target, const std::string& place) {
         if (!json.is_object()) fault(document_, "{} must be an object", place);
-        for (const auto& [key, value] : json.items()) {
-            const std::string inside = fmt::format("{}.{}", place, key);
+        for (auto entry = json.begin(); entry != json.end(); ++entry) {
+            const std::string inside = fmt::format("{}.{}", place, entry.key());
             if (target.empty())
-                checkSize(value, inside);
+                checkSize(*entry, inside);
             else
-                checkIndex(value, target, inside);
+                checkIndex(*entry, target, inside);
         }
     }
 
-    void checkSize(const Json& json, const std::string& place) {
+    void checkSize(Json& json, const std::string& place) {
+        if (json.is_number_float()) {
+            const auto number = json.get<double>();
+            if (number >= 0 && number <= static_cast<double>(largestSize) && number == std::floor(number))
+                json = static_cast<std::uint64_t>(number);
+        }
         if (!json.is_number_integer() || (!json.is_number_unsigned() && json.get<std::int64_t>() < 0))
             fault(document_, "{} must be an integer of at least 0", place);
         if (json.get<std::uint64_t>() > largestSize) fault(document_, "{} is too large", place);
     }
 
-    void checkIndex(const Json& json, std::string_view target, const std::string& place) {
+    void checkIndex(Json& json, std::string_view target, const std::string& place) {
         checkSize(json, place);
-        const auto found = document_.json.find(target);
-        const std::size_t count = found != document_.json.end() && found->is_array() ? found->size() : 0;
+        const std::size_t count = entryCount(document_, target);
         if (json.get<std::uint64_t>() >= std::min<std::uint64_t>(count, std::numeric_limits<int>::max()))
             fault(document_, "{} is {}, but the file has {} {}", place, json.get<std::uint64_t>(), count, target);
     }
 
-    const Document& document_;
+    Document& document_;
 };
 
 }  // namespace
 
-void checkSchema(const Document& document) {
+void checkSchema(Document& document) {
     Checker(document).checkObject(document.json, rootProperties, "");
 }
 

@@ -7,7 +7,8 @@
 
 namespace defocus::gltf {
 
-// Throws Error naming the place, e.g. "accessors[3].bufferView is 7, but the file has 2 bufferViews".
-void checkSchema(const Document& document);
+// Throws Error naming the place, e.g. "accessors[3].bufferView is 7, but the file has 2 bufferViews". JSON has one type
+// of numbers: an integer that is written as a float (100.0) becomes one.
+void checkSchema(Document& document);
 
 }  // namespace defocus::gltf

@@ -98,6 +98,23 @@ TEST(InvalidGltf, wrongTypesAreNamedByPlace) {
     expectFault(errorOf(builder), "built.glb", "meshes must be an array");
 }
 
+// JSON has one type of number, so 3.0 is an integer.
+TEST(InvalidGltf, integersMayBeWrittenAsFloats) {
+    GltfBuilder builder = triangle();
+    builder.json["accessors"][0]["count"] = 3.0;
+    builder.json["accessors"][0]["componentType"] = 5126.0;
+    builder.json["bufferViews"][0]["byteLength"] = 36.0;
+    builder.json["nodes"][0]["mesh"] = 0.0;
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = -0.0;
+    builder.json["meshes"][0]["primitives"][0]["mode"] = 4.0;
+    ASSERT_EQ(errorOf(builder), "");
+    EXPECT_EQ(builder.load().meshes.at(0).triangleCount(), 1u);
+    for (const double count : {2.5, -3.0, 1e300}) {
+        builder.json["accessors"][0]["count"] = count;
+        expectFault(errorOf(builder), "built.glb", "accessors[0].count must be an integer of at least 0");
+    }
+}
+
 TEST(InvalidGltf, hugeCountsAreRefusedBeforeMemoryIsTaken) {
     for (const std::uint64_t count : {std::uint64_t{1} << 33, std::uint64_t{4'000'000'000}, std::uint64_t{1} << 52}) {
         GltfBuilder builder;
