@@ -3,7 +3,9 @@
 // environments.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <map>
 #include <span>
@@ -45,7 +47,9 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
 // Throws Error unless `path` has an extension that writeImage knows.
 void checkImageExtension(const std::filesystem::path& path);
 
-// Decodes a PNG or JPEG in memory (16 bits are reduced to 8). `name` is for the error message.
-TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name);
+// Decodes a PNG or JPEG in memory (16 bits are reduced to 8). `name` is for the error message. `take` is told
+// how many pixels it has before memory is taken for them, and may throw.
+TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name,
+                           const std::function<void(std::uint64_t pixels)>& take = {});
 
 }  // namespace defocus

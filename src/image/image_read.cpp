@@ -230,10 +230,12 @@ std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* 
     return layers;
 }
 
-TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name) {
+TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name,
+                           const std::function<void(std::uint64_t pixels)>& take) {
     const auto format = formatOf(encoded);
     if (format != "png" && format != "jpeg") fail("{}: neither a PNG nor a JPEG image", name);
     OpenImage file = openImage(encoded, *format, name);
+    if (take) take(std::uint64_t(file.spec.width) * std::uint64_t(file.spec.height));
     std::vector<int> channels = colourChannels(file.spec, name);
     if (channels.size() == 1) channels.resize(3, channels[0]);
     const std::vector<std::uint8_t> values = readChannels<std::uint8_t>(file, channels, name);

@@ -157,18 +157,26 @@ std::vector<Texture> readTextures(Source& source) {
 }
 
 Images readImages(Source& source, const Progress& progress) {
-    const auto found = source.document.json.find("images");
-    const std::size_t count = found != source.document.json.end() ? found->size() : 0;
+    const std::size_t count = entryCount(source.document, "images");
     Images result;
     result.images.resize(count);
-    for (std::size_t i = 0; i < count; ++i) result.names.push_back(oneLine(imageName((*found)[i], i)));
+    std::vector<std::string> labels;
+    for (std::size_t i = 0; i < count; ++i) {
+        const nlohmann::json& json = source.document.json["images"][i];
+        result.names.push_back(oneLine(imageName(json, i)));
+        labels.push_back(fmt::format("image {} '{}'", i, result.names[i]));
+        if (json.contains("uri")) grantFile(source, json["uri"].get<std::string>(), labels[i]);
+    }
 
     std::mutex mutex;
     std::size_t done = 0;
     parallelFor(count, [&](std::size_t i) {
-        const std::string label = fmt::format("image {} '{}'", i, result.names[i]);
-        const std::vector<std::byte> encoded = encodedImage(source, (*found)[i], label);
-        result.images[i] = decodeTexture(encoded, source.document.file + ": " + label);
+        const std::vector<std::byte> encoded = encodedImage(source, source.document.json["images"][i], labels[i]);
+        const auto take = [&](std::uint64_t pixels) {
+            const std::scoped_lock lock(mutex);
+            takeBudget(source, pixels, sizeof(std::uint32_t), labels[i] + ": pixels");
+        };
+        result.images[i] = decodeTexture(encoded, source.document.file + ": " + labels[i], take);
         const std::scoped_lock lock(mutex);
         report(progress, "reading images", ++done, count);
     });

@@ -61,10 +61,13 @@ void readBuffers(Source& source, const Progress& progress) {
         const std::string what = fmt::format("buffer {}", i);
         const auto length = buffer["byteLength"].get<std::uint64_t>();
         std::optional<std::vector<std::byte>> bytes;
-        if (buffer.contains("uri"))
-            bytes = readUri(source.document, buffer["uri"].get<std::string>(), what);
-        else if (i == 0 && source.document.binaryChunk)
+        if (buffer.contains("uri")) {
+            const auto uri = buffer["uri"].get<std::string>();
+            grantFile(source, uri, what);
+            bytes = readUri(source.document, uri, what);
+        } else if (i == 0 && source.document.binaryChunk) {
             bytes = std::move(source.document.binaryChunk);
+        }
         if (bytes && bytes->size() < length)
             fault(source.document, "{}: byteLength is {}, but it has {} bytes", what, length, bytes->size());
         if (bytes) bytes->resize(length);
@@ -79,6 +82,11 @@ void checkViews(const Source& source) {
 
 }  // namespace
 
+void UnpackBudget::grant(std::uint64_t fileBytes) {
+    fileBytes_ += fileBytes;
+    left_ += perFileByte * fileBytes;
+}
+
 bool UnpackBudget::take(std::uint64_t count, std::uint64_t elementBytes) {
     if (elementBytes != 0 && count > left_ / elementBytes) return false;
     left_ -= count * elementBytes;
@@ -90,7 +98,7 @@ Source openSource(const std::filesystem::path& path, const Progress& progress) {
 
     // 1. The container, and the JSON against the schema.
     source.document = readDocument(path);
-    source.budget = UnpackBudget(source.document.fileBytes);
+    source.budget.grant(source.document.fileBytes);
     checkSchema(source.document);
     checkExtensions(source);
 
@@ -122,7 +130,16 @@ std::span<const std::byte> viewBytes(const Source& source, int view) {
 void takeBudget(Source& source, std::uint64_t count, std::uint64_t elementBytes, const std::string& what) {
     if (!source.budget.take(count, elementBytes))
         fault(source.document, "{}: {} elements are far more than a file of {} bytes can mean", what, count,
-              source.document.fileBytes);
+              source.budget.fileBytes());
+}
+
+void grantFile(Source& source, const std::string& uri, const std::string& what) {
+    const std::optional<std::filesystem::path> file = uriFile(source.document, uri, what);
+    if (!file) return;
+    std::error_code status;
+    if (!source.files.insert(std::filesystem::canonical(*file, status)).second) return;
+    const std::uintmax_t bytes = std::filesystem::file_size(*file, status);
+    if (!status) source.budget.grant(bytes);
 }
 
 void ignore(Source& source, const std::string& what, const std::string& reason, std::uint64_t count) {

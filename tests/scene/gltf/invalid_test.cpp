@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "image/png_builder.h"
 #include "models.h"
 #include "scene/gltf/builder.h"
 
@@ -113,6 +114,18 @@ TEST(InvalidGltf, integersMayBeWrittenAsFloats) {
         builder.json["accessors"][0]["count"] = count;
         expectFault(errorOf(builder), "built.glb", "accessors[0].count must be an integer of at least 0");
     }
+}
+
+// A picture of a gigabyte in a hundred bytes, and three that share one.
+TEST(InvalidGltf, imagesAreCountedBeforeTheyAreDecoded) {
+    GltfBuilder builder = triangle();
+    Bytes png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    appendChunk(png, "IHDR", {0, 0, 0x40, 0, 0, 0, 0x40, 0, 8, 0, 0, 0, 0});  // 16384 × 16384, 8 bits, grey
+    appendChunk(png, "IDAT", {0x78, 0x9c, 3, 0, 0, 0, 0, 1});
+    appendChunk(png, "IEND", {});
+    const int view = builder.view(png);
+    for (int i = 0; i < 3; ++i) builder.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
+    expectFault(errorOf(builder), "built.glb", "pixels: 268435456 elements are far more than a file of");
 }
 
 TEST(InvalidGltf, hugeCountsAreRefusedBeforeMemoryIsTaken) {

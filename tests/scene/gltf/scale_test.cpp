@@ -14,6 +14,10 @@
 namespace defocus {
 namespace {
 
+std::string errorOf(const GltfBuilder& builder) {
+    return messageOf<Error>([&] { (void)builder.load(); });
+}
+
 TEST(LargeGltf, rootsCountOnceHoweverOftenTheyAreListed) {
     constexpr int count = 500'000;
     GltfBuilder builder;
@@ -73,6 +77,51 @@ TEST(LargeGltf, chainsOfNodesPassTheirBlurOn) {
     EXPECT_EQ(pose.objects[count / 2 - 1].cocScale, 0.5);
     EXPECT_EQ(pose.objects[count / 2].cocScale, 2);
     EXPECT_EQ(pose.objects[count].cocScale, 2);
+}
+
+TEST(UnpackBudget, isOneForAll) {
+    gltf::UnpackBudget budget;
+    EXPECT_TRUE(budget.take(300, 1 << 20));
+    EXPECT_FALSE(budget.take(300, 1 << 20));
+    EXPECT_FALSE(budget.take(std::uint64_t{1} << 40, std::uint64_t{1} << 40)) << "the product overflows";
+    budget.grant(1 << 20);
+    EXPECT_TRUE(budget.take(300, 1 << 20));
+    EXPECT_EQ(budget.fileBytes(), 1u << 20);
+}
+
+TEST(UnpackBudget, instancesAreObjects) {
+    GltfBuilder builder;
+    const int places = builder.accessor(-1, gltfFloat, "VEC3", 400'000);
+    builder.mesh(
+        {{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}}},
+        {{"name", "Herd"}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
+    EXPECT_NE(errorOf(builder).find("objects of node 'Herd': 400000 elements are far more than a file of"),
+              std::string::npos)
+        << errorOf(builder);
+}
+
+TEST(UnpackBudget, skinsTakeTheirJointsForEachNode) {
+    constexpr int count = 3'000;
+    GltfBuilder builder;
+    const int joints = builder.accessor(builder.view(std::vector<std::uint8_t>(12)), gltfUnsignedByte, "VEC4", 3);
+    const int weights = builder.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+    builder.mesh({{{"attributes",
+                    {{"POSITION", builder.positions(unitTriangle)}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}}}},
+                 {{"skin", 0}});
+    for (int i = 1; i < count; ++i) builder.add("nodes", builder.json["nodes"][0]);
+    nlohmann::json all;
+    for (int i = 0; i < count; ++i) all.push_back(i);
+    builder.json["skins"] = {{{"joints", all}}};
+    EXPECT_NE(errorOf(builder).find("far more than a file of"), std::string::npos) << errorOf(builder);
+}
+
+TEST(UnpackBudget, morphWeightsAreOfEachNode) {
+    constexpr int count = 6'000;
+    GltfBuilder builder;
+    nlohmann::json::array_t targets(count, nlohmann::json::object());
+    builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}, {"targets", std::move(targets)}}});
+    for (int i = 1; i < count; ++i) builder.add("nodes", {{"mesh", 0}});
+    EXPECT_NE(errorOf(builder).find("far more than a file of"), std::string::npos) << errorOf(builder);
 }
 
 }  // namespace
