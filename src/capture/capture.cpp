@@ -98,8 +98,8 @@ DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, cons
     drawn.times.planMilliseconds = millisecondsSince(start);
 
     // The whole frame, or some of its samples.
-    if (options.samples) {
-        drawn.part = renderPart(renderer, plan, *options.samples, [&] { step(0.5); });
+    if (options.sampleRange) {
+        drawn.part = renderPart(renderer, plan, *options.sampleRange, [&] { step(0.5); });
         drawn.stats = renderer.stats();
         drawn.stats.samples = drawn.part.frameSamples;
     } else {
@@ -120,7 +120,7 @@ void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& opt
     const Clock::time_point start = Clock::now();
     for (std::size_t i = 0; i < film.files.size(); ++i) {
         const fs::path& path = film.files[i];
-        if (options.samples) {
+        if (options.sampleRange) {
             drawn.part.settings = film.settings[i];
             writePart(path, drawn.part);
             continue;
@@ -167,10 +167,11 @@ FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, cons
         settings.encoding = encodingOf(pattern, film.write);
         film.settings.push_back(settingsHash(settings, frame));
         fs::path path = framePath(pattern, number);
-        if (options.samples) path = partPath(path, *options.samples);
-        film.finished = film.finished && (options.samples ? isFinishedPart(path, film.settings.back())
-                                                          : isFinishedFrame(path, frame.view.width, frame.view.height,
-                                                                            film.settings.back()));
+        if (options.sampleRange) path = partPath(path, *options.sampleRange);
+        film.finished =
+            film.finished &&
+            (options.sampleRange ? isFinishedPart(path, film.settings.back())
+                                 : isFinishedFrame(path, frame.view.width, frame.view.height, film.settings.back()));
         film.files.push_back(std::move(path));
     }
     return film;

@@ -30,13 +30,13 @@ struct FilmFrame {
 };
 
 struct FilmOptions {
-    std::vector<std::string> outputs;    // patterns, see frame_files.h
-    std::optional<SampleRange> samples;  // write parts of the frames: FRAME.partFIRST-END.exr; one EXR output only
-    ToneMap toneMap = ToneMap::none;     // of PNG, JPEG and video, as is the exposure
-    std::optional<double> exposure;      // EV; none: what each frame's lens makes
-    FilmSettings settings;               // all but the encoding
-    std::filesystem::path timings;       // the sidecar
-    bool resume = false;                 // keep what is finished
+    std::vector<std::string> outputs;        // patterns, see frame_files.h
+    std::optional<SampleRange> sampleRange;  // write parts of the frames: FRAME.partFIRST-END.exr; one EXR output only
+    ToneMap toneMap = ToneMap::none;         // of PNG, JPEG and video, as is the exposure
+    std::optional<double> exposure;          // EV; none: what each frame's lens makes
+    FilmSettings settings;                   // all but the encoding
+    std::filesystem::path timings;           // the sidecar
+    bool resume = false;                     // keep what is finished
 };
 
 // "frames/timings.jsonl", or of shard 2 of 8 "frames/timings.2-of-8.jsonl".

@@ -44,7 +44,7 @@ struct CaptureArguments {
     Request request;
     std::optional<FrameRange> range;
     Shard shard;
-    std::optional<SampleRange> samples;
+    std::optional<SampleRange> sampleRange;
     std::vector<std::string> outputs;  // empty: the shot's
     bool resume = false;
     bool dryRun = false;
@@ -77,7 +77,7 @@ void checkArguments(const CaptureArguments& arguments) {
         if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
         if (!arguments.dryRun) checkWritable(framePath(pattern, 0));
     }
-    const bool part = arguments.shard.count > 1 || arguments.samples;
+    const bool part = arguments.shard.count > 1 || arguments.sampleRange;
     if (!arguments.shot.video.empty()) {
         if (part)
             fail(
@@ -86,8 +86,8 @@ void checkArguments(const CaptureArguments& arguments) {
                 arguments.shot.video.string());
         checkVideo(arguments.shot.video);
     }
-    if (!arguments.samples) return;
-    checkSampleRange(*arguments.samples, arguments.request.settings.sampleCount);
+    if (!arguments.sampleRange) return;
+    checkSampleRange(*arguments.sampleRange, arguments.request.settings.sampleCount);
     if (arguments.shot.outputs.size() != 1 || fs::path(arguments.shot.outputs.front()).extension() != ".exr")
         fail("--sample-range writes the sums of samples to one EXR pattern, such as -o frames/####.exr");
 }
@@ -96,7 +96,7 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     const Shot& shot = arguments.shot;
     FilmOptions options;
     options.outputs = shot.outputs;
-    options.samples = arguments.samples;
+    options.sampleRange = arguments.sampleRange;
     options.toneMap = arguments.request.toneMap;
     options.exposure = arguments.request.exposure;
     options.settings = settings;
@@ -286,7 +286,7 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
         ->group(group);
     addParsed(command, "--sample-range", "FIRST:END",
               "Of each frame, sum up only these samples (multiples of 64) to #.partFIRST-END.exr, for 'defocus merge'",
-              [&arguments](const std::string& text) { arguments.samples = parseSampleRange(text); })
+              [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
         ->group(group);
     command.add_flag("--dry-run", arguments.dryRun, "Print what each frame would be, and render nothing")->group(group);
 }

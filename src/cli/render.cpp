@@ -58,8 +58,8 @@ void checkOutputs(const RenderArguments& arguments) {
     }
     for (const std::filesystem::path& path : aovPaths(arguments)) checkWritable(path);
     if (!arguments.stats.empty()) checkWritable(arguments.stats);
-    if (!arguments.samples) return;
-    checkSampleRange(*arguments.samples, arguments.request.settings.sampleCount);
+    if (!arguments.sampleRange) return;
+    checkSampleRange(*arguments.sampleRange, arguments.request.settings.sampleCount);
     if (arguments.outputs.size() != 1 || arguments.outputs.front().extension() != ".exr" || arguments.aovs.any())
         fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
 }
@@ -147,8 +147,8 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
     Image image;
     FramePart part;
-    if (arguments.samples)
-        part = renderPart(*renderer, plan, *arguments.samples,
+    if (arguments.sampleRange)
+        part = renderPart(*renderer, plan, *arguments.sampleRange,
                           [&] { report(progress, "samples", renderer->samples(), renderer->sampleTotal()); });
     else
         image = renderImage(*renderer, plan, progress);
@@ -160,7 +160,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const RenderReport report{arguments.request, use.text(), frame, plan, renderer->stats(), software, milliseconds};
     const double exposure = arguments.request.exposure.value_or(photographicExposure(frame.view.lens));
     const Metadata metadata = renderMetadata(report);
-    if (arguments.samples)
+    if (arguments.sampleRange)
         writeSums(arguments, std::move(part), frame, global.shaderDir, metadata);
     else
         for (const std::filesystem::path& path : arguments.outputs)

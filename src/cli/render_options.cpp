@@ -38,7 +38,7 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         ->group(group);
     addParsed(command, "--sample-range", "FIRST:END",
               "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
-              [&arguments](const std::string& text) { arguments.samples = parseSampleRange(text); })
+              [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
         ->group(group);
     command.add_option("--stats", arguments.stats, "Write times, triangles and memory as JSON")
         ->type_name("FILE")

@@ -25,7 +25,7 @@ struct RenderArguments {
     std::vector<std::filesystem::path> outputs;
     std::filesystem::path stats;
     AovRequest aovs;
-    std::optional<SampleRange> samples;  // only these, for `merge`
+    std::optional<SampleRange> sampleRange;  // only these, for `merge`
 };
 
 // All options of the command. `arguments` must outlive the parse.
