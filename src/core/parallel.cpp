@@ -55,7 +55,7 @@ struct Tasks::Arena {
 
 Tasks::Tasks(std::size_t workers) {
     // TBB has no more, and says so on stderr where they are asked for.
-    const auto available = static_cast<std::size_t>(std::max(1, tbb::info::default_concurrency() - 1));
+    const auto available = static_cast<std::size_t>(tbb::info::default_concurrency() - 1);
     if (workers > 0) arena_ = std::make_unique<Arena>(std::min(workers, available));
 }
 
@@ -67,6 +67,7 @@ Tasks::~Tasks() {
 
 void Tasks::add(std::function<void()> task) {
     if (!arena_) return task();
+    if (arena_->arena.max_concurrency() == 1) return arena_->run(task);
     arena_->arena.enqueue(arena_->group.defer([arena = arena_.get(), work = std::move(task)] { arena->run(work); }));
 }
 
