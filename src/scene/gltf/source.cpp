@@ -75,9 +75,11 @@ void readBuffers(Source& source, const Progress& progress) {
     }
 }
 
+// A buffer may have no data (the standard leaves it to the application): a fault only where something reads it.
 void checkViews(const Source& source) {
     for (std::size_t i = 0; i < source.model.bufferViews.size(); ++i)
-        if (!source.unpackedViews[i]) (void)viewBytes(source, static_cast<int>(i));
+        if (!source.unpackedViews[i] && source.buffers[static_cast<std::size_t>(source.model.bufferViews[i].buffer)])
+            (void)viewBytes(source, static_cast<int>(i));
 }
 
 }  // namespace

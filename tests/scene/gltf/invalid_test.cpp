@@ -116,6 +116,20 @@ TEST(InvalidGltf, integersMayBeWrittenAsFloats) {
     }
 }
 
+TEST(InvalidGltf, buffersWithoutDataAreAFaultWhereTheyAreRead) {
+    GltfBuilder builder = triangle();
+    builder.json["buffers"] = {{{"byteLength", 1}}};
+    builder.json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 1}}};
+    const int zeros = builder.accessor(-1, gltfFloat, "VEC3", 3);
+    const ScratchFolder folder;
+    GltfBuilder::save(folder / "built.gltf", builder.json.dump());
+    expectFault(errorOf(folder / "built.gltf"), "built.gltf", "buffer 0 has no data");
+    builder.json["accessors"].erase(0);
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = zeros - 1;
+    GltfBuilder::save(folder / "unused.gltf", builder.json.dump());
+    EXPECT_EQ(errorOf(folder / "unused.gltf"), "");
+}
+
 // A picture of a gigabyte in a hundred bytes, and three that share one.
 TEST(InvalidGltf, imagesAreCountedBeforeTheyAreDecoded) {
     GltfBuilder builder = triangle();
