@@ -36,16 +36,18 @@ void checkPlacement(const gltf::Source& source, const Scene& scene) {
 // What nodes share with each other they take for each of their objects once more.
 void checkObjects(gltf::Source& source, const gltf::Hierarchy& hierarchy, const Scene& scene) {
     constexpr std::uint64_t objectBytes = 2304;                   // measured, from the pose to the picture
-    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // of a pose, and of the plan's
-    constexpr std::uint64_t morphBytes = 4 * sizeof(double);
+    constexpr std::uint64_t jointBytes = 4 * sizeof(glm::dmat4);  // of the pose, and of the plan's
+    constexpr std::uint64_t weightBytes = 4 * sizeof(double);
     for (const Node& node : hierarchy.nodes) {
         if (node.mesh < 0) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
-        const bool skinned = node.skin >= 0 && !mesh.vertices.joints.empty();
-        const std::size_t joints = skinned ? scene.skins[static_cast<std::size_t>(node.skin)].joints.size() : 0;
-        const std::string what = fmt::format("objects of node '{}'", node.name);
-        takeBudget(source, std::max<std::size_t>(1, node.instances.size()),
-                   objectBytes + jointBytes * joints + morphBytes * mesh.morphTargets.size(), what);
+        const std::size_t objects = std::max<std::size_t>(1, node.instances.size());
+        takeBudget(source, objects, objectBytes, fmt::format("objects of node '{}'", node.name));
+        takeBudget(source, objects * mesh.morphTargets.size(), weightBytes,
+                   fmt::format("morph weights of node '{}'", node.name));
+        if (node.skin >= 0 && !mesh.vertices.joints.empty())
+            takeBudget(source, objects * scene.skins[static_cast<std::size_t>(node.skin)].joints.size(), jointBytes,
+                       fmt::format("joints of node '{}'", node.name));
     }
 }
 
