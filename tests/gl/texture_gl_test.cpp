@@ -77,8 +77,7 @@ TEST_F(GlTextureTest, integersKeepEachBit) {
     }
 }
 
-// Three pixels a row in one channel: 12 bytes, and rows of bytes that no alignment of four would keep.
-TEST_F(GlTextureTest, oddRowsAreTightlyPacked) {
+TEST_F(GlTextureTest, rowsFollowEachOtherFromTheBottom) {
     GlTexture texture({.format = TextureFormat::r32f, .width = 3, .height = 3});
     const std::array<float, 9> values = {1, 2, 3, 4, 5, 6, 7, 8, 9};
     texture.upload(0, 3, 3, values.data());
@@ -140,6 +139,8 @@ TEST_F(GlTextureTest, bytesAreThoseOfAllLevelsAndLayers) {
     EXPECT_EQ(GlTexture().bytes(), 0u);
     EXPECT_EQ(GlTexture({.format = TextureFormat::rgba16f, .width = 5, .height = 3}).bytes(), 5u * 3 * 8);
     EXPECT_EQ(GlTexture({.format = TextureFormat::rgba8, .width = 8, .height = 2, .levels = 4}).bytes(),
+              4u * (16 + 4 + 2 + 1));
+    EXPECT_EQ(GlTexture({.format = TextureFormat::rgba8, .width = 2, .height = 8, .levels = 4}).bytes(),
               4u * (16 + 4 + 2 + 1));
     EXPECT_EQ(GlTexture({.format = TextureFormat::depth32f, .width = 4, .height = 4, .layers = 6}).bytes(),
               4u * 16 * 6);
