@@ -1,6 +1,6 @@
 #pragma once
-// Where the real models for tests lie: $DEFOCUS_MODELS_DIR, else a folder beside the checkout. Tests skip where it is
-// absent.
+// Where the models for tests lie. Real ones: $DEFOCUS_MODELS_DIR, else a folder beside the checkout; tests skip where
+// it is absent. The project's own (meshes/…): in the repository, always there.
 
 #include <gtest/gtest.h>
 
@@ -17,6 +17,12 @@ inline std::filesystem::path modelsDirectory() {
     return given != nullptr ? given : DEFOCUS_DEFAULT_MODELS_DIR;
 }
 
+// A name that begins with "meshes/" is one of the project's own.
+inline std::filesystem::path modelPath(const std::filesystem::path& name) {
+    const bool own = !name.empty() && *name.begin() == "meshes";
+    return (own ? std::filesystem::path(DEFOCUS_SOURCE_DIR) : modelsDirectory()) / name;
+}
+
 // A test's name may have letters, digits and _ of ASCII only.
 inline std::string testNameOf(std::string text) {
     std::ranges::replace_if(
@@ -26,6 +32,6 @@ inline std::string testNameOf(std::string text) {
 
 }  // namespace defocus
 
-#define DEFOCUS_MODEL_OR_SKIP(variable, name)                                    \
-    const std::filesystem::path variable(::defocus::modelsDirectory() / (name)); \
+#define DEFOCUS_MODEL_OR_SKIP(variable, name)                           \
+    const std::filesystem::path variable(::defocus::modelPath((name))); \
     if (!std::filesystem::exists((variable))) GTEST_SKIP() << "no model " << variable << "; set DEFOCUS_MODELS_DIR"

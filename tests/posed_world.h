@@ -13,12 +13,14 @@
 
 namespace defocus {
 
-// The models whose skins and morph targets move, with the clip that moves them.
+// The models whose skins and morph targets move, with the clip that moves them. The first is the project's own, the
+// others may be absent.
 struct PosedModel {
     const char* file;
     int clip;
 };
-inline constexpr PosedModel posedModels[] = {{"Fox.glb", 0},
+inline constexpr PosedModel posedModels[] = {{"meshes/reed.glb", 0},
+                                             {"Fox.glb", 0},
                                              {"Fox.glb", 2},
                                              {"RiggedFigure.glb", 0},
                                              {"RecursiveSkeletons.glb", 0},

@@ -120,6 +120,7 @@ void ViewSession::frame() {
     interfaceMilliseconds_ = millisecondsSince(interfaceBegin);
     act();
     if (picture_ && !draft_) ++framesWithScene_;
+    ++framesDrawn_;
     frameMilliseconds_ = growthMilliseconds_ + millisecondsSince(begin);
     frameTimes_.push_back(static_cast<float>(frameMilliseconds_));
     if (frameTimes_.size() > shownFrameTimes) frameTimes_.erase(frameTimes_.begin());

@@ -105,6 +105,7 @@ private:
     double frameMilliseconds_ = 0;
     std::vector<float> frameTimes_;
     int framesWithScene_ = 0;
+    std::uint64_t framesDrawn_ = 0;
     std::string fault_;  // the latest
 };
 

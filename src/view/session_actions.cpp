@@ -179,6 +179,9 @@ void ViewSession::writeStats() {
         {"loading", loader_.busy()},
         {"draft", draft_},
         {"fault", fault_},
+        {"frames", framesDrawn_},  // with all events that came before the frame before the last
+        {"typing", inputContext().typing},
+        {"openPath", state_.openPath},
         {"samples", picture_ ? picture_->samples() : 0},
         {"moving", picture_ && picture_->moving()},
         {"changes", picture_ ? picture_->changes() : 0},

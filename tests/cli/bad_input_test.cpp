@@ -35,6 +35,24 @@ protected:
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
         EXPECT_EQ(fileCount(), 1u);
     }
+
+    // Whether `info` refuses the file with a line that names it; else it has something to say of it. So has `plan`.
+    bool expectRefusedOrLoaded(const fs::path& model) const {
+        SCOPED_TRACE(model);
+        bool refused = false;
+        for (const char* command : {"plan", "info"}) {
+            const Outcome outcome = run({"--quiet", command, model.string()});
+            refused = outcome.exitCode != 0;
+            if (!refused) {
+                EXPECT_EQ(outcome.err, "");
+                EXPECT_NE(outcome.out, "");
+                continue;
+            }
+            expectOneLine(outcome, 1);
+            EXPECT_NE(outcome.err.find(model.stem().string()), std::string::npos) << outcome.err;
+        }
+        return refused;
+    }
 };
 
 TEST_F(BadInput, valuesOutOfRange) {
@@ -286,25 +304,40 @@ TEST_F(BadInput, outputsThatCannotBeWrittenTo) {
     EXPECT_EQ(fileCount(), 1u);
 }
 
-// Each hostile file is refused with a line that names it, or loads; it never ends the program in another way.
+// A hostile file is refused with a line that names it, or loads; it never ends the program in another way.
 TEST_F(BadInput, hostileModels) {
     DEFOCUS_MODEL_OR_SKIP(models, "invalid");
     for (const fs::directory_entry& entry : fs::directory_iterator(models)) {
         const std::string extension = entry.path().extension().string();
-        if (extension != ".gltf" && extension != ".glb") continue;
-        SCOPED_TRACE(entry.path());
-        for (const char* command : {"info", "plan"}) {
-            const Outcome outcome = run({"--quiet", command, entry.path().string()});
-            if (outcome.exitCode == 0) {
-                EXPECT_EQ(outcome.err, "");
-                EXPECT_NE(outcome.out, "");
-                continue;
-            }
-            expectOneLine(outcome, 1);
-            EXPECT_NE(outcome.err.find(entry.path().stem().string()), std::string::npos) << outcome.err;
-        }
+        if (extension == ".gltf" || extension == ".glb") expectRefusedOrLoaded(entry.path());
     }
     EXPECT_EQ(fileCount(), 1u);
+}
+
+// A fish of ours, cut short at many places, and with each word of its headers changed.
+TEST_F(BadInput, damagedCopiesOfAModel) {
+    const std::string whole = textOf(fs::path(DEFOCUS_SOURCE_DIR) / "meshes/fish.glb");
+    ASSERT_GT(whole.size(), 10'000u);
+    int refused = 0;
+    const auto expectDamaged = [&](const std::string& bytes) {
+        GltfBuilder::save(folder() / "damaged.glb", bytes);
+        refused += expectRefusedOrLoaded(folder() / "damaged.glb") ? 1 : 0;
+    };
+    for (std::size_t part = 0; part < 8; ++part) expectDamaged(whole.substr(0, part * whole.size() / 8 + part % 3));
+    EXPECT_EQ(refused, 8) << "none of them is whole";
+    for (std::size_t word = 0; word < 5; ++word) {
+        std::string changed = whole;
+        changed[4 * word] = static_cast<char>(changed[4 * word] ^ 0x41);
+        expectDamaged(changed);
+    }
+    EXPECT_EQ(refused, 8 + 5);
+    for (const char* name : {"count", "byteOffset", "bufferView", "componentType", "mesh", "byteLength"}) {
+        std::string changed = whole;
+        const std::size_t at = changed.find("\"" + std::string(name) + "\":") + std::string(name).size() + 3;
+        ASSERT_LT(at, changed.size()) << name;
+        changed[at] = '9';
+        expectDamaged(changed);
+    }
 }
 
 // What can be drawn of a damaged file is, and what can't is counted.

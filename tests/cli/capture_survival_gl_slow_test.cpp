@@ -109,11 +109,26 @@ TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     }
 }
 
+// A machine that is done before the interruption reaches it draws more samples.
 TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
-    const pid_t child = start();
-    waitForFrames(1);
-    ::kill(child, SIGINT);
-    ASSERT_EQ(waitFor(child), 1) << bytesOf("said");
+    const auto codeOfInterrupted = [&](int samples) {
+        nlohmann::json document = shot();
+        document["samples"] = samples;
+        writeShot(document);
+        fs::remove_all(folder() / "frames");
+        const pid_t child = start();
+        waitForFrames(1);
+        ::kill(child, SIGINT);
+        return waitFor(child);
+    };
+    int samples = 8;
+    int code = codeOfInterrupted(samples);
+    while (code == 0 && samples < 32'768) {
+        ASSERT_EQ(framesThere(), frames);
+        samples *= 4;
+        code = codeOfInterrupted(samples);
+    }
+    ASSERT_EQ(code, 1) << bytesOf("said");
     const std::string said = bytesOf("said");
     EXPECT_NE(said.find("stopped before frame "), std::string::npos) << said;
     EXPECT_NE(said.find("--resume"), std::string::npos) << said;

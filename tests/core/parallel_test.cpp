@@ -3,7 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <latch>
+#include <memory>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 namespace defocus {
 namespace {
@@ -37,13 +42,37 @@ TEST(Tasks, anExceptionReachesTheOneWhoWaits) {
     }
 }
 
+// The only worker is kept busy until the others have been dropped: then the last copy of what they hold is gone. It
+// gives up after a minute, so that a fault is a failure and not a hang.
 TEST(Tasks, whatNobodyWaitsForIsDropped) {
     std::atomic<int> done = 0;
+    auto held = std::make_shared<int>(0);
     {
+        std::latch started(1);
         Tasks tasks(1);
-        for (int i = 0; i < 1000; ++i) tasks.add([&] { ++done; });
+        tasks.add([&started, others = std::weak_ptr<int>(held)] {
+            started.count_down();
+            const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+            while (!others.expired() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+        });
+        started.wait();
+        for (int i = 0; i < 1000; ++i) tasks.add([&done, held] { ++done; });
+        held.reset();
     }
-    EXPECT_LE(done, 1000);  // and it ended
+    EXPECT_EQ(done, 0);
+}
+
+TEST(ParallelFor, everyIndexOnceAndTheFirstExceptionComesBack) {
+    for (const std::size_t count : {0u, 1u, 2u, 1000u}) {
+        std::vector<std::atomic<int>> times(count);
+        parallelFor(count, [&](std::size_t i) { ++times[i]; });
+        for (const std::atomic<int>& each : times) EXPECT_EQ(each, 1);
+    }
+    EXPECT_THROW(parallelFor(100,
+                             [](std::size_t i) {
+                                 if (i == 50) throw std::runtime_error("body");
+                             }),
+                 std::runtime_error);
 }
 
 }  // namespace

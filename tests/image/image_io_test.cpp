@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <span>
 
@@ -345,6 +346,15 @@ TEST(Texture, realTexturesDecode) {
     EXPECT_EQ(texture.width, headerValue(16));
     EXPECT_EQ(texture.height, headerValue(20));
     EXPECT_EQ(texture.rgba.size(), std::size_t(texture.width) * std::size_t(texture.height) * 4);
+}
+
+// The two bytes that a JPEG begins with, and nothing that would follow.
+TEST(Texture, aJpegOfNothingIsRefused) {
+    const ScratchFolder folder;
+    const std::filesystem::path path = folder / "nothing.jpg";
+    std::ofstream(path, std::ios::binary) << "\xFF\xD8\xFF\xE0 this is no picture";
+    expectClearFault(messageOf<Error>([&] { decodeTexture(readFile(path), "image"); }), "image");
+    expectClearFault(readFault(path), path.string());
 }
 
 TEST(Texture, anInvalidJpegIsRefused) {

@@ -36,7 +36,8 @@ void expectBoundsHold(const SmallWorld& small) {
 TEST(ObjectPose, boundsHoldAllVerticesOfTheModelsAtManyTimes) {
     for (const auto& [file, clip] : posedModels) {
         SCOPED_TRACE(file);
-        DEFOCUS_MODEL_OR_SKIP(path, file);
+        const std::filesystem::path path = modelPath(file);
+        if (!std::filesystem::exists(path)) continue;
         const auto small = posedWorld(path, 0, clip);
         const int last = static_cast<int>(small->scene.clips.size()) - 1;
         const double duration = last < 0 ? 0 : static_cast<double>(small->scene.clips[0].duration);

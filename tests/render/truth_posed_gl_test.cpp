@@ -26,7 +26,8 @@ Image rendered(const SmallWorld& small, Renderer& renderer) {
 TEST(PosedTruth, rasteriserAndRayTracerSeeTheSamePose) {
     const auto context = createHeadlessContext();
     for (const auto& [file, clip] : posedModels) {
-        DEFOCUS_MODEL_OR_SKIP(path, file);
+        const std::filesystem::path path = modelPath(file);
+        if (!std::filesystem::exists(path)) continue;
         const auto small = posedWorld(path, 0.7, clip);
         small->scene = bakedUnlit(std::move(small->scene));
         small->world.pyramids = buildPyramids(small->scene.meshes);

@@ -77,27 +77,38 @@ TEST_F(Visibility, spheresAtAllLevelsOfDetail) {
 }
 
 TEST_F(Visibility, underLimitsRangesAndTiltedPlanes) {
-    for (int variant = 0; variant < 5; ++variant) {
+    for (int variant = 0; variant < 4; ++variant) {
         const auto small = fiveSpheres();
         Lens& lens = small->view.lens;
         if (variant == 0) lens.foregroundLimit = 3;
         if (variant == 1) lens.backgroundLimit = 3;
         if (variant == 2) lens.focusRangeBehind = 1;
         if (variant == 3) lens.focusTilt = 0.4;
-        if (variant == 4) lens.fieldCurvature = 0.3;
-        EXPECT_GT(expectSameImage(*small, LodMode::off), variant == 4 ? -1 : 0.15) << variant;
+        EXPECT_GT(expectSameImage(*small, LodMode::off), 0.15) << variant;
     }
 }
 
-TEST_F(Visibility, blendedAndDoubleSidedSurfaces) {
-    for (const bool doubleSided : {false, true}) {
-        const auto small = fiveSpheres();
-        small->scene.materials[0].alphaMode = AlphaMode::blend;
-        small->scene.materials[0].baseColorFactor.a = 0.6f;
-        small->scene.materials[0].doubleSided = doubleSided;
-        const double share = expectSameImage(*small, LodMode::off);
-        EXPECT_GT(share, doubleSided ? -1 : 0.2);
-    }
+// Where C is curved nothing is taken to face away (visibility.h), and no sphere reaches out of the frame.
+TEST_F(Visibility, curvedFocusLeavesNothingOut) {
+    const auto small = fiveSpheres();
+    small->view.lens.fieldCurvature = 0.3;
+    EXPECT_EQ(expectSameImage(*small, LodMode::off), 0);
+}
+
+TEST_F(Visibility, blendedSurfaces) {
+    const auto small = fiveSpheres();
+    small->scene.materials[0].alphaMode = AlphaMode::blend;
+    small->scene.materials[0].baseColorFactor.a = 0.6f;
+    EXPECT_GT(expectSameImage(*small, LodMode::off), 0.2);
+}
+
+// Their backs show.
+TEST_F(Visibility, doubleSidedSurfacesLeaveNothingOut) {
+    const auto small = fiveSpheres();
+    small->scene.materials[0].alphaMode = AlphaMode::blend;
+    small->scene.materials[0].baseColorFactor.a = 0.6f;
+    small->scene.materials[0].doubleSided = true;
+    EXPECT_EQ(expectSameImage(*small, LodMode::off), 0);
 }
 
 TEST_F(Visibility, spheresThatMoveAndTurn) {
@@ -112,20 +123,18 @@ TEST_F(Visibility, spheresThatMoveAndTurn) {
 }
 
 // Scanned and modelled surfaces: needles, folds, holes.
-TEST_F(Visibility, filesOfOthers) {
-    int rendered = 0;
+TEST_F(Visibility, files) {
     double most = 0;
-    for (const char* name : {"FlightHelmet/FlightHelmet.gltf", "Suzanne.glb", "NegativeScaleTest.glb",
-                             "WaterBottle.glb", "SimpleInstancing.glb"}) {
-        const std::filesystem::path path = modelsDirectory() / name;
+    for (const char* name : {"meshes/fish.glb", "meshes/reed.glb", "FlightHelmet/FlightHelmet.gltf", "Suzanne.glb",
+                             "NegativeScaleTest.glb", "WaterBottle.glb", "SimpleInstancing.glb"}) {
+        const std::filesystem::path path = modelPath(name);
         if (!std::filesystem::exists(path)) continue;
+        SCOPED_TRACE(name);
         const auto small = posedWorld(path, 0, 0);
         small->view.lens.fStop = 0.5;
         for (const LodMode lod : {LodMode::off, LodMode::fractional})
             most = std::max(most, expectSameImage(*small, lod));
-        ++rendered;
     }
-    if (rendered == 0) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
     EXPECT_GT(most, 0.02);
 }
 

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "models.h"
 #include "scene/gltf/gltf.h"
 #include "scene/tangents.h"
@@ -74,6 +77,38 @@ TEST(Tangents, withoutTextureCoordinatesAreStillPerpendicular) {
     for (const glm::vec4& tangent : withTangents(block, lists, 0).vertices.tangents) {
         EXPECT_NEAR(glm::length(glm::vec3(tangent)), 1, 1e-6);
         EXPECT_NEAR(tangent.z, 0, 1e-6);
+    }
+}
+
+// A torus whose first coordinate turns about its axis and whose second, downwards, about its ring: ∂p/∂u is known.
+TEST(Tangents, ofATorusFollowItsFirstCoordinate) {
+    constexpr int around = 64, ring = 32;
+    VertexBlock block;
+    std::vector<std::uint32_t> indices;
+    std::vector<glm::vec3> along;
+    for (int j = 0; j <= ring; ++j)
+        for (int i = 0; i <= around; ++i) {
+            const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / ring;
+            const glm::dvec3 out(std::sin(u), 0, std::cos(u));
+            block.vertices.positions.emplace_back(out * (1 + 0.3 * std::cos(v)) + glm::dvec3(0, 0.3 * std::sin(v), 0));
+            block.vertices.normals.emplace_back(out * std::cos(v) + glm::dvec3(0, std::sin(v), 0));
+            block.vertices.uv0.emplace_back(static_cast<double>(i) / around, 1 - static_cast<double>(j) / ring);
+            along.emplace_back(std::cos(u), 0, -std::sin(u));
+        }
+    const auto at = [](int i, int j) { return static_cast<std::uint32_t>(j * (around + 1) + i); };
+    for (int j = 0; j < ring; ++j)
+        for (int i = 0; i < around; ++i)
+            indices.insert(indices.end(),
+                           {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    const std::vector<std::uint32_t> original = indices;
+    std::vector<std::uint32_t>* lists[] = {&indices};
+    const VertexBlock made = withTangents(block, lists, 0);
+    ASSERT_EQ(made.vertices.tangents.size(), made.vertices.count());
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const glm::vec4& tangent = made.vertices.tangents[indices[i]];
+        // Chords of the outermost circle lie an angle of π/64 off it; a seam's vertex has them on one side only.
+        ASSERT_GT(glm::dot(glm::vec3(tangent), along[original[i]]), std::cos(2 * std::numbers::pi / around)) << i;
+        ASSERT_EQ(tangent.w, 1) << i;
     }
 }
 

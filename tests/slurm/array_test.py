@@ -25,14 +25,14 @@ def skip(reason):
     sys.exit(SKIPPED)
 
 
-def free_ports(count):
+def reserved_ports(count):
+    """Sockets that keep a free port each. Who allows it to be shared, as Slurm's daemons do, may listen there all the same;
+    nobody else is given it."""
     sockets = [socket.socket() for _ in range(count)]
     for each in sockets:
+        each.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         each.bind(("127.0.0.1", 0))
-    ports = [each.getsockname()[1] for each in sockets]
-    for each in sockets:
-        each.close()
-    return ports
+    return sockets
 
 
 def wait_until(what, condition, seconds=240):
@@ -50,11 +50,13 @@ class Cluster:
     def __init__(self, folder):
         self.folder = folder
         self.processes = []
+        self.ports = []
         self.environment = os.environ | {"SLURM_CONF": str(folder / "slurm.conf")}
 
     def start(self):
         self.start_munge()
-        controller, *nodes = free_ports(3)
+        self.ports = reserved_ports(3)  # for as long as the cluster runs
+        controller, *nodes = [each.getsockname()[1] for each in self.ports]
         host = socket.gethostname().split(".")[0]
         cores = os.cpu_count() or 1
         text = f"""ClusterName=test

@@ -1,6 +1,7 @@
 #pragma once
 // Runs `defocus view` on an X server of its own (Xvfb), with real mouse and key events (xdotool). The program keeps its
-// state in a JSON file, which the tests read.
+// state in a JSON file, which the tests read: after each movement of the hand they wait until the program has drawn
+// frames with it, however long that takes, and never for a set time.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -81,7 +82,7 @@ protected:
     }
 
     // Ends by itself within `seconds`: its exit code, else −1.
-    int ended(double seconds = 60) {
+    int ended(double seconds = 180) {
         for (double waited = 0; waited < seconds; waited += 0.05) {
             int status = 0;
             if (::waitpid(program_, &status, WNOHANG) == program_) {
@@ -92,19 +93,40 @@ protected:
         }
         return -1;
     }
-    [[nodiscard]] bool running() const { return program_ > 0 && ::waitpid(program_, nullptr, WNOHANG) == 0; }
+    [[nodiscard]] bool running() const { return alive(); }
 
     [[nodiscard]] nlohmann::json state() const {
         std::ifstream file(folder_ / "state.json");
         nlohmann::json value = nlohmann::json::parse(file, nullptr, false);
         return value.is_discarded() ? nlohmann::json::object() : value;
     }
-    // Whether the state comes to satisfy `condition` in time. Software drivers on busy machines are slow.
-    bool reaches(const std::function<bool(const nlohmann::json&)>& condition, double seconds = 180) const {
-        for (double waited = 0; waited < seconds; waited += 0.1) {
-            const nlohmann::json now = state();
-            if (!now.empty() && condition(now)) return true;
-            pause(0.1);
+    // Whether the state comes to satisfy `condition`, which is given up when the program has ended or after minutes:
+    // software drivers on busy machines are slow. reached() is the state that did.
+    bool reaches(const std::function<bool(const nlohmann::json&)>& condition) const {
+        constexpr double mostSeconds = 180;
+        for (double waited = 0; waited < mostSeconds; waited += 0.05) {
+            const bool ending = !alive();  // whose last state is read all the same
+            nlohmann::json now = state();
+            if (!now.empty() && condition(now)) {
+                reached_ = std::move(now);
+                return true;
+            }
+            if (ending) return false;
+            pause(0.05);
+        }
+        return false;
+    }
+    [[nodiscard]] const nlohmann::json& reached() const { return reached_; }
+    // Repeats `hand` until `condition` holds: again where a hundred frames have shown nothing of it.
+    bool insists(const std::function<void()>& hand, const std::function<bool(const nlohmann::json&)>& condition) const {
+        constexpr std::uint64_t patience = 100;
+        for (int i = 0; i < 10 && alive(); ++i) {
+            const std::uint64_t begin = framesDrawn();
+            hand();
+            const auto seen = [&](const nlohmann::json& s) {
+                return condition(s) || s.at("frames").get<std::uint64_t>() >= begin + patience;
+            };
+            if (reaches(seen) && condition(reached_)) return true;
         }
         return false;
     }
@@ -113,14 +135,26 @@ protected:
     }
 
     // One xdotool command line, e.g. "mousemove 10 20 click 1".
-    void act(const std::string& commands) const {
+    void send(const std::string& commands) const {
         const std::string line = "DISPLAY=" + display_ + " xdotool " + commands + " >/dev/null 2>&1";
         EXPECT_EQ(std::system(line.c_str()), 0) << line;
     }
-    // The window's area starts at the screen's corner without a window manager.
-    void click(int x, int y) const {
-        act("mousemove " + std::to_string(x) + " " + std::to_string(y) + " sleep 0.2 click 1");
+    // The same; returns once the program has drawn what came of it. The state may be an old one: the next that is
+    // written is of a frame that ended after the events. One more takes them, and two for what an interface does a
+    // frame later.
+    void act(const std::string& commands) const {
+        send(commands);
+        for (const std::uint64_t more : {1u, 3u}) {
+            const std::uint64_t drawn = framesDrawn();
+            reaches([&](const nlohmann::json& s) { return s.at("frames").get<std::uint64_t>() >= drawn + more; });
+        }
     }
+    // What the hand does one after the other, each in a frame of its own.
+    void inTurn(const std::vector<std::string>& movements) const {
+        for (const std::string& commands : movements) act(commands);
+    }
+    // The window's area starts at the screen's corner without a window manager.
+    void click(int x, int y) const { inTurn({"mousemove " + std::to_string(x) + " " + std::to_string(y), "click 1"}); }
     void key(const std::string& name) const { act("key " + name); }
 
     static void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
@@ -132,6 +166,16 @@ protected:
     }
 
 private:
+    [[nodiscard]] std::uint64_t framesDrawn() const {
+        const nlohmann::json now = state();
+        return now.empty() ? 0 : now.at("frames").get<std::uint64_t>();
+    }
+    // Without taking its exit code, which ended() returns.
+    [[nodiscard]] bool alive() const {
+        siginfo_t info{};
+        return program_ > 0 && ::waitid(P_PID, static_cast<id_t>(program_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+               info.si_pid == 0;
+    }
     static void silence() {
         const int null = ::open("/dev/null", O_WRONLY);
         ::dup2(null, 1);
@@ -151,6 +195,7 @@ private:
     static inline std::string display_;
     std::filesystem::path folder_;
     pid_t program_ = -1;
+    mutable nlohmann::json reached_;
 };
 
 }  // namespace defocus

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -54,6 +55,47 @@ TEST(LevelOfDetail, IsContinuousAndGrowsWithTheTargetOnPlateaus) {
     pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
     pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
     expectContinuousLevels(pyramid);
+}
+
+// λ's slope over the target between two levels is 1/ln(e[l+1]/e[l]) by the logarithm of edges, 1/(e[l+1] − e[l]) by
+// errors: over a step it changes by no more than its steepest stretch in between allows, and by no less than its
+// flattest. In the blur, in the threshold and in the distance, which all end in target over projected size.
+TEST(LevelOfDetail, ChangesAlongEachStretchAsItsFormulaSays) {
+    Pyramid pyramid = uniformPyramid();
+    pyramid.levels[2].meanEdge = pyramid.levels[1].meanEdge * 1.05;
+    pyramid.levels[3].error = pyramid.levels[2].error * 1.25;
+    for (const LodMetric metric : {LodMetric::size, LodMetric::error}) {
+        const auto stored = [&](std::size_t level) {
+            return metric == LodMetric::size ? std::log(pyramid.levels[level].meanEdge) : pyramid.levels[level].error;
+        };
+        const auto coordinate = [&](double target) { return metric == LodMetric::size ? std::log(target) : target; };
+        // ∫ of the slope from one target to another, both in the object's units.
+        const auto growth = [&](double from, double to) {
+            double sum = 0;
+            for (std::size_t l = 0; l + 1 < pyramid.levels.size(); ++l) {
+                const double low = std::clamp(coordinate(from), stored(l), stored(l + 1));
+                const double high = std::clamp(coordinate(to), stored(l), stored(l + 1));
+                sum += (high - low) / (stored(l + 1) - stored(l));
+            }
+            return sum;
+        };
+        constexpr double step = 1.003;
+        constexpr double unit = 7;  // px an object unit
+        for (double target = 1e-3; target < 10; target *= step) {
+            const double expected = growth(target, target * step);
+            const auto lambda = [&](double pixelsPerUnit, double coc, const LodThresholds& thresholds) {
+                return levelOfDetail(pyramid, {pixelsPerUnit, coc}, metric, thresholds);
+            };
+            const double bySize = lambda(unit, 0, {0, target * step * unit}) - lambda(unit, 0, {0, target * unit});
+            const double byBlur =
+                lambda(unit, target * step * unit / 0.3, {0.3, 0}) - lambda(unit, target * unit / 0.3, {0.3, 0});
+            const double byDistance = lambda(unit / step, 0, {0, target * unit}) - lambda(unit, 0, {0, target * unit});
+            ASSERT_NEAR(bySize, expected, 1e-10) << target;
+            ASSERT_NEAR(byBlur, expected, 1e-10) << target;
+            ASSERT_NEAR(byDistance, expected, 1e-10) << target;
+        }
+        EXPECT_NEAR(growth(0, 10), 4, 1e-12) << "all levels are passed";
+    }
 }
 
 TEST(LevelOfDetail, IsZeroWhereNothingCanBeSaid) {

@@ -298,23 +298,7 @@ TEST_F(Accumulation, whiteRoughSurfaceVanishesInAUniformSky) {
     small->scene.materials[0].metallicFactor = 0;
     small->world.environment = {EnvironmentType::uniform, {1, 1, 1}, {}, {}, nullptr, 1};
     const Image image = rendered(*small, settingsFor(4));
-    EXPECT_NEAR(image.at(48, 32)[0], 1, 0.06);
-}
-
-// A directional light of E lux on a rough white wall head-on: E/π, and cos θ of it at an angle.
-TEST_F(Accumulation, lambertUnderADirectionalLight) {
-    const auto small = wall(1, 4);
-    small->scene.materials[0] = Material{};
-    small->scene.materials[0].metallicFactor = 0;
-    small->world.environment = {EnvironmentType::uniform, {0, 0, 0}, {}, {}, nullptr, 1};
-    PlacedLight sun;
-    sun.light.intensity = 3;
-    for (const double angle : {0.0, 0.5, 1.0}) {
-        sun.direction = glm::dvec3(std::sin(angle), 0, -std::cos(angle));
-        small->world.lights = {sun};
-        const double radiance = rendered(*small, settingsFor(1)).at(48, 32)[0];
-        EXPECT_NEAR(radiance, 3 * std::cos(angle) / std::numbers::pi, 0.05) << angle;
-    }
+    EXPECT_NEAR(image.at(48, 32)[0], 1, 0.02);  // what a rough surface of F0 = 0.04 mirrors is added, not taken away
 }
 
 // A lamp and a spotlight beside the sun.

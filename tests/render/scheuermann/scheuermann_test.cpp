@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 namespace defocus {
 namespace {
@@ -47,20 +48,36 @@ TEST(BlurrinessPlanes, focusAtInfinityBlursNothingBehind) {
     EXPECT_TRUE(std::isfinite(planes.near));
 }
 
-TEST(PoissonDisk, keepsItsDistanceInsideTheUnitDisk) {
+// Disks of half the least distance around the points lie in a disk of that much more than the unit disk, and fill no
+// more of it than hexagons would, π/√12 (Groemer 1960). Each place of the unit disk is within the least distance of a
+// point, or another point would have been better there: so disks of that radius cover it, n·d² ≥ 1, which fills more
+// than a quarter. Candidates are finitely many: a tenth is allowed for it.
+TEST(PoissonDisk, keepsItsDistanceAndLeavesNoGap) {
     for (const std::uint32_t count : {8u, 12u, 24u, 64u}) {
         const std::vector<glm::vec2> points = poissonDisk(count);
         ASSERT_EQ(points.size(), count);
         EXPECT_EQ(points.front(), glm::vec2(0));
-        float least = 2;
+        double least = 2;
         for (std::size_t i = 0; i < points.size(); ++i) {
             EXPECT_LE(glm::length(points[i]), 1.0f + 1e-6f);
-            for (std::size_t j = 0; j < i; ++j) least = std::min(least, glm::distance(points[i], points[j]));
+            for (std::size_t j = 0; j < i; ++j)
+                least = std::min(least, static_cast<double>(glm::distance(points[i], points[j])));
         }
-        // Disks of half the least distance around the points fill more than a quarter of the disk (random points: 1/n
-        // of that), and cannot fill more than hexagons would.
         const double filled = count * least * least / 4;
         EXPECT_GT(filled, 0.3) << count;
+        EXPECT_LE(filled, std::numbers::pi / std::sqrt(12.0) * std::pow(1 + least / 2, 2)) << count;
+        double widestGap = 0;
+        constexpr int steps = 100;
+        for (int y = -steps; y <= steps; ++y)
+            for (int x = -steps; x <= steps; ++x) {
+                const glm::vec2 place = glm::vec2(x, y) / static_cast<float>(steps);
+                if (glm::length(place) > 1) continue;
+                double nearest = 2;
+                for (const glm::vec2& point : points)
+                    nearest = std::min(nearest, static_cast<double>(glm::distance(place, point)));
+                widestGap = std::max(widestGap, nearest);
+            }
+        EXPECT_LE(widestGap, 1.1 * least) << count;
     }
 }
 

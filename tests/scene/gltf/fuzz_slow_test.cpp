@@ -94,11 +94,11 @@ TEST_P(DamagedModel, loadsOrIsAnError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gltf, DamagedModel,
-                         testing::Values("BoxAnimated.glb", "AnimatedMorphCube-Quantized.glb", "SimpleInstancing.glb",
-                                         "CornellBox.glb", "RiggedFigure.glb", "MorphPrimitivesTest.glb",
-                                         "InterpolationTest.glb", "MultiUVTest.glb", "MeshPrimitiveModes.gltf",
-                                         "SimpleSparseAccessor.gltf", "suzanne-high-poly-Draco.gltf",
-                                         "japanese-bridge-garden-meshopt.glb"),
+                         testing::Values("meshes/reed.glb", "meshes/fish.glb", "meshes/bokeh.gltf", "BoxAnimated.glb",
+                                         "AnimatedMorphCube-Quantized.glb", "SimpleInstancing.glb", "CornellBox.glb",
+                                         "RiggedFigure.glb", "MorphPrimitivesTest.glb", "InterpolationTest.glb",
+                                         "MultiUVTest.glb", "MeshPrimitiveModes.gltf", "SimpleSparseAccessor.gltf",
+                                         "suzanne-high-poly-Draco.gltf", "japanese-bridge-garden-meshopt.glb"),
                          [](const auto& tested) { return testNameOf(tested.param); });
 
 }  // namespace

@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "scene/gltf/gltf.h"
@@ -92,6 +96,32 @@ constexpr ModelFacts models[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Readme, Model, testing::ValuesIn(models),
                          [](const auto& tested) { return testNameOf(tested.param.file); });
+
+// The project's own scenes, against the counts that their accessors state.
+TEST(OwnScenes, haveTheTrianglesTheirAccessorsState) {
+    int read = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(modelPath("meshes"))) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".gltf" && extension != ".glb") continue;
+        SCOPED_TRACE(entry.path());
+        ++read;
+        std::ifstream file(entry.path(), std::ios::binary);
+        std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+        if (extension == ".glb")
+            text = text.substr(20, text.find(std::string("BIN\0", 4), 20) - 4 - 20);  // the JSON chunk
+        const nlohmann::json json = nlohmann::json::parse(text);
+        const Scene scene = loadGltf(entry.path());
+        ASSERT_EQ(scene.meshes.size(), json["meshes"].size());
+        for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+            std::size_t corners = 0;
+            for (const nlohmann::json& primitive : json["meshes"][m]["primitives"])
+                corners += json["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::size_t>();
+            EXPECT_EQ(scene.meshes[m].triangleCount(), corners / 3) << scene.meshes[m].name;
+        }
+        expectConsistent(scene);
+    }
+    EXPECT_GE(read, 12);
+}
 
 std::uint64_t ignoredCount(const Scene& scene, const std::string& what) {
     for (const Ignored& ignored : scene.ignored)

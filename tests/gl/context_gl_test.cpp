@@ -1,0 +1,38 @@
+#include <thread>
+
+#include "gl/context.h"
+#include "gl/gl_test.h"
+
+namespace defocus {
+namespace {
+
+using Context = GlTest;
+
+TEST_F(Context, isCurrentAndSaysWhatItRunsOn) {
+    EXPECT_FALSE(context().device().empty());
+    EXPECT_EQ(context().device(), currentDevice());
+    EXPECT_EQ(context().driver(), currentDriver());
+    EXPECT_EQ(context().software(), currentIsSoftware());
+    GLint major = 0, minor = 0;
+    glGetIntegerv(GL_MAJOR_VERSION, &major);
+    glGetIntegerv(GL_MINOR_VERSION, &minor);
+    EXPECT_GE(10 * major + minor, 45);
+    ASSERT_FALSE(context().log().empty());
+    EXPECT_NE(context().log().back().find(context().device()), std::string::npos) << context().log().back();
+}
+
+// Another thread has one of its own, whose end leaves this one as it was.
+TEST_F(Context, anotherThreadMayHaveItsOwn) {
+    const Buffer kept(4);
+    std::thread([] {
+        const std::unique_ptr<GlContext> other = createHeadlessContext();
+        EXPECT_FALSE(currentDevice().empty());
+        const Buffer buffer(4);
+        EXPECT_TRUE(buffer);
+    }).join();
+    EXPECT_EQ(glIsBuffer(kept.name()), GL_TRUE);
+    EXPECT_EQ(context().device(), currentDevice());
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,65 @@
+#pragma once
+// A test with a context of its own suite, and shaders written by the test itself. Each test leaves no GL error behind.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+#include "gl/fullscreen.h"
+#include "gl/read_back.h"
+#include "gl/target.h"
+#include "image/scratch_folder.h"
+
+namespace defocus {
+
+class GlTest : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    void TearDown() override { EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR}); }
+
+    void writeShader(const std::string& path, const std::string& text) const {
+        std::filesystem::create_directories((folder_ / path).parent_path());
+        std::ofstream(folder_ / path) << text;
+    }
+    // Of shaders that were written before, or are embedded.
+    [[nodiscard]] Program program(std::vector<std::string> shaders, ShaderDefines defines = {}) const {
+        return Program({std::move(shaders), std::move(defines), folder_.path()});
+    }
+    // Over a whole target; `body` assigns `value`, a vec4.
+    [[nodiscard]] Program fragmentProgram(const std::string& declarations, const std::string& body) const {
+        writeShader("test.frag",
+                    "layout(location = 0) out vec4 value;\n" + declarations + "\nvoid main() {\n" + body + "\n}\n");
+        return program({fullscreenShader, "test.frag"});
+    }
+    // What `program` computes at each pixel of a float target.
+    [[nodiscard]] static Image computed(const Program& program, int width, int height) {
+        const GlTexture texture({.format = TextureFormat::rgba32f, .width = width, .height = height});
+        const Target target({&texture});
+        target.bind();
+        Fullscreen().draw(program);
+        return readBack(texture, 4);
+    }
+    // Each texel of level `level`, in a shader's eyes.
+    [[nodiscard]] Image fetched(const GlTexture& texture, int level = 0) const {
+        const Program fetch =
+            fragmentProgram("layout(binding = 0) uniform sampler2D source;",
+                            "value = texelFetch(source, ivec2(gl_FragCoord.xy), " + std::to_string(level) + ");");
+        texture.attach(0);
+        return computed(fetch, std::max(texture.info().width >> level, 1), std::max(texture.info().height >> level, 1));
+    }
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+    [[nodiscard]] static const GlContext& context() { return *context_; }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+    ScratchFolder folder_;
+};
+
+}  // namespace defocus

@@ -1,0 +1,57 @@
+#include <chrono>
+
+#include "gl/gl_test.h"
+#include "gl/timer.h"
+
+namespace defocus {
+namespace {
+
+using Timer = GlTest;
+
+// A span that lasts at least `milliseconds` by any clock: a slow machine only makes it longer.
+void spanOf(GpuTimer& timer, double milliseconds) {
+    using Clock = std::chrono::steady_clock;
+    timer.begin();
+    glFinish();
+    for (const auto start = Clock::now();
+         Clock::now() - start < std::chrono::duration<double, std::milli>(milliseconds);) {
+    }
+    timer.end();
+}
+
+TEST_F(Timer, withoutSpansIsZero) {
+    GpuTimer timer;
+    EXPECT_EQ(timer.milliseconds(), 0);
+    timer.begin();
+    EXPECT_EQ(timer.milliseconds(), 0) << "a span that has no end yet";
+}
+
+TEST_F(Timer, sumsItsSpansUntilItIsReset) {
+    GpuTimer timer;
+    spanOf(timer, 8);
+    const double first = timer.milliseconds();
+    EXPECT_GE(first, 4);  // half, for clocks that differ
+    EXPECT_EQ(timer.milliseconds(), first) << "asking takes no time";
+    spanOf(timer, 8);
+    spanOf(timer, 8);
+    EXPECT_GE(timer.milliseconds(), first + 8);
+    timer.reset();
+    EXPECT_EQ(timer.milliseconds(), 0);
+    spanOf(timer, 1);
+    timer.reset();  // also what was not asked for
+    EXPECT_EQ(timer.milliseconds(), 0);
+}
+
+// What happens between two spans is not theirs: the span around all of them holds both.
+TEST_F(Timer, leavesOutWhatLiesBetween) {
+    GpuTimer all, two, between;
+    all.begin();
+    spanOf(two, 1);
+    spanOf(between, 10);
+    spanOf(two, 1);
+    all.end();
+    EXPECT_LE(two.milliseconds() + between.milliseconds(), all.milliseconds() + 1e-3);
+}
+
+}  // namespace
+}  // namespace defocus

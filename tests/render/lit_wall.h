@@ -1,0 +1,181 @@
+#pragma once
+// A wall that fills the frame of a pinhole camera, one sample a pixel, and what glTF 2.0's equations say that each
+// pixel of it shows: in double, with half vectors and angles written out as the equations have them.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+#include "gl/context.h"
+#include "plan/frame_plan.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus {
+
+inline constexpr double wallDepth = 2;  // m before the camera
+
+// The camera looks neither along an axis nor from the origin, so that none of them is taken for the camera's.
+inline std::unique_ptr<SmallWorld> litWall(const Material& material) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(material);
+    Mesh mesh = quad(0);
+    mesh.vertices.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};  // v grows downwards
+    mesh.vertices.tangents.assign(4, {1, 0, 0, 1});
+    small->scene.meshes.push_back(std::move(mesh));
+    small->view.worldFromCamera =
+        glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(3, -1, 2)), 0.7, glm::dvec3(0, 1, 0)), 0.4,
+                    glm::dvec3(1, 0, 0));
+    place(*small, 0,
+          glm::translate(small->view.worldFromCamera, glm::dvec3(0, 0, -wallDepth)));  // [−1, 1]² m, 0.72 of it seen
+    small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
+    small->view.width = 32;
+    small->view.height = 24;
+    small->view.lens.dofEnabled = false;
+    finish(*small);
+    return small;
+}
+
+inline FramePlan wallPlan(const SmallWorld& small) {
+    RenderSettings settings;
+    settings.sampleCount = 1;
+    settings.lod = LodMode::off;
+    return planFrame(small.world, small.view, settings);
+}
+
+inline Image wallImage(const SmallWorld& small) {
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const auto renderer = methodNamed("accumulation").make(small.world, options);
+    renderer->start(wallPlan(small));
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+// What a pixel's one sample meets on the wall. Directions and places are the world's.
+struct WallPoint {
+    int x = 0, y = 0;
+    glm::dvec3 position{0.0};
+    glm::dvec3 normal{0.0};  // towards the camera
+    glm::dvec3 toEye{0.0};
+    glm::dvec2 uv{0.0};  // of the first set
+};
+
+inline std::vector<WallPoint> wallPoints(const SmallWorld& small) {
+    const View& view = small.view;
+    const FramePlan plan = wallPlan(small);
+    const glm::dvec2 offset(plan.samples[0].pixel);
+    const double tanX = 36.0 / (2 * 50);  // the lens that every view starts with
+    std::vector<WallPoint> points;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const double right = (2 * (x + 0.5 + offset.x) / view.width - 1) * tanX * wallDepth;
+            const double up =
+                (1 - 2 * (y + 0.5 - offset.y) / view.height) * tanX * view.height / view.width * wallDepth;
+            WallPoint point{.x = x, .y = y};
+            point.position = glm::dvec3(view.worldFromCamera * glm::dvec4(right, up, -wallDepth, 1));
+            point.normal = glm::dvec3(view.worldFromCamera[2]);
+            point.toEye = glm::normalize(glm::dvec3(view.worldFromCamera[3]) - point.position);
+            point.uv = {(right + 1) / 2, (1 - up) / 2};
+            points.push_back(point);
+        }
+    return points;
+}
+
+// glTF 2.0, appendix B, of one surface point.
+struct GltfSurface {
+    glm::dvec3 baseColor{1.0};
+    double metallic = 0;
+    double roughness = 1;
+};
+
+// f(l, v)·(n·l)₊ by the appendix's equations: Lambert, Schlick's Fresnel and GGX; the masking and shadowing by Hammon's
+// fit (2017, PBR Diffuse Lighting for GGX+Smith Microsurfaces), V = 1/2 / mix(2 (n·l)(n·v), n·l + n·v, α).
+inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n, const glm::dvec3& v,
+                                 const glm::dvec3& l) {
+    const double nl = glm::dot(n, l), nv = glm::dot(n, v);
+    if (nl <= 0) return glm::dvec3(0);
+    const glm::dvec3 h = glm::normalize(l + v);
+    const double nh = glm::dot(n, h), vh = glm::dot(v, h);
+    const double alpha = surface.roughness * surface.roughness;
+    const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), surface.baseColor, surface.metallic);
+    const glm::dvec3 fresnel = f0 + (1.0 - f0) * std::pow(1 - vh, 5);
+    const double spread = nh * nh * (alpha * alpha - 1) + 1;
+    const double distribution = alpha * alpha / (std::numbers::pi * spread * spread);
+    const double visibility = 0.5 / glm::mix(2 * nl * nv, nl + nv, alpha);
+    const glm::dvec3 diffuse = surface.baseColor * (1 - surface.metallic) / std::numbers::pi;
+    return nl * ((1.0 - fresnel) * diffuse + fresnel * (distribution * visibility));
+}
+
+// Light on a point: illuminance across its own direction, and the unit direction towards it (KHR_lights_punctual).
+struct Illumination {
+    glm::dvec3 illuminance{0.0};
+    glm::dvec3 toLight{0.0};
+};
+
+inline Illumination illuminationAt(const PlacedLight& placed, const glm::dvec3& position) {
+    const Light& light = placed.light;
+    const glm::dvec3 power = glm::dvec3(light.color) * double(light.intensity);
+    if (light.type == LightType::directional) return {power, -glm::normalize(placed.direction)};
+    const double distance = glm::distance(placed.position, position);
+    Illumination result{power / (distance * distance), (placed.position - position) / distance};
+    if (light.range > 0) result.illuminance *= std::clamp(1 - std::pow(distance / double(light.range), 4), 0.0, 1.0);
+    if (light.type == LightType::spot) {
+        const double inner = std::cos(double(light.innerConeAngle)), outer = std::cos(double(light.outerConeAngle));
+        const double cosine = glm::dot(glm::normalize(placed.direction), -result.toLight);
+        const double share = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
+        result.illuminance *= share * share;
+    }
+    return result;
+}
+
+inline glm::dvec3 litRadiance(const GltfSurface& surface, const WallPoint& point, const glm::dvec3& normal,
+                              const std::vector<PlacedLight>& lights) {
+    glm::dvec3 sum(0);
+    for (const PlacedLight& light : lights) {
+        const Illumination at = illuminationAt(light, point.position);
+        sum += at.illuminance * reflectedShare(surface, normal, point.toEye, at.toLight);
+    }
+    return sum;
+}
+
+inline PlacedLight sunFrom(const glm::dvec3& direction, float intensity) {
+    PlacedLight sun;
+    sun.light.intensity = intensity;
+    sun.direction = glm::normalize(direction);
+    return sun;
+}
+
+// The wall's own axes in the world: right, up, towards the camera.
+inline glm::dvec3 fromWall(const SmallWorld& small, const glm::dvec3& direction) {
+    return glm::dmat3(small.view.worldFromCamera) * direction;
+}
+
+inline void expectRadiance(const Image& image, const WallPoint& point, const glm::dvec3& expected,
+                           const glm::dvec3& tolerance) {
+    for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(image.at(point.x, point.y)[c], expected[c], tolerance[c])
+            << "at " << point.x << ", " << point.y << ", channel " << c;
+}
+
+// Single precision over some dozens of operations: 2e-5. In D, the cosine of the half vector is held against α², which
+// magnifies its rounding.
+inline void expectLitRadiance(const Image& image, const WallPoint& point, const glm::dvec3& expected,
+                              double roughness) {
+    const double relative = 2e-5 + 1e-6 / std::pow(roughness, 4);
+    expectRadiance(image, point, expected, relative * glm::max(expected, glm::dvec3(0.05)));
+}
+
+class LitWall : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+}  // namespace defocus

@@ -1,0 +1,307 @@
+// Textured pixels against computed ones: which channel means what, how it is decoded, and where on the surface it lies.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+
+#include "render/lit_wall.h"
+
+namespace defocus {
+namespace {
+
+using MaterialTextures = LitWall;
+
+// IEC 61966-2-1.
+double linearOf(int code) {
+    const double encoded = code / 255.0;
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+using Texel = std::array<int, 4>;
+
+// Adds an image of `size`² texels to the scene, with a texture of it that shows each texel as a square.
+int addTexture(Scene& scene, int size, const std::function<Texel(int column, int row)>& texel) {
+    TextureImage image;
+    image.width = image.height = size;
+    for (int row = 0; row < size; ++row)
+        for (int column = 0; column < size; ++column)
+            for (const int channel : texel(column, row)) image.rgba.push_back(static_cast<std::uint8_t>(channel));
+    scene.images.push_back(std::move(image));
+    Texture texture;
+    texture.image = static_cast<int>(scene.images.size()) - 1;
+    texture.magnification = texture.minification = Filter::nearest;
+    texture.mipmaps = false;
+    scene.textures.push_back(texture);
+    return static_cast<int>(scene.textures.size()) - 1;
+}
+
+// Different values in all channels of all texels.
+Texel scrambled(int column, int row) {
+    const int i = 4 * row + column;
+    return {(i * 37 + 11) % 256, (i * 61 + 50) % 256, (i * 89 + 5) % 256, (i * 23 + 90) % 256};
+}
+
+// The texel of a square image of `size` at `uv`; nothing near a border, where rounding decides.
+std::optional<glm::ivec2> texelAt(const glm::dvec2& uv, int size) {
+    const glm::dvec2 place = uv * double(size);
+    const glm::dvec2 away = glm::abs(place - glm::round(place));
+    if (std::min(away.x, away.y) < 0.01) return {};
+    return glm::ivec2(glm::floor(place));
+}
+
+// Drivers decode by polynomials: half the step to the next code may be lost.
+double decodingError(int code) {
+    return 0.5 * (linearOf(std::max(code, 1)) - linearOf(std::max(code, 1) - 1));
+}
+glm::dvec3 decoded(const Texel& texel) {
+    return {linearOf(texel[0]), linearOf(texel[1]), linearOf(texel[2])};
+}
+glm::dvec3 decodingErrors(const Texel& texel) {
+    return {decodingError(texel[0]), decodingError(texel[1]), decodingError(texel[2])};
+}
+
+// Calls `check` for the pixels of a 4 × 4 texture that lies at `placed` of each pixel's coordinates.
+void forTexels(const SmallWorld& small, const std::function<glm::dvec2(const glm::dvec2&)>& placed,
+               const std::function<void(const Image&, const WallPoint&, const Texel&)>& check) {
+    const Image image = wallImage(small);
+    int compared = 0;
+    for (const WallPoint& point : wallPoints(small)) {
+        const std::optional<glm::ivec2> at = texelAt(placed(point.uv), 4);
+        if (!at) continue;
+        ++compared;
+        check(image, point, scrambled(std::min(at->x, 3), std::min(at->y, 3)));
+        if (testing::Test::HasFatalFailure()) return;
+    }
+    EXPECT_GT(compared, 500);
+}
+
+glm::dvec2 asTheyAre(const glm::dvec2& uv) {
+    return uv;
+}
+
+TEST_F(MaterialTextures, greenIsRoughnessAndBlueIsMetalness) {
+    Material material;
+    material.baseColorFactor = {0.9f, 0.5f, 0.2f, 1};
+    material.metallicFactor = 0.8f;
+    material.roughnessFactor = 0.9f;
+    const auto small = litWall(material);
+    small->scene.materials[0].metallicRoughness.texture = addTexture(small->scene, 4, scrambled);
+    small->world.lights = {sunFrom(fromWall(*small, {0.3, -0.4, -1}), 3)};
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        const GltfSurface surface{{0.9, 0.5, 0.2}, 0.8 * texel[2] / 255, 0.9 * texel[1] / 255};
+        expectLitRadiance(image, point, litRadiance(surface, point, point.normal, small->world.lights),
+                          surface.roughness);
+    });
+}
+
+// Occlusion darkens what comes from all around, by its red channel; lamps and emission pass.
+TEST_F(MaterialTextures, redOccludesTheEnvironmentOnly) {
+    Material material;
+    material.metallicFactor = 0;
+    material.occlusionStrength = 0.7f;
+    const auto small = litWall(material);
+    small->world.environment = {EnvironmentType::uniform, {0.5f, 0.8f, 1}, {}, {}, nullptr, 1};
+    const Image open = wallImage(*small);
+    small->scene.materials[0].occlusion.texture = addTexture(small->scene, 4, scrambled);
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        const float* all = open.at(point.x, point.y);
+        expectLitRadiance(image, point, (1 + 0.7 * (texel[0] / 255.0 - 1)) * glm::dvec3(all[0], all[1], all[2]), 1);
+    });
+    small->world.environment.zenith = {};
+    small->scene.materials[0].emissiveFactor = {0.25f, 0, 0};
+    small->world.lights = {sunFrom(fromWall(*small, {0.3, -0.4, -1}), 3)};
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel&) {
+        const glm::dvec3 lit = litRadiance({}, point, point.normal, small->world.lights);
+        expectLitRadiance(image, point, lit + glm::dvec3(0.25, 0, 0), 1);
+    });
+}
+
+// sRGB texels times a linear factor, which may be above 1; light by no lamp.
+TEST_F(MaterialTextures, emissionIsDecodedAndScaled) {
+    Material material;
+    material.emissiveFactor = {5, 0.5f, 1};
+    const auto small = litWall(material);
+    small->scene.materials[0].emissive.texture = addTexture(small->scene, 4, scrambled);
+    const glm::dvec3 factor(5, 0.5, 1);
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        expectRadiance(image, point, factor * decoded(texel), factor * decodingErrors(texel));
+    });
+}
+
+TEST_F(MaterialTextures, theNormalTextureTiltsTheNormal) {
+    Material material;
+    material.metallicFactor = 0;
+    material.normalScale = 0.6f;
+    const auto small = litWall(material);
+    const auto tilted = [](int column, int row) {
+        const Texel texel = scrambled(column, row);
+        return Texel{texel[0], texel[1], 220, 255};
+    };
+    small->scene.materials[0].normal.texture = addTexture(small->scene, 4, tilted);
+    small->world.lights = {sunFrom(fromWall(*small, {0.3, -0.4, -1}), 3)};
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        const glm::dvec3 local(0.6 * (2 * texel[0] / 255.0 - 1), 0.6 * (2 * texel[1] / 255.0 - 1), 2 * 220 / 255.0 - 1);
+        const glm::dvec3 normal = fromWall(*small, glm::normalize(local));
+        expectLitRadiance(image, point, litRadiance({}, point, normal, small->world.lights), 1);
+    });
+}
+
+// Below the cutoff is a hole, at it is none. Texture alpha times the factor's.
+TEST_F(MaterialTextures, alphaMaskCutsHoles) {
+    Material material = unlitMaterial({1, 1, 1, 0.5f});
+    material.alphaMode = AlphaMode::mask;
+    material.alphaCutoff = 0.25f;
+    const auto small = litWall(material);
+    small->world.environment.zenith = {0, 0, 1};
+    const auto alpha = [](int column, int row) { return Texel{255, 0, 0, (4 * row + column) * 17}; };
+    small->scene.materials[0].baseColor.texture = addTexture(small->scene, 4, alpha);
+    const Image image = wallImage(*small);
+    int holes = 0, left = 0;
+    for (const WallPoint& point : wallPoints(*small)) {
+        const std::optional<glm::ivec2> at = texelAt(point.uv, 4);
+        if (!at) continue;
+        const bool cut = 0.5 * alpha(at->x, at->y)[3] / 255 < 0.25;
+        ++(cut ? holes : left);
+        ASSERT_NEAR(image.at(point.x, point.y)[0], cut ? 0 : 1, 1e-3) << at->x << ' ' << at->y;
+        ASSERT_NEAR(image.at(point.x, point.y)[2], cut ? 1 : 0, 1e-3);
+        ASSERT_EQ(image.at(point.x, point.y)[3], 1) << "opaque, or the opaque background";
+    }
+    EXPECT_GT(holes, 100);
+    EXPECT_GT(left, 100);
+    // 1 · 1 is not below 1.
+    small->scene.materials[0].baseColorFactor.a = 1;
+    small->scene.materials[0].alphaCutoff = 1;
+    const Image whole = wallImage(*small);
+    for (const WallPoint& point : wallPoints(*small)) {
+        const std::optional<glm::ivec2> at = texelAt(point.uv, 4);
+        if (!at) continue;
+        ASSERT_NEAR(whole.at(point.x, point.y)[0], *at == glm::ivec2(3, 3) ? 1 : 0, 1e-3);
+    }
+}
+
+// Each texture has its own set of coordinates and its own transform (KHR_texture_transform: offset, rotation
+// counter-clockwise about the origin, scale).
+TEST_F(MaterialTextures, transformsAndSetsAreEachTexturesOwn) {
+    Material material;
+    material.emissiveFactor = {1, 1, 1};
+    material.metallicFactor = 0;
+    const auto small = litWall(material);
+    Mesh& mesh = small->scene.meshes[0];
+    mesh.vertices.uv1 = {{0.2f, 0.9f}, {0.8f, 0.9f}, {0.8f, 0.3f}, {0.2f, 0.3f}};  // 0.2 + 0.6 u, 0.3 + 0.6 v
+    finish(*small);
+    const int texture = addTexture(small->scene, 4, scrambled);
+    const glm::dvec2 offset(0.3, -0.2), scale(0.7, 1.3);
+    const double angle = 0.5;
+    const glm::mat3 move(1, 0, 0, 0, 1, 0, float(offset.x), float(offset.y), 1);
+    const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
+    const glm::mat3 turn(c, -s, 0, s, c, 0, 0, 0, 1);
+    const glm::mat3 stretch(float(scale.x), 0, 0, 0, float(scale.y), 0, 0, 0, 1);
+    Material& m = small->scene.materials[0];
+    m.emissive = {texture, 1, move * turn * stretch};
+    m.occlusion = {texture, 0, glm::mat3(1)};
+    small->world.environment.zenith = {};
+    const auto transformed = [&](const glm::dvec2& uv) {
+        const glm::dvec2 stretched = uv * scale;
+        return offset + glm::dvec2(std::cos(angle) * stretched.x + std::sin(angle) * stretched.y,
+                                   -std::sin(angle) * stretched.x + std::cos(angle) * stretched.y);
+    };
+    const auto repeated = [](const glm::dvec2& uv) { return uv - glm::floor(uv); };
+    const auto expectDecoded = [](const Image& image, const WallPoint& point, const Texel& texel) {
+        expectRadiance(image, point, decoded(texel), decodingErrors(texel));
+    };
+    forTexels(
+        *small, [&](const glm::dvec2& uv) { return repeated(transformed(glm::dvec2(0.2, 0.3) + 0.6 * uv)); },
+        expectDecoded);
+    m.emissive.uvSet = 0;
+    m.occlusion.uvSet = 1;
+    forTexels(
+        *small, [&](const glm::dvec2& uv) { return repeated(transformed(uv)); }, expectDecoded);
+    m.emissive.uvTransform = glm::mat3(1);
+    forTexels(*small, asTheyAre, expectDecoded);
+}
+
+TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
+    const auto folded = [](double u, Wrap wrap) {
+        if (wrap == Wrap::clampToEdge) return std::clamp(u, 0.0, 1.0);
+        if (wrap == Wrap::repeat) return u - std::floor(u);
+        const double twice = u / 2 - std::floor(u / 2);
+        return twice < 0.5 ? 2 * twice : 2 - 2 * twice;
+    };
+    const auto small = litWall(unlitMaterial(glm::vec4(1)));
+    Mesh& mesh = small->scene.meshes[0];
+    for (glm::vec2& uv : mesh.vertices.uv0) uv = 6.0f * uv - 2.5f;  // the 0.72 of the wall that are seen: −1.7 … 2.7
+    finish(*small);
+    small->scene.materials[0].baseColor.texture = addTexture(small->scene, 4, scrambled);
+    for (const Wrap wrapS : {Wrap::repeat, Wrap::clampToEdge, Wrap::mirroredRepeat})
+        for (const Wrap wrapT : {Wrap::repeat, Wrap::clampToEdge, Wrap::mirroredRepeat}) {
+            small->scene.textures[0].wrapS = wrapS;
+            small->scene.textures[0].wrapT = wrapT;
+            forTexels(
+                *small,
+                [&](const glm::dvec2& uv) {
+                    const glm::dvec2 wide = 6.0 * uv - 2.5;
+                    // The edge's texel goes on for ever: its middle stands for it.
+                    const auto inside = [](double u, Wrap wrap) {
+                        return wrap == Wrap::clampToEdge && (u < 0.25 || u > 0.75) ? (u < 0.5 ? 0.125 : 0.875) : u;
+                    };
+                    return glm::dvec2(inside(folded(wide.x, wrapS), wrapS), inside(folded(wide.y, wrapT), wrapT));
+                },
+                [](const Image& image, const WallPoint& point, const Texel& texel) {
+                    expectRadiance(image, point, decoded(texel), decodingErrors(texel));
+                });
+        }
+}
+
+// Codes are decoded one by one, then multiplied by the linear factor and the linear colours of the vertices.
+TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
+    const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
+    Mesh& mesh = small->scene.meshes[0];
+    mesh.vertices.colors.assign(4, {255, 51, 255, 255});
+    finish(*small);
+    const auto code = [](int column, int row) {
+        const int i = 16 * row + column;
+        return Texel{i, i, 255 - i, 255};
+    };
+    small->scene.materials[0].baseColor.texture = addTexture(small->scene, 16, code);
+    small->view.width = 96;
+    small->view.height = 72;
+    const auto nearestCode = [](double linear, int expected) {
+        return std::abs(linear - linearOf(expected)) < decodingError(expected);
+    };
+    const Image image = wallImage(*small);
+    std::array<int, 256> seen{};
+    for (const WallPoint& point : wallPoints(*small)) {
+        const std::optional<glm::ivec2> at = texelAt(point.uv, 16);
+        if (!at) continue;
+        const Texel texel = code(at->x, at->y);
+        ++seen[static_cast<std::size_t>(texel[0])];
+        const float* pixel = image.at(point.x, point.y);
+        ASSERT_TRUE(nearestCode(2.0 * pixel[0], texel[0])) << texel[0] << ": " << pixel[0];
+        ASSERT_TRUE(nearestCode(5.0 * pixel[1], texel[1])) << texel[1] << ": " << pixel[1];
+        ASSERT_TRUE(nearestCode(pixel[2], texel[2])) << texel[2] << ": " << pixel[2];
+    }
+    EXPECT_GT(std::ranges::count_if(seen, [](int times) { return times > 0; }), 80);  // of the part that is seen
+}
+
+// Between two texels the light is interpolated, not the codes. Weights have 8 bits at least.
+TEST_F(MaterialTextures, filteringMixesLight) {
+    const auto small = litWall(unlitMaterial(glm::vec4(1)));
+    const auto code = [](int column, int) { return column == 0 ? Texel{0, 40, 255, 255} : Texel{255, 200, 90, 255}; };
+    small->scene.materials[0].baseColor.texture = addTexture(small->scene, 2, code);
+    small->scene.textures[0].magnification = Filter::linear;
+    small->scene.textures[0].wrapS = Wrap::clampToEdge;
+    const Image image = wallImage(*small);
+    for (const WallPoint& point : wallPoints(*small)) {
+        const double right = std::clamp(2 * point.uv.x - 0.5, 0.0, 1.0);
+        for (int c = 0; c < 3; ++c) {
+            const double from = linearOf(code(0, 0)[static_cast<std::size_t>(c)]);
+            const double to = linearOf(code(1, 0)[static_cast<std::size_t>(c)]);
+            ASSERT_NEAR(image.at(point.x, point.y)[c], glm::mix(from, to, right),
+                        std::abs(to - from) / 256 + decodingError(255));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,134 @@
+// Directional, point and spot lights, pixel by pixel against glTF's equations in double.
+
+#include <gtest/gtest.h>
+
+#include "render/lit_wall.h"
+
+namespace defocus {
+namespace {
+
+using PunctualLights = LitWall;
+
+Material materialOf(const GltfSurface& surface) {
+    Material material;
+    material.baseColorFactor = glm::vec4(surface.baseColor, 1);
+    material.metallicFactor = static_cast<float>(surface.metallic);
+    material.roughnessFactor = static_cast<float>(surface.roughness);
+    return material;
+}
+
+void expectClosedForm(const GltfSurface& surface, const std::vector<PlacedLight>& lights, const SmallWorld& small) {
+    const Image image = wallImage(small);
+    double brightest = 0;
+    for (const WallPoint& point : wallPoints(small)) {
+        const glm::dvec3 expected = litRadiance(surface, point, point.normal, lights);
+        expectLitRadiance(image, point, expected, surface.roughness);
+        if (testing::Test::HasFatalFailure()) return;
+        brightest = std::max(brightest, expected.x);
+    }
+    EXPECT_GT(brightest, 1e-3) << "the light reaches the wall";
+}
+
+// A lamp 1.2 m before the wall, off its middle.
+PlacedLight lampBefore(const SmallWorld& small) {
+    PlacedLight lamp;
+    lamp.light.type = LightType::point;
+    lamp.light.color = {1, 0.6f, 0.3f};
+    lamp.light.intensity = 6;
+    lamp.position = glm::dvec3(small.view.worldFromCamera * glm::dvec4(0.3, -0.2, 1.2 - wallDepth, 1));
+    return lamp;
+}
+
+TEST_F(PunctualLights, aSunOnEveryKindOfSurface) {
+    for (const double metallic : {0.0, 0.4, 1.0})
+        for (const double roughness : {0.2, 0.5, 1.0}) {
+            const GltfSurface surface{{0.9, 0.5, 0.1}, metallic, roughness};
+            const auto small = litWall(materialOf(surface));
+            for (const glm::dvec3& way : {glm::dvec3(0, 0, -1), {0.6, 0.2, -1}, {-3, 1, -1}}) {
+                small->world.lights = {sunFrom(fromWall(*small, way), 3)};
+                SCOPED_TRACE(testing::Message() << metallic << ' ' << roughness << ' ' << way.x);
+                expectClosedForm(surface, small->world.lights, *small);
+            }
+        }
+}
+
+TEST_F(PunctualLights, aSunBehindTheWallLightsNothing) {
+    const auto small = litWall(materialOf({}));
+    small->world.lights = {sunFrom(fromWall(*small, {0.5, 0, 1}), 3)};
+    const Image image = wallImage(*small);
+    for (const WallPoint& point : wallPoints(*small)) ASSERT_EQ(image.at(point.x, point.y)[0], 0);
+}
+
+TEST_F(PunctualLights, aLampFallsOffWithTheSquareOfItsDistance) {
+    const GltfSurface surface{{0.8, 0.8, 0.8}, 0, 1};
+    const auto small = litWall(materialOf(surface));
+    small->world.lights = {lampBefore(*small)};
+    expectClosedForm(surface, small->world.lights, *small);
+    // The same from ten times as far, a hundred times as strong.
+    PlacedLight& lamp = small->world.lights[0];
+    lamp.position += fromWall(*small, {0, 0, 9 * 1.2});
+    lamp.light.intensity *= 100;
+    expectClosedForm(surface, small->world.lights, *small);
+}
+
+// 1.3 m: the wall's nearest point is 1.2 m away, the frame's corners more.
+TEST_F(PunctualLights, aLampsRangeEndsItsLight) {
+    const GltfSurface surface{{0.8, 0.8, 0.8}, 0, 1};
+    const auto small = litWall(materialOf(surface));
+    PlacedLight lamp = lampBefore(*small);
+    lamp.light.range = 1.3f;
+    small->world.lights = {lamp};
+    expectClosedForm(surface, small->world.lights, *small);
+    const Image image = wallImage(*small);
+    int inside = 0, beyond = 0;
+    for (const WallPoint& point : wallPoints(*small)) {
+        const bool reached = glm::distance(point.position, lamp.position) < 1.3;
+        ++(reached ? inside : beyond);
+        if (!reached) {
+            ASSERT_EQ(image.at(point.x, point.y)[0], 0);
+        }
+    }
+    EXPECT_GT(inside, 50);
+    EXPECT_GT(beyond, 50);
+}
+
+TEST_F(PunctualLights, aSpotFadesFromItsInnerToItsOuterCone) {
+    const GltfSurface surface{{0.8, 0.6, 0.4}, 0.5, 0.6};
+    const auto small = litWall(materialOf(surface));
+    PlacedLight spot = lampBefore(*small);
+    spot.light.type = LightType::spot;
+    spot.light.innerConeAngle = 0.15f;
+    spot.light.outerConeAngle = 0.4f;
+    spot.direction = glm::normalize(fromWall(*small, {-0.2, 0.1, -1}));
+    small->world.lights = {spot};
+    expectClosedForm(surface, small->world.lights, *small);
+    int full = 0, fading = 0, dark = 0;
+    for (const WallPoint& point : wallPoints(*small)) {
+        const double angle = std::acos(glm::dot(spot.direction, glm::normalize(point.position - spot.position)));
+        ++(angle < 0.15 ? full : angle < 0.4 ? fading : dark);
+    }
+    EXPECT_GT(full, 10);
+    EXPECT_GT(fading, 50);
+    EXPECT_GT(dark, 50);
+}
+
+// Few lights are constants of the shader, many a buffer: both are sums.
+TEST_F(PunctualLights, severalAddUp) {
+    const GltfSurface surface{{0.8, 0.6, 0.4}, 0.2, 0.5};
+    const auto small = litWall(materialOf(surface));
+    PlacedLight spot = lampBefore(*small);
+    spot.light.type = LightType::spot;
+    spot.light.outerConeAngle = 0.6f;
+    spot.direction = glm::normalize(fromWall(*small, {0, 0.3, -1}));
+    small->world.lights = {sunFrom(fromWall(*small, {1, -1, -1}), 1), lampBefore(*small), spot};
+    expectClosedForm(surface, small->world.lights, *small);
+    for (int i = 0; i < 4; ++i) {
+        PlacedLight lamp = lampBefore(*small);
+        lamp.position += fromWall(*small, {0.3 * i - 0.6, 0.2 * i, 0.1 * i});
+        small->world.lights.push_back(lamp);
+    }
+    expectClosedForm(surface, small->world.lights, *small);
+}
+
+}  // namespace
+}  // namespace defocus
