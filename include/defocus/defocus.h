@@ -13,3 +13,4 @@
 #include "defocus/request.h"   // IWYU pragma: export
 #include "defocus/scene.h"     // IWYU pragma: export
 #include "defocus/settings.h"  // IWYU pragma: export
+#include "defocus/version.h"   // IWYU pragma: export
