@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -159,13 +157,14 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
         addPyramids(next, progress);
         pyramidMilliseconds_ += next.pyramidMilliseconds;
     }
+    Request asked = request;
     const InContext use(*context_);
 
     // From here on the frame is the request's.
     if (!same) renderer_.reset();
     handOnPyramids(next, samePyramids);
     frame_ = std::move(next);
-    request_ = request;
+    request_ = std::move(asked);
     try {
         if (!renderer_) makeRenderer();
         plan_ = planFrame(frame_.world, frame_.view, frame_.settings);
@@ -215,7 +214,7 @@ Aovs SceneRenderer::State::aovs() {
 
 std::string SceneRenderer::State::planText() const {
     checkStarted();
-    return planJson(plan_);
+    return defocus::planJson(plan_);
 }
 
 void SceneRenderer::State::write(const std::filesystem::path& path, const Image& image) const {
@@ -278,10 +277,10 @@ Image SceneRenderer::render(const Request& request, const Progress& progress, st
     state_->start(request, progress);
     report(progress, "samples", 0, sampleTotal());
     bool more = true;
-    while (more) {
-        more = advance() && !stop.stop_requested();
+    do {
+        more = advance();
         report(progress, "samples", samples(), sampleTotal());
-    }
+    } while (more && !stop.stop_requested());
     return image();
 }
 

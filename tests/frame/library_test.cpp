@@ -10,7 +10,6 @@
 
 #include "cli/two_quads.h"
 #include "defocus/defocus.h"
-#include "frame/settings.h"
 #include "image/scratch_folder.h"
 
 namespace defocus {
