@@ -53,7 +53,7 @@ public:
     [[nodiscard]] RenderStatistics statistics() const;
     [[nodiscard]] Aovs aovs();
     [[nodiscard]] std::string planText() const;
-    void write(const std::filesystem::path& path, const Image& image) const;
+    void write(const std::filesystem::path& path, const ImageView& image) const;
     [[nodiscard]] std::vector<std::string> warnings() const { return frameWarnings(frame_); }
     [[nodiscard]] const Request& first() const { return first_; }
     [[nodiscard]] SceneHandle scene() const { return scene_; }
@@ -217,7 +217,7 @@ std::string SceneRenderer::State::planText() const {
     return defocus::planJson(plan_);
 }
 
-void SceneRenderer::State::write(const std::filesystem::path& path, const Image& image) const {
+void SceneRenderer::State::write(const std::filesystem::path& path, const ImageView& image) const {
     checkStarted();
     const InContext use(*context_);
     const RenderReport report{request_,           chosenMethod(request_).text(), frame_, plan_,
@@ -292,7 +292,7 @@ std::string SceneRenderer::planJson() const {
     return state_->planText();
 }
 
-void SceneRenderer::write(const std::filesystem::path& path, const Image& image) const {
+void SceneRenderer::write(const std::filesystem::path& path, const ImageView& image) const {
     state_->write(path, image);
 }
 

@@ -19,7 +19,7 @@ bool copyColour(const float* pixel, int channels, float* rgb) {
 
 }  // namespace
 
-ComparablePair comparablePair(const Image& reference, const Image& test) {
+ComparablePair comparablePair(const ImageView& reference, const ImageView& test) {
     if (reference.width != test.width || reference.height != test.height)
         fail("images of different sizes cannot be compared: {}x{} and {}x{}", reference.width, reference.height,
              test.width, test.height);

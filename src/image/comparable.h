@@ -19,6 +19,6 @@ struct ComparablePair {
 };
 
 // Throws Error when the sizes differ or an image is empty.
-ComparablePair comparablePair(const Image& reference, const Image& test);
+ComparablePair comparablePair(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus
