@@ -123,19 +123,20 @@ private:
 
 // ---- the module -----------------------------------------------------------------------------------------------------
 
-void defineErrors(py::module_& module) {
+void defineErrors(py::module_& package) {
     // A wrong keyword is a TypeError and a wrong value a ValueError to whoever looks for those.
-    const auto& error = py::register_exception<defocus::Error>(module, "Error", PyExc_RuntimeError);
+    const auto& error = py::register_exception<defocus::Error>(package, "Error", PyExc_RuntimeError);
     const auto& usageError = py::register_exception<defocus::UsageError>(
-        module, "UsageError", py::make_tuple(error, py::handle(PyExc_TypeError), py::handle(PyExc_ValueError)));
+        package, "UsageError",
+        py::make_tuple(py::handle(error), py::handle(PyExc_TypeError), py::handle(PyExc_ValueError)));
     error.attr("__module__") = "defocus";
     usageError.attr("__module__") = "defocus";
 }
 
-void defineRequest(py::module_& module) {
+void defineRequest(py::module_& package) {
     using defocus::SettingInfo;
     using defocus::SettingKind;
-    py::enum_<SettingKind>(module, "SettingKind")
+    py::enum_<SettingKind>(package, "SettingKind")
         .value("number", SettingKind::number)
         .value("whole", SettingKind::whole)
         .value("truth", SettingKind::truth)
@@ -143,7 +144,7 @@ void defineRequest(py::module_& module) {
         .value("path", SettingKind::path)
         .value("choice", SettingKind::choice)
         .value("other", SettingKind::other);
-    py::class_<SettingInfo>(module, "SettingInfo")
+    py::class_<SettingInfo>(package, "SettingInfo")
         .def_readonly("name", &SettingInfo::name)
         .def_readonly("keyword", &SettingInfo::keyword)
         .def_readonly("option", &SettingInfo::option)
@@ -158,20 +159,20 @@ void defineRequest(py::module_& module) {
         .def_readonly("standard", &SettingInfo::standard)
         .def_readonly("repeated", &SettingInfo::repeated)
         .def_readonly("methods", &SettingInfo::methods);
-    module.def("setting_infos", &defocus::settingInfos);
-    py::class_<defocus::Request>(module, "Request").def(py::init<>()).def("set", &defocus::setSetting);
+    package.def("setting_infos", &defocus::settingInfos);
+    py::class_<defocus::Request>(package, "Request").def(py::init<>()).def("set", &defocus::setSetting);
 }
 
-void defineImages(py::module_& module) {
+void defineImages(py::module_& package) {
     using defocus::Difference;
-    module.def("read_image", [](const std::filesystem::path& path) {
+    package.def("read_image", [](const std::filesystem::path& path) {
         const auto read = [&] {
             const py::gil_scoped_release unlocked;
             return defocus::readImage(path);
         };
         return arrayOf(read());
     });
-    module.def(
+    package.def(
         "write_image",
         [](const std::filesystem::path& path, const Array& image, const defocus::Request& request) {
             const defocus::ImageView view = viewOf(image);
@@ -179,7 +180,7 @@ void defineImages(py::module_& module) {
             defocus::writeImage(path, view, {request.toneMap, request.exposure.value_or(0)});
         },
         "path"_a, py::arg("image").noconvert(), "request"_a);
-    module.def(
+    package.def(
         "compare",
         [](const Array& reference, const Array& test) {
             const defocus::ImageView a = viewOf(reference);
@@ -188,7 +189,7 @@ void defineImages(py::module_& module) {
             return defocus::compareImages(a, b);
         },
         py::arg("reference").noconvert(), py::arg("test").noconvert());
-    py::class_<Difference>(module, "Difference")
+    py::class_<Difference>(package, "Difference")
         .def_readonly("mae", &Difference::mae)
         .def_readonly("rmse", &Difference::rmse)
         .def_readonly("psnr", &Difference::psnr)
@@ -203,8 +204,8 @@ void defineImages(py::module_& module) {
         .def_readonly("non_finite", &Difference::nonFinite);
 }
 
-void defineScenes(py::module_& module) {
-    py::class_<OpenScene>(module, "Scene", "A glTF scene, opened once and rendered often; takes the place of a path.")
+void defineScenes(py::module_& package) {
+    py::class_<OpenScene>(package, "Scene", "A glTF scene, opened once and rendered often; takes the place of a path.")
         .def(py::init([](const std::filesystem::path& path, const Listener& progress) {
                  const py::gil_scoped_release unlocked;
                  return OpenScene{defocus::loadScene(path, listening(progress))};
@@ -238,10 +239,10 @@ void defineScenes(py::module_& module) {
         .attr("__module__") = "defocus";
 }
 
-void defineRenderer(py::module_& module) {
+void defineRenderer(py::module_& package) {
     using defocus::RenderStatistics;
     using defocus::SceneRenderer;
-    py::class_<RenderStatistics>(module, "Statistics")
+    py::class_<RenderStatistics>(package, "Statistics")
         .def_readonly("samples", &RenderStatistics::samples)
         .def_readonly("load_milliseconds", &RenderStatistics::loadMilliseconds)
         .def_readonly("pyramid_milliseconds", &RenderStatistics::pyramidMilliseconds)
@@ -251,7 +252,7 @@ void defineRenderer(py::module_& module) {
         .def_readonly("triangles_at_full_detail", &RenderStatistics::trianglesAtFullDetail)
         .def_readonly("gpu_bytes", &RenderStatistics::gpuBytes)
         .def_readonly("device", &RenderStatistics::device);
-    py::class_<SharedRenderer>(module, "Renderer")
+    py::class_<SharedRenderer>(package, "Renderer")
         .def(py::init([](const OpenScene* scene, const defocus::Request& request, const Listener& progress) {
             const py::gil_scoped_release unlocked;
             return std::make_unique<SharedRenderer>(scene, request, progress);
@@ -309,11 +310,11 @@ void defineRenderer(py::module_& module) {
                  return OpenScene{self.with([](const SceneRenderer& renderer) { return renderer.scene(); })};
              })
         .def("close", &SharedRenderer::close);
-    module.def("plan_json", [](const defocus::Request& request, const Listener& progress) {
+    package.def("plan_json", [](const defocus::Request& request, const Listener& progress) {
         const py::gil_scoped_release unlocked;
         return defocus::planJson(request, listening(progress));
     });
-    module.def("pyramid_json", [](const defocus::Request& request, const Listener& progress) {
+    package.def("pyramid_json", [](const defocus::Request& request, const Listener& progress) {
         const py::gil_scoped_release unlocked;
         return defocus::pyramidJson(request, listening(progress));
     });
@@ -321,12 +322,12 @@ void defineRenderer(py::module_& module) {
 
 }  // namespace
 
-PYBIND11_MODULE(_defocus, module) {
-    module.doc() = "The public API of defocus in C++; use the package `defocus`.";
-    module.attr("version") = DEFOCUS_VERSION_STRING;
-    defineErrors(module);
-    defineRequest(module);
-    defineImages(module);
-    defineScenes(module);
-    defineRenderer(module);
+PYBIND11_MODULE(_defocus, package) {
+    package.doc() = "The public API of defocus in C++; use the package `defocus`.";
+    package.attr("version") = DEFOCUS_VERSION_STRING;
+    defineErrors(package);
+    defineRequest(package);
+    defineImages(package);
+    defineScenes(package);
+    defineRenderer(package);
 }

@@ -133,8 +133,9 @@ class Renderer:
         return _request_of(self._scene, {**self._settings, **changes})
 
     def _warn(self) -> None:
-        _warn([line for line in self._native.warnings() if line not in self._warned])
-        self._warned.update(self._native.warnings())
+        lines = [line for line in dict.fromkeys(self._native.warnings()) if line not in self._warned]
+        self._warned.update(lines)
+        _warn(lines)
 
     @_takes_settings
     def render(self, *, progress: Optional[Progress] = None, **settings: Any) -> numpy.ndarray:
