@@ -107,7 +107,7 @@ struct Difference {
 };
 
 // Compares two linear images of one size. RGBA is composited over black; grey counts as RGB. Throws Error for sizes
-// that differ.
+// that differ and for views of too few or too many pixels.
 DEFOCUS_API Difference compareImages(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus
