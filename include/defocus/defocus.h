@@ -6,7 +6,6 @@
 //   request.lens.fStop = 1.4;
 //   defocus::writeImage("out.exr", defocus::render(request));
 
-<<<<<<< HEAD
 #include "defocus/error.h"         // IWYU pragma: export
 #include "defocus/image.h"         // IWYU pragma: export
 #include "defocus/lens.h"          // IWYU pragma: export
