@@ -1,4 +1,4 @@
-# Types of the package `defocus`. The class Keywords is written by python/make_stubs.py from the settings table.
+# Types of the package `defocus`. The class Keywords is written by scripts/python_stubs.py from the settings table.
 
 import os
 from typing import Any, Callable, ContextManager, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union

@@ -120,7 +120,7 @@ def test_help_shows_the_keywords():
 
 
 def test_stubs_have_the_keywords_of_the_table():
-    script = pathlib.Path(__file__).resolve().parents[2] / "python" / "make_stubs.py"
+    script = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "python_stubs.py"
     outcome = subprocess.run([sys.executable, "-B", script, "--check"], capture_output=True, text=True, check=False)
     assert outcome.returncode == 0, outcome.stderr
 

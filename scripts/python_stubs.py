@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the keywords of defocus/__init__.pyi from the settings table of the built module.
 
-    PYTHONPATH=build/release/python /usr/bin/python3 python/make_stubs.py            # write them
-    PYTHONPATH=build/release/python /usr/bin/python3 python/make_stubs.py --check    # exit code 1 if they differ
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py            # write them
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check    # exit code 1 if they differ
 """
 
 import sys
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import defocus
 
-STUB = Path(__file__).resolve().parent / "defocus" / "__init__.pyi"
+STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "__init__.pyi"
 BEGIN = "# ---- keywords, from the settings table ----\n"
 END = "# ---- end of keywords ----\n"
 TYPES = {"number": "float", "whole": "int", "truth": "bool", "text": "str", "path": "Path"}
@@ -50,7 +50,7 @@ def main():
     if "--check" not in sys.argv[1:]:
         STUB.write_text(new)
     elif new != old:
-        sys.exit(f"{STUB.name}: its keywords are not those of the settings table; run python/make_stubs.py")
+        sys.exit(f"{STUB.name}: its keywords are not those of the settings table; run scripts/python_stubs.py")
 
 
 if __name__ == "__main__":
