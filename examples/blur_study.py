@@ -23,10 +23,10 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how to draw)
 
 SCENE = Path(sys.argv[1] if len(sys.argv) > 1 else "meshes/chess.glb")
 OUTPUT = Path(sys.argv[2] if len(sys.argv) > 2 else "blur-study.png")
-SIZE = (320, 240)
+SIZE = (240, 180)
 F_STOPS = (1.4, 2.8, 5.6, 11)
 SAMPLES = (4, 8, 16, 32, 64, 128)
-REFERENCE = {"samples": 1024, "lod": "off", "seed": 1}  # full detail, and lens points that no other picture has
+REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail, and lens points that no other picture has
 
 # %% Pictures, references and blur: one renderer, so that the scene is read and simplified once.
 pictures, blurs, references = {}, {}, {}
