@@ -1,5 +1,5 @@
-# defocus_module(NAME [FOLDER folder] [WITHOUT file] LINK ...): the folder src/NAME (or src/FOLDER), with the folders in
-# it, as one static library defocus_NAME. WITHOUT: the .cpp that is left out, by its name.
+# defocus_module(NAME [FOLDER folder] [ONLY file] [WITHOUT file] LINK ...): the folder src/NAME (or src/FOLDER), with the
+# folders in it, as one static library defocus_NAME. ONLY, WITHOUT: the one .cpp that it is made of, or that is left out.
 # A module links only the modules above it in the layout, so that an include against the order fails to build.
 
 include(CheckIPOSupported)
@@ -20,7 +20,7 @@ if(DEFOCUS_SANITIZE)
 endif()
 
 function(defocus_module NAME)
-    cmake_parse_arguments(ARG "" "WITHOUT;FOLDER" "LINK;PRIVATE_LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "ONLY;WITHOUT;FOLDER" "LINK;PRIVATE_LINK" ${ARGN})
     if(NOT ARG_FOLDER)
         set(ARG_FOLDER ${NAME})
     endif()
@@ -28,14 +28,15 @@ function(defocus_module NAME)
     if(ARG_WITHOUT)
         list(REMOVE_ITEM SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER}/${ARG_WITHOUT}.cpp")
     endif()
+    if(ARG_ONLY)
+        set(SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${ARG_FOLDER}/${ARG_ONLY}.cpp")
+    endif()
     add_library(defocus_${NAME} STATIC ${SOURCES})
-    add_library(defocus::${NAME} ALIAS defocus_${NAME})
-    set_target_properties(defocus_${NAME} PROPERTIES EXPORT_NAME ${NAME} POSITION_INDEPENDENT_CODE ON)
-    target_include_directories(defocus_${NAME} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/include>"
-                                                      "$<INSTALL_INTERFACE:include/defocus>")
-    target_link_libraries(defocus_${NAME} PUBLIC ${ARG_LINK} PRIVATE "$<BUILD_INTERFACE:defocus_options>"
-                                          ${ARG_PRIVATE_LINK})
+    # Of the shared library nothing is seen but what is declared DEFOCUS_API.
+    set_target_properties(defocus_${NAME} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                                                     VISIBILITY_INLINES_HIDDEN ON)
+    target_include_directories(defocus_${NAME} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/include"
+                                                      "${PROJECT_BINARY_DIR}/include")
+    target_link_libraries(defocus_${NAME} PUBLIC ${ARG_LINK} PRIVATE defocus_options ${ARG_PRIVATE_LINK})
     target_compile_features(defocus_${NAME} PUBLIC cxx_std_20)
-    set_property(GLOBAL APPEND PROPERTY DEFOCUS_MODULES ${NAME})
-    set_property(GLOBAL APPEND PROPERTY DEFOCUS_ABSENT ${ARG_WITHOUT})
 endfunction()

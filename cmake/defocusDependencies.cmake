@@ -1,4 +1,4 @@
-# What the libraries link; read by the build and by an installed find_package(defocus) alike. DEFOCUS_VIEWER: with the window.
+# What the program and the library are built with. DEFOCUS_VIEWER: with the window.
 
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "defocus/error.h"
@@ -38,6 +39,29 @@ private:
     }
 };
 
+// Pixels that somebody keeps, read where they lie: an Image's, or others of the same layout.
+struct ImageView {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    std::span<const float> pixels;
+
+    ImageView() = default;
+    ImageView(int viewWidth, int viewHeight, int viewChannels, std::span<const float> values)
+        : width(viewWidth), height(viewHeight), channels(viewChannels), pixels(values) {}
+    // NOLINTNEXTLINE(google-explicit-constructor): an Image goes wherever pixels are only read
+    ImageView(const Image& image)
+        : ImageView(image.width, image.height, image.channels, std::span<const float>(image.pixels)) {}
+
+    [[nodiscard]] bool empty() const { return pixels.empty(); }
+    // As Image::at.
+    [[nodiscard]] const float* at(int x, int y) const {
+        return pixels.data() +
+               (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+                   static_cast<std::size_t>(channels);
+    }
+};
+
 // A pixel of an image: column from the left, row from the top.
 struct Pixel {
     int column = 0;
@@ -65,7 +89,8 @@ DEFOCUS_API Image readImage(const std::filesystem::path& path);
 // Writes by extension: .exr (32-bit float, ZIP, linear), .png (tone-mapped, sRGB-encoded, 8 bit; with 4 channels its
 // alpha is straight) and .jpg or .jpeg (the same over black). The file appears whole or not at all. Throws Error naming
 // the file and the fault.
-DEFOCUS_API void writeImage(const std::filesystem::path& path, const Image& image, const WriteOptions& options = {});
+DEFOCUS_API void writeImage(const std::filesystem::path& path, const ImageView& image,
+                            const WriteOptions& options = {});
 
 // What tells two images apart, on display-encoded values in [0, 1] at EV 0 (sRGB, clipped). A pixel that is NaN or
 // infinite in exactly one image counts as the largest difference there.
@@ -82,7 +107,7 @@ struct Difference {
 };
 
 // Compares two linear images of one size. RGBA is composited over black; grey counts as RGB. Throws Error for sizes
-// that differ.
-DEFOCUS_API Difference compareImages(const Image& reference, const Image& test);
+// that differ and for views of too few or too many pixels.
+DEFOCUS_API Difference compareImages(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus

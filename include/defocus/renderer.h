@@ -76,7 +76,7 @@ public:
     [[nodiscard]] std::string planJson() const;
     // Writes an image of this renderer's frame with its metadata, tone-mapped and exposed as the request says where the
     // file is a PNG or JPEG.
-    void write(const std::filesystem::path& path, const Image& image) const;
+    void write(const std::filesystem::path& path, const ImageView& image) const;
     // What is worth knowing of the file and the request, a line each: damage, values that aren't used.
     [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] SceneHandle scene() const;

@@ -41,7 +41,9 @@ std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path) 
 // -------------------------------------------------------------------------------------------------
 
 // Everything but the focus distance, which needs the view. Values of the camera that no lens can have go to `refused`.
-Lens chosenLens(const Request& request, const Camera& camera, std::vector<std::string>& refused) {
+// `folder`: where the scene's file lies.
+Lens chosenLens(const Request& request, const Camera& camera, const std::filesystem::path& folder,
+                std::vector<std::string>& refused) {
     const LensValues given = givenLensValues(request.lens);
     Lens lens;
     refused = setLensFields(lens, camera.lens);
@@ -52,18 +54,12 @@ Lens chosenLens(const Request& request, const Camera& camera, std::vector<std::s
         lens.apertureImage = loadApertureImage(request.lens.apertureImage);
     } else if (!camera.apertureImage.empty()) {
         try {
-            lens.apertureImage = loadApertureImage(fileWithin(request.scene.parent_path(), camera.apertureImage));
+            lens.apertureImage = loadApertureImage(fileWithin(folder, camera.apertureImage));
         } catch (const Error& error) {
             refused.emplace_back(error.what());
         }
     }
     return lens;
-}
-
-// Levels of full detail are not worth storing.
-std::filesystem::path chosenCacheFolder(const Request& request) {
-    if (request.noCache || request.settings.lod == LodMode::off) return {};
-    return request.cacheFolder.empty() ? defaultCacheFolder() : request.cacheFolder;
 }
 
 std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const Progress& progress) {
@@ -112,8 +108,9 @@ PlacedCamera place(PreparedFrame& frame, const Request& request) {
     frame.view.height = request.height;
     Request withoutLens = request;
     withoutLens.lens = {};
-    frame.cameraLens = chosenLens(withoutLens, placed.camera, frame.refusedLensValues);
-    frame.view.lens = chosenLens(request, placed.camera, frame.refusedLensValues);
+    const std::filesystem::path folder = frame.scene->file.parent_path();
+    frame.cameraLens = chosenLens(withoutLens, placed.camera, folder, frame.refusedLensValues);
+    frame.view.lens = chosenLens(request, placed.camera, folder, frame.refusedLensValues);
     chooseFocus(request, placed.camera, *frame.scene, frame.world.pose, frame.view);
     checkLens(frame.view.lens);
     if (request.lens.iso && frame.view.lens.exposureTime == 0)
@@ -169,25 +166,41 @@ void placeCamera(PreparedFrame& frame, const Request& request) {
 }
 
 PreparedFrame placeFrame(const Request& request, const Progress& progress) {
-    // The scene, at its time.
     const Clock::time_point begin = Clock::now();
-    PreparedFrame frame;
-    frame.scene = std::make_shared<Scene>(loadScene(request, progress));
-    frame.sceneName = request.scene.empty() ? "fish school" : request.scene.filename().string();
+    const auto scene = std::make_shared<Scene>(loadScene(request, progress));
+    setNodeBlur(request, *scene);
+    PreparedFrame frame = placeFrame(scene, request);
+    frame.loadMilliseconds = millisecondsSince(begin);
+    return frame;
+}
+
+void setNodeBlur(const Request& request, Scene& scene) {
     for (const auto& [name, scale] : request.nodeBlur)
-        frame.scene->nodes[static_cast<std::size_t>(nodeNamed(*frame.scene, name))].cocScale = scale;
-    frame.world.scene = frame.scene;
+        scene.nodes[static_cast<std::size_t>(nodeNamed(scene, name))].cocScale = scale;
+}
+
+PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request, const Environment* environment) {
+    // The scene, at its time.
+    PreparedFrame frame;
+    frame.scene = scene;
+    frame.sceneName = scene->file.empty() ? "fish school" : scene->file.filename().string();
+    frame.world.scene = scene;
     frame.world.pose = exposedPose(request, *frame.scene);
 
     // Camera, light, surroundings and settings.
     const PlacedCamera placed = place(frame, request);
     frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
-    frame.world.environment = chosenEnvironment(request, *frame.scene);
+    frame.world.environment = environment != nullptr ? *environment : chosenEnvironment(request, *scene);
     frame.settings = request.settings;
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
-    frame.cacheFolder = chosenCacheFolder(request);
-    frame.loadMilliseconds = millisecondsSince(begin);
+    // Levels of full detail are not worth storing.
+    if (request.settings.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);
     return frame;
+}
+
+std::filesystem::path pyramidFolder(const Request& request) {
+    if (request.noCache) return {};
+    return request.cacheFolder.empty() ? defaultCacheFolder() : request.cacheFolder;
 }
 
 void addPyramids(PreparedFrame& frame, const Progress& progress) {

@@ -35,6 +35,14 @@ Scene loadScene(const Request& request, const Progress& progress = {});
 // request asks for and the scene doesn't have.
 PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
+// The same in a scene that is open already, with its nodes' blur as it is; it is not written to. `environment`: the
+// surroundings, where they are known from a frame before; null: those that the request asks for.
+PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
+                         const Environment* environment = nullptr);
+
+// Scales the blur of the nodes that the request names. Throws Error for a name that the scene doesn't have.
+void setNodeBlur(const Request& request, Scene& scene);
+
 // The part of it that the request's camera and lens decide, again for another camera. The lights stay.
 void placeCamera(PreparedFrame& frame, const Request& request);
 
@@ -47,6 +55,9 @@ std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path
 // The near plane (m) for cameras that go where no file has put them: that of the camera they started from, or nearer
 // where the scene is small.
 double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds);
+
+// Where the request keeps simplified meshes; empty: nowhere.
+std::filesystem::path pyramidFolder(const Request& request);
 
 // Simplifies the meshes where the cache doesn't have them, or only brings them into the pyramids' form when the
 // settings use no other level.

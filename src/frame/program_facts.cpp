@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "defocus/version.h"
+
 namespace defocus {
 
 namespace {
@@ -34,7 +36,7 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 std::string programVersion() {
-    return DEFOCUS_VERSION;
+    return DEFOCUS_VERSION_STRING;
 }
 
 std::string commandLine() {

@@ -1,6 +1,11 @@
 #include "frame/request.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "core/error.h"
+#include "frame/settings.h"
+#include "lens/lens_fields.h"
 
 namespace defocus {
 
@@ -11,6 +16,36 @@ MethodUse chosenMethod(const Request& request) try {
     return use;
 } catch (const Error& error) {
     throw UsageError(error.what());
+}
+
+namespace {
+
+void checkValue(const Setting& setting, const Request& request, Request& scratch) {
+    if (setting.lensField) {  // their text holds no infinity
+        const LensField& field = *lensFieldNamed(setting.name);
+        giveLensValue(scratch.lens, field, givenLensValue(request.lens, field));
+    } else if (setting.repeated) {
+        for (const std::string& text : setting.texts(request)) setting.set(scratch, text);
+    } else if (const std::optional<std::string> text = setting.text(request)) {
+        setting.set(scratch, *text);
+    } else if (setting.kind == SettingKind::choice) {
+        fail("give one of {}", fmt::join(setting.choices, ", "));
+    }
+}
+
+}  // namespace
+
+void checkRequest(const Request& request) {
+    Request scratch;
+    for (const Setting& setting : settings()) try {
+            checkValue(setting, request, scratch);
+        } catch (const Error& error) {
+            throw UsageError(fmt::format("{}: {}", setting.name, error.what()));
+        }
+    const int focuses = (request.lens.focusDistance ? 1 : 0) + (request.focusNode.empty() ? 0 : 1) +
+                        (request.focusPixel ? 1 : 0) + (request.focusPoints ? 1 : 0) + (request.focusAuto ? 1 : 0);
+    if (focuses > 1)
+        throw UsageError("give at most one of focusDistance, focusNode, focusPixel, focusPoints and focusAuto");
 }
 
 }  // namespace defocus

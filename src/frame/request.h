@@ -22,4 +22,8 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
 // The method with its settings. Throws UsageError for settings that it doesn't take.
 MethodUse chosenMethod(const Request& request);
 
+// Throws UsageError that names the setting for a value out of its range, however it came into the struct, and for more
+// than one focus.
+void checkRequest(const Request& request);
+
 }  // namespace defocus

@@ -13,20 +13,10 @@
 #include <string_view>
 #include <vector>
 
+#include "defocus/setting_info.h"
 #include "frame/request.h"
 
 namespace defocus {
-
-// What a value looks like in JSON and in Python.
-enum class SettingKind {
-    number,
-    whole,   // a whole number
-    truth,   // true or false: --name and --no-name
-    text,    // any text; names and methods
-    path,    // of a file or folder
-    choice,  // one of Setting::choices
-    other,   // its own form, which Setting::metavar shows: a size, a point, a colour …
-};
 
 enum class SettingGroup { scene, camera, lens, samples, method, display, developer };
 

@@ -99,6 +99,12 @@ public:
         return reason;
     }
 
+    void makeCurrent() override {
+        if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE ||
+            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
+            fail("the OpenGL context cannot be made current on this thread: {}", eglErrorName(eglGetError()));
+    }
+
     [[nodiscard]] const std::string& device() const override { return device_; }
     [[nodiscard]] const std::string& driver() const override { return driver_; }
     [[nodiscard]] bool software() const override { return software_; }
@@ -143,8 +149,11 @@ private:
 
     void close() {
         if (display_ == EGL_NO_DISPLAY) return;
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
+        if (context_ != EGL_NO_CONTEXT) {
+            if (eglGetCurrentContext() == context_)
+                eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+            eglDestroyContext(display_, context_);
+        }
         // The display is shared by the process and stays initialised: another context may live on it.
         context_ = EGL_NO_CONTEXT;
         display_ = EGL_NO_DISPLAY;
@@ -159,6 +168,23 @@ private:
 };
 
 }  // namespace
+
+CurrentContextKeeper::CurrentContextKeeper()
+    : api_(eglQueryAPI()),
+      display_(eglGetCurrentDisplay()),
+      context_(eglGetCurrentContext()),
+      draw_(eglGetCurrentSurface(EGL_DRAW)),
+      read_(eglGetCurrentSurface(EGL_READ)) {}
+
+CurrentContextKeeper::~CurrentContextKeeper() {
+    if (eglGetCurrentContext() != context_) {
+        if (context_ != EGL_NO_CONTEXT)
+            eglMakeCurrent(display_, draw_, read_, context_);
+        else
+            eglMakeCurrent(eglGetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    eglBindAPI(api_);
+}
 
 std::string currentDevice() {
     return reinterpret_cast<const char*>(glGetString(GL_RENDERER));

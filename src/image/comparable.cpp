@@ -19,11 +19,15 @@ bool copyColour(const float* pixel, int channels, float* rgb) {
 
 }  // namespace
 
-ComparablePair comparablePair(const Image& reference, const Image& test) {
+ComparablePair comparablePair(const ImageView& reference, const ImageView& test) {
     if (reference.width != test.width || reference.height != test.height)
         fail("images of different sizes cannot be compared: {}x{} and {}x{}", reference.width, reference.height,
              test.width, test.height);
     if (reference.empty()) fail("images without pixels cannot be compared");
+    for (const ImageView& image : {reference, test})
+        if (image.pixels.size() != std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels))
+            fail("an image of {}x{} with {} channels cannot have {} values", image.width, image.height, image.channels,
+                 image.pixels.size());
 
     const int width = reference.width;
     ComparablePair pair{Image(width, reference.height, 3), Image(width, reference.height, 3), {}};

@@ -18,7 +18,7 @@ struct ComparablePair {
     std::vector<PixelState> state;  // width · height
 };
 
-// Throws Error when the sizes differ or an image is empty.
-ComparablePair comparablePair(const Image& reference, const Image& test);
+// Throws Error when the sizes differ, or an image is empty or has not as many values as its size says.
+ComparablePair comparablePair(const ImageView& reference, const ImageView& test);
 
 }  // namespace defocus

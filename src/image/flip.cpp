@@ -296,7 +296,7 @@ void checkOptions(const std::optional<HdrFlipOptions>& hdr, double pixelsPerDegr
 
 }  // namespace
 
-Image flipErrorMap(const Image& reference, const Image& test, const std::optional<HdrFlipOptions>& hdr,
+Image flipErrorMap(const ImageView& reference, const ImageView& test, const std::optional<HdrFlipOptions>& hdr,
                    double pixelsPerDegree) {
     checkOptions(hdr, pixelsPerDegree);
     const ComparablePair pair = comparablePair(reference, test);

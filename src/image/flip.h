@@ -25,7 +25,7 @@ inline constexpr double defaultPixelsPerDegree = 67.0;
 // FLIP per pixel in [0, 1], 1 channel. Both images are LINEAR, of one size, with 1, 3 or 4 channels (alpha takes no
 // part); LDR clips them to [0, 1]. A pixel that is NaN or infinite in exactly one image gets 1, in both 0; it takes no
 // part in its neighbours. Throws Error for sizes that differ or options out of range.
-Image flipErrorMap(const Image& reference, const Image& test, const std::optional<HdrFlipOptions>& hdr = {},
+Image flipErrorMap(const ImageView& reference, const ImageView& test, const std::optional<HdrFlipOptions>& hdr = {},
                    double pixelsPerDegree = defaultPixelsPerDegree);
 
 }  // namespace defocus

@@ -31,7 +31,7 @@ Image readImage(const std::filesystem::path& path, Metadata& metadata);
 
 // writeImage of the public API with metadata: EXR files hold all of it (capDate is added where it isn't given), PNG
 // files as text, JPEG files only `comments`.
-void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
+void writeImage(const std::filesystem::path& path, const ImageView& image, const Metadata& metadata,
                 const WriteOptions& options = {});
 
 // Images of one size by name, such as the sums of parts of a frame: a layer's channels are NAME.R, NAME.G, NAME.B and

@@ -30,7 +30,7 @@ FileKind fileKind(const std::filesystem::path& path) {
     fail("{}: unknown image type \"{}\"; use .exr, .png, .jpg or .jpeg", path.string(), extension);
 }
 
-void checkImage(const Image& image, const std::string& name) {
+void checkImage(const ImageView& image, const std::string& name) {
     const std::size_t values = std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0)) *
                                std::size_t(std::max(image.channels, 0));
     if (values == 0 || values != image.pixels.size()) fail("{}: cannot be written: the image has no pixels", name);
@@ -38,8 +38,15 @@ void checkImage(const Image& image, const std::string& name) {
         fail("{}: cannot be written: the image has {} channels instead of 1, 3 or 4", name, image.channels);
 }
 
+Image copyOf(const ImageView& view) {
+    Image image(view.width, view.height, view.channels);
+    std::ranges::copy(view.pixels, image.pixels.begin());
+    return image;
+}
+
 // Colours divided by their coverage; where nothing covers, nothing can be stored.
-Image withStraightAlpha(Image image) {
+Image withStraightAlpha(const ImageView& premultiplied) {
+    Image image = copyOf(premultiplied);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
         float* pixel = image.pixels.data() + i;
         const float scale = pixel[3] > 0 ? 1 / std::min(pixel[3], 1.0f) : 0.0f;
@@ -48,7 +55,7 @@ Image withStraightAlpha(Image image) {
     return image;
 }
 
-Image withoutAlpha(const Image& image) {
+Image withoutAlpha(const ImageView& image) {
     Image opaque(image.width, image.height, 3);
     for (std::size_t i = 0; i < opaque.pixels.size() / 3; ++i)
         std::copy_n(image.pixels.data() + 4 * i, 3, opaque.pixels.data() + 3 * i);
@@ -101,7 +108,7 @@ std::vector<unsigned char> encode(const std::string& name, const char* format, c
     return bytes;
 }
 
-std::vector<unsigned char> encodeExr(const std::string& name, const Image& image, const Metadata& metadata) {
+std::vector<unsigned char> encodeExr(const std::string& name, const ImageView& image, const Metadata& metadata) {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeFloat);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
@@ -109,10 +116,10 @@ std::vector<unsigned char> encodeExr(const std::string& name, const Image& image
     return encode(name, "openexr", spec, image.pixels.data());
 }
 
-std::vector<unsigned char> encodePng(const std::string& name, const Image& image, const Metadata& metadata,
+std::vector<unsigned char> encodePng(const std::string& name, const ImageView& image, const Metadata& metadata,
                                      const WriteOptions& options) {
-    const Image display =
-        displayEncoded(image.channels == 4 ? withStraightAlpha(image) : image, options.toneMap, options.exposure);
+    const Image display = displayEncoded(image.channels == 4 ? ImageView(withStraightAlpha(image)) : image,
+                                         options.toneMap, options.exposure);
     OIIO::ImageSpec spec(display.width, display.height, display.channels, OIIO::TypeUInt8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("oiio:UnassociatedAlpha", 1);
@@ -120,10 +127,10 @@ std::vector<unsigned char> encodePng(const std::string& name, const Image& image
     return encode(name, "png", spec, quantised(display).data());
 }
 
-std::vector<unsigned char> encodeJpeg(const std::string& name, const Image& image, const Metadata& metadata,
+std::vector<unsigned char> encodeJpeg(const std::string& name, const ImageView& image, const Metadata& metadata,
                                       const WriteOptions& options) {
     const Image display =
-        displayEncoded(image.channels == 4 ? withoutAlpha(image) : image, options.toneMap, options.exposure);
+        displayEncoded(image.channels == 4 ? ImageView(withoutAlpha(image)) : image, options.toneMap, options.exposure);
     OIIO::ImageSpec spec(display.width, display.height, display.channels, OIIO::TypeUInt8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("Compression", "jpeg:95");
@@ -138,7 +145,7 @@ void checkImageExtension(const std::filesystem::path& path) {
     fileKind(path);
 }
 
-void writeImage(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
+void writeImage(const std::filesystem::path& path, const ImageView& image, const Metadata& metadata,
                 const WriteOptions& options) {
     const FileKind kind = fileKind(path);
     const std::string name = path.string();
@@ -149,7 +156,7 @@ void writeImage(const std::filesystem::path& path, const Image& image, const Met
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 
-void writeImage(const std::filesystem::path& path, const Image& image, const WriteOptions& options) {
+void writeImage(const std::filesystem::path& path, const ImageView& image, const WriteOptions& options) {
     writeImage(path, image, {}, options);
 }
 

@@ -173,11 +173,11 @@ double meanValue(const Image& map, const Image* mask) {
 
 }  // namespace
 
-Difference compareImages(const Image& reference, const Image& test) {
+Difference compareImages(const ImageView& reference, const ImageView& test) {
     return compareImages(reference, test, CompareOptions{});
 }
 
-Difference compareImages(const Image& reference, const Image& test, const CompareOptions& options) {
+Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options) {
     // RGB over black, finite, then as a display shows it.
     const ComparablePair pair = comparablePair(reference, test);
     const Image* mask = options.mask;

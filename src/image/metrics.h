@@ -26,6 +26,6 @@ struct CompareOptions {
 
 // compareImages of the public API with options. A mask that lets no pixel count gives the values of equal images with a
 // pixelCount of 0.
-Difference compareImages(const Image& reference, const Image& test, const CompareOptions& options);
+Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options);
 
 }  // namespace defocus

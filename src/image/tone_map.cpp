@@ -100,7 +100,7 @@ float srgbDecode(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-Image displayEncoded(const Image& linear, ToneMap toneMap, double exposure) {
+Image displayEncoded(const ImageView& linear, ToneMap toneMap, double exposure) {
     Image display(linear.width, linear.height, linear.channels);
     const auto gain = static_cast<float>(std::exp2(exposure));
     const bool grey = linear.channels < 3;

@@ -17,6 +17,6 @@ float srgbDecode(float encoded);  // [0, 1] → [0, 1]; the same for values outs
 // Display-encoded copy in [0, 1] of a 1-, 3- or 4-channel linear image: colour · 2^exposure → curve → sRGB (AgX's curve
 // is the encoding). A grey value counts as that grey. Alpha is kept, clamped; a premultiplied colour is encoded as it
 // stands over black. NaN and −∞ give 0, +∞ what a very bright colour gives.
-Image displayEncoded(const Image& linear, ToneMap toneMap = ToneMap::none, double exposure = 0);
+Image displayEncoded(const ImageView& linear, ToneMap toneMap = ToneMap::none, double exposure = 0);
 
 }  // namespace defocus

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -159,6 +160,7 @@ struct Ignored {
 
 struct Scene {
     std::string name;
+    std::filesystem::path file;  // that it was read from; empty: none
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  // a primitive's material -1 is glTF's default material
     std::vector<Texture> textures;

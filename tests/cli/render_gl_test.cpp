@@ -8,6 +8,8 @@
 #include "cli/program.h"
 #include "cli/two_quads.h"
 #include "core/error.h"
+#include "defocus/renderer.h"
+#include "frame/settings.h"
 #include "gl/context.h"
 #include "image/image_io.h"
 
@@ -48,6 +50,35 @@ TEST_F(Render, writesEachOutputAndOneLineOfSummary) {
     }
     EXPECT_EQ(run({"render", "quads.gltf", "--size", "8x8", "--quiet"}).err, "");
     EXPECT_TRUE(fs::exists(folder() / "out.exr"));
+}
+
+// The public API's image is the program's, bit for bit, whatever is asked for.
+TEST_F(Render, isWhatTheLibraryRenders) {
+    const auto expectSame = [&](const std::vector<std::pair<std::string, std::string>>& values) {
+        std::vector<std::string> arguments = {"render", "--no-cache", "-o", "a.exr"};
+        Request request;
+        request.noCache = true;
+        for (const auto& [name, value] : values) {
+            const std::string option = settingNamed(name)->option;
+            if (option != "SCENE") arguments.push_back(option);
+            arguments.push_back(value);
+            setSetting(request, name, name == "scene" ? (folder() / value).string() : value);
+        }
+        const Outcome outcome = run(arguments);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(readImage(folder() / "a.exr").pixels, defocus::render(request).pixels) << outcome.err;
+    };
+    expectSame({{"scene", "quads.gltf"}});
+    expectSame({{"fishCount", "3"}, {"trianglesPerFish", "3000"}, {"size", "160x120"}});
+    expectSame({{"scene", "quads.gltf"},
+                {"size", "128x96"},
+                {"samples", "70"},
+                {"fStop", "1"},
+                {"focusNode", "Far"},
+                {"bladeCount", "7"},
+                {"sequence", "halton"},
+                {"background", "none"}});
+    expectSame({{"scene", "quads.gltf"}, {"size", "128x96"}, {"method", "circular:far-components=5"}, {"fStop", "1"}});
 }
 
 TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {

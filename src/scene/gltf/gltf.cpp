@@ -60,6 +60,7 @@ std::vector<std::string> extensionsOf(const gltf::Source& source) {
 
 Scene readScene(gltf::Source& source, const std::filesystem::path& path, const Progress& progress) {
     Scene scene;
+    scene.file = path;
 
     // 1. Looks: materials first, since their normal maps decide which meshes need tangents.
     scene.materials = gltf::readMaterials(source);

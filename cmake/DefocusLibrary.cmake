@@ -1,0 +1,83 @@
+# The library, one file made of the rooms' objects, and cmake --install with find_package(defocus), defocus::defocus and
+# pkg-config.
+#
+# BUILD_SHARED_LIBS chooses between static and shared. With the tests the other one is linked too, from the same objects:
+# `cmake --install BUILD --component static` and `--component shared` install one of them, without the program.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(LIBRARY_OBJECTS "")
+foreach(ROOM IN ITEMS core image scene school lens simplify pyramid plan gl render frame)
+    list(APPEND LIBRARY_OBJECTS "$<TARGET_OBJECTS:defocus_${ROOM}>")
+endforeach()
+
+function(defocus_library TARGET KIND)
+    add_library(${TARGET} ${KIND} ${LIBRARY_OBJECTS})
+    # What links against one minor version needn't work with another before 1.0.
+    set_target_properties(${TARGET} PROPERTIES OUTPUT_NAME defocus EXPORT_NAME defocus LINKER_LANGUAGE CXX
+                                               VERSION "${PROJECT_VERSION}"
+                                               SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+    target_include_directories(${TARGET} INTERFACE "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
+                                                   "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>"
+                                                   "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+    target_compile_features(${TARGET} INTERFACE cxx_std_20)
+    set(DEPENDENCIES OpenImageIO::OpenImageIO fmt::fmt TinyGLTF::TinyGLTF draco::draco meshoptimizer::meshoptimizer
+                     PkgConfig::stb PkgConfig::epoxy PkgConfig::egl Threads::Threads)
+    if(KIND STREQUAL "SHARED")  # whoever links it needs none of them
+        list(TRANSFORM DEPENDENCIES REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
+        target_link_options(${TARGET} PRIVATE -Wl,--no-undefined -Wl,--exclude-libs,ALL)
+    endif()
+    target_link_libraries(${TARGET} PRIVATE "$<BUILD_INTERFACE:defocus_options>" ${DEPENDENCIES})
+endfunction()
+
+# Rules for one of the two. `IN_ALL`: a plain cmake --install has it.
+function(defocus_install_library TARGET KIND IN_ALL)
+    string(TOLOWER ${KIND} COMPONENT)
+    set(RULE COMPONENT ${COMPONENT})
+    if(NOT IN_ALL)
+        list(APPEND RULE EXCLUDE_FROM_ALL)
+    endif()
+    set(PACKAGE_FOLDER "${CMAKE_INSTALL_LIBDIR}/cmake/defocus")
+    set(GENERATED "${PROJECT_BINARY_DIR}/package/${COMPONENT}")
+
+    # The library and its headers.
+    install(TARGETS ${TARGET} EXPORT ${TARGET}Targets
+            LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${RULE} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${RULE})
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/defocus" "${PROJECT_BINARY_DIR}/include/defocus"
+            DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${RULE} FILES_MATCHING PATTERN "*.h")
+
+    # find_package(defocus)
+    install(EXPORT ${TARGET}Targets FILE defocusTargets.cmake NAMESPACE defocus:: DESTINATION "${PACKAGE_FOLDER}" ${RULE})
+    configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/defocusConfig-${COMPONENT}.cmake.in"
+                                  "${GENERATED}/defocusConfig.cmake" INSTALL_DESTINATION "${PACKAGE_FOLDER}"
+                                  NO_SET_AND_CHECK_MACRO)
+    write_basic_package_version_file("${GENERATED}/defocusConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+    install(FILES "${GENERATED}/defocusConfig.cmake" "${GENERATED}/defocusConfigVersion.cmake"
+            DESTINATION "${PACKAGE_FOLDER}" ${RULE})
+
+    # pkg-config defocus, which finds the prefix from where the file lies.
+    file(RELATIVE_PATH PREFIX_FROM_PC "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
+    set(PRIVATE_LIBRARIES "")
+    if(KIND STREQUAL "STATIC")
+        set(PRIVATE_LIBRARIES "Requires.private: OpenImageIO fmt tinygltf draco stb epoxy egl\nLibs.private: -lmeshoptimizer -pthread\n")
+    endif()
+    configure_file("${PROJECT_SOURCE_DIR}/cmake/defocus.pc.in" "${GENERATED}/defocus.pc" @ONLY)
+    install(FILES "${GENERATED}/defocus.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" ${RULE})
+endfunction()
+
+if(BUILD_SHARED_LIBS)
+    set(KINDS SHARED STATIC)
+else()
+    set(KINDS STATIC SHARED)
+endif()
+list(GET KINDS 0 CHOSEN_KIND)
+list(GET KINDS 1 OTHER_KIND)
+defocus_library(defocus ${CHOSEN_KIND})
+add_library(defocus::defocus ALIAS defocus)
+defocus_install_library(defocus ${CHOSEN_KIND} TRUE)
+if(DEFOCUS_TESTS AND NOT DEFOCUS_SANITIZE)
+    defocus_library(defocus_other ${OTHER_KIND})
+    defocus_install_library(defocus_other ${OTHER_KIND} FALSE)
+endif()
+install(TARGETS defocus_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""How the f-number changes a picture, and how many lens samples its blur needs.
+
+Renders a scene over f-numbers, shows the pictures with their circles of confusion, and plots the error of each against
+the number of lens samples. The cells (# %%) run one by one in editors that know them, and all at once by
+
+    python3 examples/blur_study.py meshes/chess.glb blur-study.png
+
+It needs the package `defocus` (docs/python.md) and matplotlib.
+"""
+
+# %% What is studied.
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy
+
+import defocus
+
+matplotlib.use("agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of how to draw)
+
+SCENE = Path(sys.argv[1] if len(sys.argv) > 1 else "meshes/chess.glb")
+OUTPUT = Path(sys.argv[2] if len(sys.argv) > 2 else "blur-study.png")
+SIZE = (240, 180)
+F_STOPS = (1.4, 2.8, 5.6, 11)
+SAMPLES = (4, 8, 16, 32, 64, 128)
+REFERENCE = {"samples": 512, "lod": "off", "seed": 1}  # full detail, and lens points that no other picture has
+
+# %% Pictures, references and blur: one renderer, so that the scene is read and simplified once.
+pictures, blurs, references = {}, {}, {}
+errors = {f_stop: [] for f_stop in F_STOPS}
+with defocus.Renderer(SCENE, size=SIZE) as renderer:
+    for f_stop in F_STOPS:
+        references[f_stop] = renderer.render(f_stop=f_stop, **REFERENCE)
+        for samples in SAMPLES:
+            pictures[f_stop] = renderer.render(f_stop=f_stop, samples=samples)
+            errors[f_stop].append(defocus.compare(references[f_stop], pictures[f_stop]))
+        blurs[f_stop] = renderer.aovs().coc
+        print(f"f/{f_stop}: {errors[f_stop][-1].psnr:.1f} dB after {SAMPLES[-1]} samples, "
+              f"largest blur {numpy.abs(blurs[f_stop]).max(where=numpy.isfinite(blurs[f_stop]), initial=0):.1f} px")
+
+
+# %% A contact sheet: the picture, and the signed diameter of its circle of confusion.
+def encoded(linear):
+    """As a display shows it: sRGB (IEC 61966-2-1)."""
+    colour = numpy.clip(linear[..., :3], 0, 1)
+    return numpy.where(colour <= 0.0031308, 12.92 * colour, 1.055 * colour ** (1 / 2.4) - 0.055)
+
+
+figure = plt.figure(figsize=(3.1 * len(F_STOPS), 8.4), layout="constrained")
+top, bottom = figure.subfigures(2, 1, height_ratios=(1.25, 1))
+axes = top.subplots(2, len(F_STOPS))
+for column, f_stop in enumerate(F_STOPS):
+    axes[0, column].imshow(encoded(pictures[f_stop]))
+    axes[0, column].set_title(f"f/{f_stop}")
+    shown = axes[1, column].imshow(blurs[f_stop], cmap="RdBu", vmin=-20, vmax=20)
+top.colorbar(shown, ax=list(axes[1]), label="circle of confusion, px\n(> 0: behind the focus)")
+for axis in axes.flat:
+    axis.set_axis_off()
+
+# %% Error against samples: halving the error of a blur takes less than four times the samples, as they are well spread.
+left, right = bottom.subplots(1, 2)
+for marker, f_stop in zip("osd^", F_STOPS):
+    left.loglog(SAMPLES, [error.rmse for error in errors[f_stop]], marker=marker, label=f"f/{f_stop}")
+    right.loglog(SAMPLES, [error.flip for error in errors[f_stop]], marker=marker, label=f"f/{f_stop}")
+slope = errors[F_STOPS[0]][0].rmse * numpy.sqrt(SAMPLES[0] / numpy.array(SAMPLES))
+left.loglog(SAMPLES, slope, "k:", label="random samples, $N^{-1/2}$")
+left.set_ylabel("root mean squared error")
+right.set_ylabel("mean FLIP")
+for axis in (left, right):
+    axis.set_xlabel("lens samples")
+    axis.set_xticks(SAMPLES, [str(samples) for samples in SAMPLES])
+    axis.minorticks_off()
+    axis.grid(alpha=0.3)
+    axis.legend()
+
+# %% To a file.
+figure.savefig(OUTPUT, dpi=110)
+print(f"wrote {OUTPUT}")

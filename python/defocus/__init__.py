@@ -1,0 +1,303 @@
+"""Renders glTF scenes with the depth of field of a real lens.
+
+    import defocus
+
+    image = defocus.render("scene.glb", f_stop=1.4, focus_node="Left eye")   # H×W×4 float32, linear
+    defocus.write_image("out.exr", image)
+
+Keywords are the settings of `defocus render` in snake_case: `defocus.settings()` and docs/settings.md list them with
+their units, ranges and defaults. Numbers, truth values, strings, paths and choices are given as such; a size, a pixel, a
+point or a colour as a tuple; `node_blur` as a dictionary. None leaves a value open, as if it were not given.
+
+Images are C-contiguous float32 arrays: H×W×4 (or H×W×3, or H×W for data), row 0 at the top, linear Rec.709, alpha
+premultiplied. Rendered ones own the renderer's pixels without a copy, and can be written to. Functions that take images
+read such arrays where they lie.
+
+Work runs without Python's lock: other threads go on, and Ctrl-C ends it. A function given as `progress` is called as
+progress(stage, done, total); what it raises ends the work and reaches the caller.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import warnings as _warnings
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple, Union
+
+import numpy
+
+from . import _defocus
+from ._defocus import Error, Scene, UsageError
+from ._settings import INFOS as _INFOS
+from ._settings import request_of as _request_of
+from ._settings import takes_settings as _takes_settings
+
+__version__: str = _defocus.version
+__all__ = [
+    "Aovs", "Difference", "Error", "Renderer", "Scene", "Setting", "Statistics", "UsageError", "compare", "plan",
+    "progressive", "pyramid", "read_image", "render", "settings", "write_image",
+]
+
+Error.__doc__ = """A file, a name, the driver: what was being done, what it concerned and what to do, on one line."""
+UsageError.__doc__ = """What was asked for makes no sense by itself: an unknown keyword (it is a TypeError too), a value
+out of its range (it is a ValueError too)."""
+
+Path = Union[str, "os.PathLike[str]"]
+Progress = Callable[[str, int, int], object]
+
+
+class Setting(NamedTuple):
+    """A keyword of render and of all that takes settings."""
+
+    keyword: str
+    option: str  # on the command line
+    group: str
+    kind: str  # "number", "whole", "truth", "text", "path", "choice" or "other"
+    form: str  # of the value on the command line: "PX", "X,Y,Z"
+    unit: str  # empty: none
+    range: Optional[Tuple[float, float]]  # of numbers
+    choices: Tuple[str, ...]
+    default: Optional[str]  # None: left open
+    methods: Tuple[str, ...]  # that take it; empty: it isn't a method's
+    help: str
+
+
+class Difference(NamedTuple):
+    """What tells two images apart, on display-encoded values in [0, 1] at EV 0 (sRGB, clipped)."""
+
+    mae: float  # mean absolute error
+    rmse: float  # root mean squared error
+    psnr: float  # dB; infinite for equal images
+    ssim: float  # mean structural similarity (Wang et al. 2004), on luma
+    flip: float  # mean FLIP (Andersson et al. 2020) at 67 pixels a degree
+    max_error: float  # largest absolute difference of a channel
+    max_error_pixel: Tuple[int, int]  # (column, row) of the first one
+    pixel_count: int
+    non_finite: int  # pixels with NaN or infinity in either image
+
+
+class Aovs(NamedTuple):
+    """What the nearest surface at each pixel is, through the pinhole at the pixel's centre: H×W each."""
+
+    depth: numpy.ndarray  # m along the view axis; infinite where nothing is
+    coc: numpy.ndarray  # signed diameter of the circle of confusion, px, > 0 behind the focus plane
+    level: numpy.ndarray  # the object's fractional level of detail; −1 where nothing is
+
+
+class Statistics(NamedTuple):
+    """What a frame took; times are wall clock."""
+
+    samples: int
+    load_milliseconds: float
+    pyramid_milliseconds: float
+    setup_milliseconds: float
+    render_milliseconds: float
+    triangles_drawn: int
+    triangles_at_full_detail: int
+    gpu_bytes: int
+    device: str
+
+
+def settings() -> List[Setting]:
+    """All keywords, in the order of `defocus render --help`."""
+    rows = []
+    for info in _INFOS.values():
+        ranged = info.kind.name in ("number", "whole")
+        rows.append(Setting(info.keyword, info.option, info.group, info.kind.name, info.metavar, info.unit,
+                            (info.least, info.most) if ranged else None, tuple(info.choices), info.standard,
+                            tuple(info.methods), info.help))
+    return rows
+
+
+class Renderer:
+    """Renders one scene, frame after frame; its meshes are read and simplified once.
+
+        with defocus.Renderer("scene.glb", samples=128) as renderer:
+            for f_stop in (1.4, 2.8, 5.6):
+                image = renderer.render(f_stop=f_stop)
+
+    Settings given to `render` and `start` replace those of the constructor for that frame; None leaves one open again.
+    Threads may share a renderer: they take turns. `close()`, or the end of the `with` block, frees all it holds.
+    """
+
+    @_takes_settings
+    def __init__(self, scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None, **settings: Any):
+        self._scene = scene
+        self._settings = settings
+        self._warned: set = set()
+        opened = scene if isinstance(scene, Scene) else None
+        self._native = _defocus.Renderer(opened, self._request({}), _listener(progress))
+
+    def _request(self, changes: Dict[str, Any]) -> Any:
+        return _request_of(self._scene, {**self._settings, **changes})
+
+    def _warn(self) -> None:
+        lines = [line for line in dict.fromkeys(self._native.warnings()) if line not in self._warned]
+        self._warned.update(lines)
+        _warn(lines)
+
+    @_takes_settings
+    def render(self, *, progress: Optional[Progress] = None, **settings: Any) -> numpy.ndarray:
+        """The finished image of a frame: H×W×4."""
+        image = self._native.render(self._request(settings), _listener(progress))
+        self._warn()
+        return image
+
+    @_takes_settings
+    def progressive(self, **settings: Any) -> Iterator[Tuple[numpy.ndarray, int]]:
+        """The image of the samples so far with their number, again and again until the frame is done."""
+        self.start(**settings)
+        more = True
+        while more:
+            more = self.advance()
+            yield self.image(), self.samples
+
+    @_takes_settings
+    def start(self, **settings: Any) -> None:
+        """Begins a frame; `advance` draws it."""
+        self._native.start(self._request(settings))
+        self._warn()
+
+    def advance(self) -> bool:
+        """Draws some more samples; False once the frame is done."""
+        return self._native.advance()
+
+    def image(self) -> numpy.ndarray:
+        """The image of the samples so far."""
+        return self._native.image()
+
+    @property
+    def samples(self) -> int:
+        """In the image so far."""
+        return self._native.samples()
+
+    @property
+    def sample_total(self) -> int:
+        """When the frame is done."""
+        return self._native.sample_total()
+
+    @property
+    def statistics(self) -> Statistics:
+        """Of the frame so far."""
+        native = self._native.statistics()
+        return Statistics(*(getattr(native, name) for name in Statistics._fields))
+
+    @property
+    def warnings(self) -> List[str]:
+        """What is worth knowing of the file and the request; Python's warnings have said it."""
+        return self._native.warnings()
+
+    @property
+    def scene(self) -> Scene:
+        return self._native.scene()
+
+    def aovs(self) -> Aovs:
+        """Depth, circle of confusion and level of detail of the frame that was started last."""
+        return Aovs(*self._native.aovs())
+
+    def plan(self) -> Dict[str, Any]:
+        """The plan of the frame that was started last, as `defocus plan --json` prints it."""
+        return json.loads(self._native.plan_json())
+
+    def write(self, path: Path, image: Any) -> None:
+        """Writes an image of this renderer's frame with its metadata; a PNG or JPEG is exposed and tone-mapped as the
+        settings say."""
+        self._native.write(path, _pixels(image))
+
+    def close(self) -> None:
+        self._native.close()
+
+    def __enter__(self) -> "Renderer":
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+
+@_takes_settings
+def render(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None,
+           **settings: Any) -> numpy.ndarray:
+    """The image of a scene, a glTF file's or an open one, with the depth of field of its lens: H×W×4 float32, linear.
+    Without a scene: the built-in school of fish."""
+    with Renderer(scene, progress=progress, **settings) as renderer:
+        return renderer.render(progress=progress)
+
+
+@_takes_settings
+def progressive(scene: Union[Path, Scene, None] = None, *, progress: Optional[Progress] = None,
+                **settings: Any) -> Iterator[Tuple[numpy.ndarray, int]]:
+    """Yields the image as it converges, with its number of lens samples:
+
+        for image, samples in defocus.progressive("scene.glb", samples=1024):
+            ...
+
+    Each image is an array of its own. Leaving the loop frees the renderer as soon as the generator goes; its `close()`
+    does so at once. Wrong keywords are reported by the call, faults of the scene by the first step.
+    """
+    _request_of(scene, settings)
+
+    def images() -> Iterator[Tuple[numpy.ndarray, int]]:
+        with Renderer(scene, progress=progress, **settings) as renderer:
+            yield from renderer.progressive()
+
+    return images()
+
+
+@_takes_settings
+def plan(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Dict[str, Any]:
+    """What a render would draw, without drawing and without a GPU, as `defocus plan --json` prints it: blur, level and
+    samples of each object, and what is left out and why."""
+    return json.loads(_defocus.plan_json(_request_of(scene, settings), _listener(progress)))
+
+
+@_takes_settings
+def pyramid(scene: Optional[Path] = None, *, progress: Optional[Progress] = None, **settings: Any) -> Any:
+    """The levels of detail of each mesh of a scene: triangles, mean edge and error, in the mesh's units."""
+    return json.loads(_defocus.pyramid_json(_request_of(scene, settings), _listener(progress)))
+
+
+def compare(reference: Any, test: Any) -> Difference:
+    """The difference between two linear images of one size, each an array or a file."""
+    native = _defocus.compare(_pixels(reference), _pixels(test))
+    return Difference(*(getattr(native, name) for name in Difference._fields))
+
+
+def read_image(path: Path) -> numpy.ndarray:
+    """A PNG, JPEG, OpenEXR, Radiance HDR or TIFF as linear float32: H×W×4, H×W×3 or H×W. Integer formats are decoded
+    from sRGB, straight alpha is premultiplied."""
+    return _defocus.read_image(path)
+
+
+def write_image(path: Path, image: Any, *, tone_map: Optional[str] = None, exposure: Optional[float] = None) -> None:
+    """Writes .exr (32-bit float, linear), .png or .jpg (8 bit, sRGB). `tone_map` ("none", "aces", "agx") and `exposure`
+    (EV) are for the 8-bit ones. The file appears whole or not at all."""
+    request = _request_of(None, {"tone_map": tone_map, "exposure": exposure})
+    _defocus.write_image(path, _pixels(image), request)
+
+
+def _listener(progress: Optional[Progress]) -> Optional[Progress]:
+    if progress is not None and not callable(progress):
+        raise UsageError(f"progress: {progress!r} is not a function of stage, done and total")
+    return progress
+
+
+def _pixels(image: Any) -> numpy.ndarray:
+    """The image as C++ reads it: itself where it is C-contiguous float32."""
+    if isinstance(image, (str, os.PathLike)):
+        return read_image(image)
+    array = numpy.asarray(image)
+    if array.dtype.kind != "f":
+        raise UsageError(f"an image holds linear floats, not {array.dtype}; divide by the range and decode first")
+    if array.ndim not in (2, 3) or (array.ndim == 3 and array.shape[2] not in (1, 3, 4)):
+        raise UsageError(f"an image is H×W or H×W×channels with 1, 3 or 4 of them, not {'×'.join(map(str, array.shape))}")
+    return numpy.ascontiguousarray(array, dtype=numpy.float32)
+
+
+def _warn(lines: List[str]) -> None:
+    """As warnings of the first caller outside of this package."""
+    level = 1
+    while sys._getframe(level).f_globals.get("__name__", "").split(".")[0] == __name__:
+        level += 1
+    for line in lines:
+        _warnings.warn(line, stacklevel=level + 1)

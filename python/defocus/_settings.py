@@ -1,0 +1,90 @@
+"""Python's keywords and values to the settings of a request: those of the settings table, whatever they are."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+import numbers
+import os
+from typing import Any, Callable, Iterable, Mapping, TypeVar
+
+import numpy
+
+from . import _defocus
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+# By keyword, in the order of `defocus render --help`.
+INFOS = {info.keyword: info for info in _defocus.setting_infos()}
+
+# The built-in school's own.
+SCHOOL = ("fish_count", "triangles_per_fish")
+
+
+def text(value: Any, separator: str = ",") -> str:
+    """The value as the command line has it."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, os.PathLike):
+        return os.fsdecode(value)
+    if isinstance(value, (bool, numpy.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, numbers.Integral):
+        return str(int(value))
+    if isinstance(value, numbers.Real):
+        return repr(float(value))
+    if isinstance(value, (tuple, list, numpy.ndarray)):
+        return separator.join(text(part, separator) for part in value)
+    return str(value)
+
+
+def texts(info: _defocus.SettingInfo, value: Any) -> Iterable[str]:
+    if info.repeated and isinstance(value, Mapping):
+        return [f"{name}={text(part)}" for name, part in value.items()]
+    return [text(value, "x" if info.metavar == "WxH" else ",")]
+
+
+def unknown(keyword: str, known: Iterable[str]) -> _defocus.UsageError:
+    nearest = difflib.get_close_matches(keyword, known, n=1)
+    hint = f"did you mean '{nearest[0]}'?" if nearest else "defocus.settings() lists them"
+    return _defocus.UsageError(f"there is no setting '{keyword}'; {hint}")
+
+
+def set_value(request: _defocus.Request, keyword: str, value: Any) -> None:
+    info = INFOS.get(keyword)
+    if info is None:
+        raise unknown(keyword, [*INFOS, "progress"])
+    try:
+        for part in texts(info, value):
+            request.set(info.name, part)
+    except _defocus.UsageError as error:
+        # The name that was written here, not the table's.
+        raise _defocus.UsageError(str(error).replace(f"{info.name}: ", f"{keyword}: ", 1)) from None
+
+
+def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
+    """The request of a path (or None, or an open scene) and keywords; what is None is left open."""
+    request = _defocus.Request()
+    given = {keyword: value for keyword, value in settings.items() if value is not None}
+    if scene is not None:
+        for keyword in SCHOOL:
+            if keyword in given:
+                raise _defocus.UsageError(f"{keyword}: is of the built-in school of fish; give it without a scene")
+    if isinstance(scene, (str, os.PathLike)):
+        set_value(request, "scene", scene)
+    elif scene is not None and not isinstance(scene, _defocus.Scene):
+        raise _defocus.UsageError(f"scene: {scene!r} is neither a path nor a Scene")
+    for keyword, value in given.items():
+        set_value(request, keyword, value)
+    return request
+
+
+def takes_settings(function: Function) -> Function:
+    """Shows the settings as keywords of a function whose last parameter is **settings: in help() and for completion."""
+    signature = inspect.signature(function)
+    own = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
+    names = {parameter.name for parameter in own}
+    keywords = [inspect.Parameter(keyword, inspect.Parameter.KEYWORD_ONLY, default=None)
+                for keyword in INFOS if keyword != "scene" and keyword not in names]
+    function.__signature__ = signature.replace(parameters=own + keywords)  # type: ignore[attr-defined]
+    return function

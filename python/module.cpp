@@ -1,0 +1,333 @@
+// The module `_defocus` under the Python package `defocus`: the public API, one to one. What makes it comfortable in
+// Python stands in defocus/__init__.py.
+//
+// Images pass without copies: an array that comes out owns the pixels that C++ made, one that goes in is read where it
+// lies. Python's lock is released during all work.
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "defocus/defocus.h"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace {
+
+// ---- progress and signals -------------------------------------------------------------------------------------------
+
+// The caller's function; empty for None.
+using Listener = std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)>;
+
+// Tells the listener, and lets Ctrl-C end the work: Python only notes a signal until somebody asks for it.
+defocus::Progress listening(const Listener& listener) {
+    return [listener](std::string_view stage, std::uint64_t done, std::uint64_t total) {
+        const py::gil_scoped_acquire lock;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (listener) listener(std::string(stage), done, total);
+    };
+}
+
+// ---- images ---------------------------------------------------------------------------------------------------------
+
+using Array = py::array_t<float, py::array::c_style>;
+
+// The image's own pixels as an array that keeps them: H×W, or H×W×channels where there are several.
+Array arrayOf(defocus::Image&& image) {
+    auto owner = std::make_unique<defocus::Image>(std::move(image));
+    std::vector<py::ssize_t> shape = {owner->height, owner->width};
+    if (owner->channels > 1) shape.push_back(owner->channels);
+    float* const pixels = owner->pixels.data();
+    const py::capsule keeper(owner.get(), [](void* kept) { delete static_cast<defocus::Image*>(kept); });
+    static_cast<void>(owner.release());  // the capsule's now
+    return Array(shape, pixels, keeper);
+}
+
+// The array's pixels, read where they lie; valid as long as it is. Of an array that is no image the view is empty.
+defocus::ImageView viewOf(const Array& array) {
+    if (array.ndim() != 2 && array.ndim() != 3) return {};
+    return {static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
+            array.ndim() == 3 ? static_cast<int>(array.shape(2)) : 1,
+            std::span(array.data(), static_cast<std::size_t>(array.size()))};
+}
+
+// ---- scenes and renderers -------------------------------------------------------------------------------------------
+
+// An open scene; what it holds is asked for once.
+struct OpenScene {
+    defocus::SceneHandle handle;
+    defocus::SceneInfo info = defocus::sceneInfo(*handle);
+};
+
+// A SceneRenderer for Python's threads: they take turns.
+class SharedRenderer {
+public:
+    SharedRenderer(const OpenScene* scene, const defocus::Request& request, const Listener& listener)
+        : renderer_(scene != nullptr ? defocus::SceneRenderer(scene->handle, request, listening(listener))
+                                     : defocus::SceneRenderer(request, listening(listener))) {}
+
+    // Calls `use` with the renderer, without Python's lock.
+    template <typename Use>
+    auto with(const Use& use) {
+        const Turn turn(*this);
+        if (!renderer_) throw defocus::UsageError("the renderer is closed");
+        return use(*renderer_);
+    }
+
+    void close() {
+        const Turn turn(*this);
+        renderer_.reset();
+    }
+
+private:
+    // Whose turn waits for its own end would wait forever.
+    void refuseReentry() const {
+        if (user_ == std::this_thread::get_id())
+            throw defocus::UsageError("a renderer cannot be used from its own progress function");
+    }
+
+    struct Turn {
+        explicit Turn(SharedRenderer& shared) : shared_((shared.refuseReentry(), shared)) {
+            shared_.user_ = std::this_thread::get_id();
+        }
+        ~Turn() { shared_.user_ = std::thread::id(); }
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+
+        SharedRenderer& shared_;
+        py::gil_scoped_release unlocked_;
+        std::scoped_lock<std::mutex> lock_{shared_.mutex_};
+    };
+
+    std::optional<defocus::SceneRenderer> renderer_;
+    std::mutex mutex_;
+    std::atomic<std::thread::id> user_ = std::thread::id();
+};
+
+// ---- the module -----------------------------------------------------------------------------------------------------
+
+void defineErrors(py::module_& package) {
+    // A wrong keyword is a TypeError and a wrong value a ValueError to whoever looks for those.
+    const auto& error = py::register_exception<defocus::Error>(package, "Error", PyExc_RuntimeError);
+    const auto& usageError = py::register_exception<defocus::UsageError>(
+        package, "UsageError",
+        py::make_tuple(py::handle(error), py::handle(PyExc_TypeError), py::handle(PyExc_ValueError)));
+    error.attr("__module__") = "defocus";
+    usageError.attr("__module__") = "defocus";
+}
+
+void defineRequest(py::module_& package) {
+    using defocus::SettingInfo;
+    using defocus::SettingKind;
+    py::enum_<SettingKind>(package, "SettingKind")
+        .value("number", SettingKind::number)
+        .value("whole", SettingKind::whole)
+        .value("truth", SettingKind::truth)
+        .value("text", SettingKind::text)
+        .value("path", SettingKind::path)
+        .value("choice", SettingKind::choice)
+        .value("other", SettingKind::other);
+    py::class_<SettingInfo>(package, "SettingInfo")
+        .def_readonly("name", &SettingInfo::name)
+        .def_readonly("keyword", &SettingInfo::keyword)
+        .def_readonly("option", &SettingInfo::option)
+        .def_readonly("group", &SettingInfo::group)
+        .def_readonly("kind", &SettingInfo::kind)
+        .def_readonly("metavar", &SettingInfo::metavar)
+        .def_readonly("unit", &SettingInfo::unit)
+        .def_readonly("least", &SettingInfo::least)
+        .def_readonly("most", &SettingInfo::most)
+        .def_readonly("choices", &SettingInfo::choices)
+        .def_readonly("help", &SettingInfo::help)
+        .def_readonly("standard", &SettingInfo::standard)
+        .def_readonly("repeated", &SettingInfo::repeated)
+        .def_readonly("methods", &SettingInfo::methods);
+    package.def("setting_infos", &defocus::settingInfos);
+    py::class_<defocus::Request>(package, "Request").def(py::init<>()).def("set", &defocus::setSetting);
+}
+
+void defineImages(py::module_& package) {
+    using defocus::Difference;
+    package.def("read_image", [](const std::filesystem::path& path) {
+        const auto read = [&] {
+            const py::gil_scoped_release unlocked;
+            return defocus::readImage(path);
+        };
+        return arrayOf(read());
+    });
+    package.def(
+        "write_image",
+        [](const std::filesystem::path& path, const Array& image, const defocus::Request& request) {
+            const defocus::ImageView view = viewOf(image);
+            const py::gil_scoped_release unlocked;
+            defocus::writeImage(path, view, {request.toneMap, request.exposure.value_or(0)});
+        },
+        "path"_a, py::arg("image").noconvert(), "request"_a);
+    package.def(
+        "compare",
+        [](const Array& reference, const Array& test) {
+            const defocus::ImageView a = viewOf(reference);
+            const defocus::ImageView b = viewOf(test);
+            const py::gil_scoped_release unlocked;
+            return defocus::compareImages(a, b);
+        },
+        py::arg("reference").noconvert(), py::arg("test").noconvert());
+    py::class_<Difference>(package, "Difference")
+        .def_readonly("mae", &Difference::mae)
+        .def_readonly("rmse", &Difference::rmse)
+        .def_readonly("psnr", &Difference::psnr)
+        .def_readonly("ssim", &Difference::ssim)
+        .def_readonly("flip", &Difference::flip)
+        .def_readonly("max_error", &Difference::maxError)
+        .def_property_readonly("max_error_pixel",
+                               [](const Difference& difference) {
+                                   return std::pair(difference.maxErrorPixel.column, difference.maxErrorPixel.row);
+                               })
+        .def_readonly("pixel_count", &Difference::pixelCount)
+        .def_readonly("non_finite", &Difference::nonFinite);
+}
+
+void defineScenes(py::module_& package) {
+    py::class_<OpenScene>(package, "Scene", "A glTF scene, opened once and rendered often; takes the place of a path.")
+        .def(py::init([](const std::filesystem::path& path, const Listener& progress) {
+                 const py::gil_scoped_release unlocked;
+                 return OpenScene{defocus::loadScene(path, listening(progress))};
+             }),
+             "path"_a, py::kw_only(), "progress"_a = py::none(), "Reads a .gltf or .glb file.")
+        .def_static(
+            "school_of_fish",
+            [](int fishCount, int trianglesPerFish, const Listener& progress) {
+                const py::gil_scoped_release unlocked;
+                return OpenScene{defocus::schoolOfFish(fishCount, trianglesPerFish, listening(progress))};
+            },
+            "fish_count"_a = 20, "triangles_per_fish"_a = 90'000, py::kw_only(), "progress"_a = py::none(),
+            "The built-in school of fish, of 1 to 10,000.")
+        .def_property_readonly("name", [](const OpenScene& scene) { return scene.info.name; })
+        .def_property_readonly(
+            "cameras", [](const OpenScene& scene) { return scene.info.cameras; }, "Names; empty for those without one.")
+        .def_property_readonly("nodes", [](const OpenScene& scene) { return scene.info.nodes; })
+        .def_property_readonly(
+            "clips", [](const OpenScene& scene) { return scene.info.clips; }, "Names of the animations.")
+        .def_property_readonly(
+            "triangles", [](const OpenScene& scene) { return scene.info.triangles; },
+            "Of all meshes, each counted once.")
+        .def_property_readonly(
+            "ignored", [](const OpenScene& scene) { return scene.info.ignored; },
+            "What of the file is not drawn, and why: a line each.")
+        .def("__repr__",
+             [](const OpenScene& scene) {
+                 return "<defocus.Scene '" + scene.info.name + "': " + std::to_string(scene.info.triangles) +
+                        " triangles>";
+             })
+        .attr("__module__") = "defocus";
+}
+
+void defineRenderer(py::module_& package) {
+    using defocus::RenderStatistics;
+    using defocus::SceneRenderer;
+    py::class_<RenderStatistics>(package, "Statistics")
+        .def_readonly("samples", &RenderStatistics::samples)
+        .def_readonly("load_milliseconds", &RenderStatistics::loadMilliseconds)
+        .def_readonly("pyramid_milliseconds", &RenderStatistics::pyramidMilliseconds)
+        .def_readonly("setup_milliseconds", &RenderStatistics::setupMilliseconds)
+        .def_readonly("render_milliseconds", &RenderStatistics::renderMilliseconds)
+        .def_readonly("triangles_drawn", &RenderStatistics::trianglesDrawn)
+        .def_readonly("triangles_at_full_detail", &RenderStatistics::trianglesAtFullDetail)
+        .def_readonly("gpu_bytes", &RenderStatistics::gpuBytes)
+        .def_readonly("device", &RenderStatistics::device);
+    py::class_<SharedRenderer>(package, "Renderer")
+        .def(py::init([](const OpenScene* scene, const defocus::Request& request, const Listener& progress) {
+            const py::gil_scoped_release unlocked;
+            return std::make_unique<SharedRenderer>(scene, request, progress);
+        }))
+        .def("start",
+             [](SharedRenderer& self, const defocus::Request& request) {
+                 self.with([&](SceneRenderer& renderer) { renderer.start(request); });
+             })
+        .def("advance",
+             [](SharedRenderer& self) { return self.with([](SceneRenderer& renderer) { return renderer.advance(); }); })
+        .def("samples",
+             [](SharedRenderer& self) {
+                 return self.with([](const SceneRenderer& renderer) { return renderer.samples(); });
+             })
+        .def("sample_total",
+             [](SharedRenderer& self) {
+                 return self.with([](const SceneRenderer& renderer) { return renderer.sampleTotal(); });
+             })
+        .def("image",
+             [](SharedRenderer& self) {
+                 return arrayOf(self.with([](SceneRenderer& renderer) { return renderer.image(); }));
+             })
+        .def("render",
+             [](SharedRenderer& self, const defocus::Request& request, const Listener& progress) {
+                 return arrayOf(
+                     self.with([&](SceneRenderer& renderer) { return renderer.render(request, listening(progress)); }));
+             })
+        .def("statistics",
+             [](SharedRenderer& self) {
+                 return self.with([](const SceneRenderer& renderer) { return renderer.statistics(); });
+             })
+        .def("aovs",
+             [](SharedRenderer& self) {
+                 defocus::Aovs aovs = self.with([](SceneRenderer& renderer) { return renderer.aovs(); });
+                 return py::make_tuple(arrayOf(std::move(aovs.depth)), arrayOf(std::move(aovs.coc)),
+                                       arrayOf(std::move(aovs.level)));
+             })
+        .def("plan_json",
+             [](SharedRenderer& self) {
+                 return self.with([](const SceneRenderer& renderer) { return renderer.planJson(); });
+             })
+        .def(
+            "write",
+            [](SharedRenderer& self, const std::filesystem::path& path, const Array& image) {
+                const defocus::ImageView view = viewOf(image);
+                self.with([&](const SceneRenderer& renderer) { renderer.write(path, view); });
+            },
+            "path"_a, py::arg("image").noconvert())
+        .def("warnings",
+             [](SharedRenderer& self) {
+                 return self.with([](const SceneRenderer& renderer) { return renderer.warnings(); });
+             })
+        .def("scene",
+             [](SharedRenderer& self) {
+                 return OpenScene{self.with([](const SceneRenderer& renderer) { return renderer.scene(); })};
+             })
+        .def("close", &SharedRenderer::close);
+    package.def("plan_json", [](const defocus::Request& request, const Listener& progress) {
+        const py::gil_scoped_release unlocked;
+        return defocus::planJson(request, listening(progress));
+    });
+    package.def("pyramid_json", [](const defocus::Request& request, const Listener& progress) {
+        const py::gil_scoped_release unlocked;
+        return defocus::pyramidJson(request, listening(progress));
+    });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_defocus, package) {
+    package.doc() = "The public API of defocus in C++; use the package `defocus`.";
+    package.attr("version") = DEFOCUS_VERSION_STRING;
+    defineErrors(package);
+    defineRequest(package);
+    defineImages(package);
+    defineScenes(package);
+    defineRenderer(package);
+}

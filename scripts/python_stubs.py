@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""Writes the keywords of defocus/__init__.pyi from the settings table of the built module.
+
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py            # write them
+    PYTHONPATH=build/release/python /usr/bin/python3 scripts/python_stubs.py --check    # exit code 1 if they differ
+"""
+
+import sys
+from pathlib import Path
+
+import defocus
+
+STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "__init__.pyi"
+BEGIN = "# ---- keywords, from the settings table ----\n"
+END = "# ---- end of keywords ----\n"
+TYPES = {"number": "float", "whole": "int", "truth": "bool", "text": "str", "path": "Path"}
+# Of settings whose values have a form of their own. A string in the command line's form always goes too.
+FORMS = {
+    "S": "Union[float, str]",
+    "N|exact": "Union[int, str]",
+    "WHAT": "Union[str, Point]",
+    "X,Y,Z": "Union[Point, str]",
+    "WxH": "Union[Tuple[int, int], str]",
+    "X,Y": "Union[Pixel, str]",
+    "X,Y,X,Y,X,Y": "Union[Tuple[Pixel, Pixel, Pixel], str]",
+    "NAME=SCALE": "Union[Mapping[str, float], str]",
+    "NAME": "str",
+}
+
+
+def type_of(setting):
+    if setting.kind == "choice":
+        return "Literal[" + ", ".join(f'"{choice}"' for choice in setting.choices) + "]"
+    return FORMS[setting.form] if setting.kind == "other" else TYPES[setting.kind]
+
+
+def keywords():
+    lines = ["class Keywords(TypedDict, total=False):\n"]
+    for setting in defocus.settings():
+        if setting.keyword != "scene":
+            unit = f"  # {setting.unit}" if setting.unit else ""
+            lines.append(f"    {setting.keyword}: Optional[{type_of(setting)}]{unit}\n")
+    return "\n" + "".join(lines) + "\n"
+
+
+def main():
+    old = STUB.read_text()
+    begin, end = old.index(BEGIN) + len(BEGIN), old.index(END)
+    new = old[:begin] + keywords() + old[end:]
+    if "--check" not in sys.argv[1:]:
+        STUB.write_text(new)
+    elif new != old:
+        sys.exit(f"{STUB.name}: its keywords are not those of the settings table; run scripts/python_stubs.py")
+
+
+if __name__ == "__main__":
+    main()

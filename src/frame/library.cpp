@@ -1,0 +1,93 @@
+// The public API's functions that need no renderer of their own.
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/number_text.h"
+#include "defocus/renderer.h"
+#include "defocus/scene.h"
+#include "frame/prepared_frame.h"
+#include "frame/settings.h"
+#include "lod/pyramid/cache.h"
+#include "plan/plan_text.h"
+#include "scene/gltf/gltf.h"
+
+namespace defocus {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Things>
+std::vector<std::string> namesOf(const Things& things) {
+    std::vector<std::string> names;
+    for (const auto& thing : things) names.push_back(thing.name);
+    return names;
+}
+
+Json levelsJson(const Pyramid& pyramid) {
+    Json levels = Json::array();
+    for (const PyramidLevel& level : pyramid.levels)
+        levels.push_back({{"triangles", level.triangleCount},
+                          {"vertices", level.vertexCount},
+                          {"meanEdge", level.meanEdge},
+                          {"error", level.error}});
+    return levels;
+}
+
+}  // namespace
+
+SceneHandle loadScene(const std::filesystem::path& path, const Progress& progress) {
+    if (path.empty()) throw UsageError("no scene is named; give the path of a .gltf or .glb file");
+    return std::make_shared<Scene>(loadGltf(path, progress));
+}
+
+SceneHandle schoolOfFish(int fishCount, int trianglesPerFish, const Progress& progress) {
+    Request request;
+    request.fishCount = fishCount;
+    request.trianglesPerFish = trianglesPerFish;
+    checkRequest(request);
+    return std::make_shared<Scene>(loadScene(request, progress));
+}
+
+SceneInfo sceneInfo(const Scene& scene) {
+    SceneInfo info;
+    info.name = scene.name;
+    info.cameras = namesOf(scene.cameras);
+    info.nodes = namesOf(scene.nodes);
+    info.clips = namesOf(scene.clips);
+    for (const Mesh& mesh : scene.meshes) info.triangles += mesh.triangleCount();
+    for (const Ignored& entry : scene.ignored)
+        info.ignored.push_back(entry.count > 1
+                                   ? fmt::format("{} × {}: {}", grouped(entry.count), entry.what, entry.reason)
+                                   : fmt::format("{}: {}", entry.what, entry.reason));
+    return info;
+}
+
+Image render(const Request& request, const Progress& progress) {
+    return SceneRenderer(request, progress).render(progress);
+}
+
+std::string planJson(const Request& request, const Progress& progress) {
+    checkRequest(request);
+    const PreparedFrame frame = prepareFrame(request, progress);
+    return planJson(planFrame(frame.world, frame.view, frame.settings));
+}
+
+std::string pyramidJson(const Request& request, const Progress& progress) {
+    checkRequest(request);
+    const Scene scene = loadScene(request, progress);
+    const std::vector<Pyramid> pyramids = cachedPyramids(scene.meshes, pyramidFolder(request), {}, progress).pyramids;
+    Json json = {{"meshes", Json::array()}};
+    for (std::size_t i = 0; i < pyramids.size(); ++i)
+        json["meshes"].push_back({{"name", scene.meshes[i].name}, {"index", i}, {"levels", levelsJson(pyramids[i])}});
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void setSetting(Request& request, const std::string& name, const std::string& text) {
+    setByName(request, name, text);
+}
+
+}  // namespace defocus

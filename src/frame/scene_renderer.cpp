@@ -1,0 +1,307 @@
+#include <utility>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/stopwatch.h"
+#include "defocus/renderer.h"
+#include "frame/prepared_frame.h"
+#include "frame/render_report.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+#include "lens/photographic_exposure.h"
+#include "plan/plan_text.h"
+#include "render/aov/aov.h"
+
+namespace defocus {
+
+namespace {
+
+bool sameScene(const Request& a, const Request& b) {
+    return a.scene == b.scene &&
+           (!a.scene.empty() || (a.fishCount == b.fishCount && a.trianglesPerFish == b.trianglesPerFish));
+}
+
+bool sameSurroundings(const Request& a, const Request& b) {
+    return a.environment == b.environment && a.background == b.background && a.backgroundColor == b.backgroundColor;
+}
+
+// Would both be drawn with the same resources?
+bool sameRenderer(const Request& a, const Request& b) {
+    return chosenMethod(a).text() == chosenMethod(b).text() && a.layerFormat == b.layerFormat && a.wave == b.wave &&
+           sameSurroundings(a, b);
+}
+
+bool fullDetailAlone(const Request& request) {
+    return request.settings.lod == LodMode::off;
+}
+
+}  // namespace
+
+class SceneRenderer::State {
+public:
+    // `handle`: null where the request names the scene.
+    State(SceneHandle handle, const Request& request, const Progress& progress);
+    ~State();
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    void start(const Request& request, const Progress& progress);
+    bool advance();
+    [[nodiscard]] std::uint32_t samples() const { return renderer_ ? renderer_->samples() : 0; }
+    [[nodiscard]] std::uint32_t sampleTotal() const { return renderer_ ? renderer_->sampleTotal() : 0; }
+    [[nodiscard]] Image image();
+    [[nodiscard]] RenderStatistics statistics() const;
+    [[nodiscard]] Aovs aovs();
+    [[nodiscard]] std::string planText() const;
+    void write(const std::filesystem::path& path, const ImageView& image) const;
+    [[nodiscard]] std::vector<std::string> warnings() const { return frameWarnings(frame_); }
+    [[nodiscard]] const Request& first() const { return first_; }
+    [[nodiscard]] SceneHandle scene() const { return scene_; }
+
+private:
+    // The library's context is current as long as it lives, and then the caller's again.
+    struct InContext {
+        explicit InContext(GlContext& context) { context.makeCurrent(); }
+        CurrentContextKeeper callers;
+    };
+
+    [[nodiscard]] std::shared_ptr<Scene> blurredScene(const Request& request) const;
+    void checkStarted() const;
+    void handOnPyramids(PreparedFrame& next, bool sameKind);
+    void makeRenderer();
+
+    bool named_;  // the scene, by the request
+    Request first_, request_;
+    std::shared_ptr<Scene> scene_;        // shared with others and never written to
+    PreparedFrame frame_;                 // of request_; the renderer refers to its world
+    std::vector<Pyramid> otherPyramids_;  // full detail where the frame has levels, and the other way round; or none
+    double loadMilliseconds_ = 0;
+    double pyramidMilliseconds_ = 0;
+    FramePlan plan_;
+    std::unique_ptr<GlContext> context_;
+    std::unique_ptr<Renderer> renderer_;  // of the frame that was started; null: none was
+};
+
+// Faults first: values, scene, lens, device; only then the long work.
+SceneRenderer::State::State(SceneHandle handle, const Request& request, const Progress& progress)
+    : named_(handle == nullptr), first_(request), request_(request) {
+    const Clock::time_point begin = Clock::now();
+    checkRequest(request);
+    scene_ = named_ ? std::make_shared<Scene>(loadScene(request, progress))
+                    : std::const_pointer_cast<Scene>(std::move(handle));
+    frame_ = placeFrame(blurredScene(request), request);
+    loadMilliseconds_ = millisecondsSince(begin);
+    {
+        const CurrentContextKeeper callers;
+        context_ = createHeadlessContext();
+    }
+    addPyramids(frame_, progress);
+    pyramidMilliseconds_ = frame_.pyramidMilliseconds;
+}
+
+SceneRenderer::State::~State() {
+    try {
+        const InContext use(*context_);
+        renderer_.reset();
+        context_.reset();
+    } catch (const Error&) {  // another thread has the context: its resources go with the process
+        static_cast<void>(renderer_.release());
+        static_cast<void>(context_.release());
+    }
+}
+
+// The scene with the blur that the request gives to nodes: a copy, as others may render the scene too.
+std::shared_ptr<Scene> SceneRenderer::State::blurredScene(const Request& request) const {
+    if (request.nodeBlur.empty()) return scene_;
+    if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur) return frame_.scene;
+    auto blurred = std::make_shared<Scene>(*scene_);
+    setNodeBlur(request, *blurred);
+    return blurred;
+}
+
+void SceneRenderer::State::checkStarted() const {
+    if (!renderer_) fail("no frame was started; call start() first");
+}
+
+// The frame before hands its pyramids on, or keeps them for later where `next` needs the other kind. Nothing throws.
+void SceneRenderer::State::handOnPyramids(PreparedFrame& next, bool sameKind) {
+    if (sameKind) {
+        next.world.pyramids = std::move(frame_.world.pyramids);
+        next.pyramidsLoaded = frame_.pyramidsLoaded;
+        next.cacheFailure = std::move(frame_.cacheFailure);
+        return;
+    }
+    if (next.world.pyramids.empty()) next.world.pyramids = std::move(otherPyramids_);
+    otherPyramids_ = std::move(frame_.world.pyramids);
+}
+
+void SceneRenderer::State::makeRenderer() {
+    const MethodUse use = chosenMethod(request_);
+    RendererOptions options;
+    options.layerFormat = request_.layerFormat;
+    options.wave = request_.wave;
+    options.settings = use.settings;
+    renderer_ = use.method->make(frame_.world, options);
+}
+
+void SceneRenderer::State::start(const Request& request, const Progress& progress) {
+    // What may fail by the request leaves the frame before as it is.
+    checkRequest(request);
+    if (named_ && !sameScene(request, first_))
+        throw UsageError("the request is of another scene; make a SceneRenderer of its own for it");
+    const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
+    PreparedFrame next = placeFrame(blurredScene(request), request, known);
+    const bool samePyramids = fullDetailAlone(request) == fullDetailAlone(request_);
+    const bool same = samePyramids && sameRenderer(request, request_);
+    if (!samePyramids && otherPyramids_.empty()) {
+        addPyramids(next, progress);
+        pyramidMilliseconds_ += next.pyramidMilliseconds;
+    }
+    Request asked = request;
+    const InContext use(*context_);
+
+    // From here on the frame is the request's.
+    if (!same) renderer_.reset();
+    handOnPyramids(next, samePyramids);
+    frame_ = std::move(next);
+    request_ = std::move(asked);
+    try {
+        if (!renderer_) makeRenderer();
+        plan_ = planFrame(frame_.world, frame_.view, frame_.settings);
+        renderer_->start(plan_);
+    } catch (...) {
+        renderer_.reset();
+        throw;
+    }
+}
+
+bool SceneRenderer::State::advance() {
+    checkStarted();
+    const InContext use(*context_);
+    return renderer_->advance();
+}
+
+Image SceneRenderer::State::image() {
+    checkStarted();
+    if (samples() == 0) fail("the image has no sample yet; call advance() first");
+    const InContext use(*context_);
+    return renderer_->image();
+}
+
+RenderStatistics SceneRenderer::State::statistics() const {
+    RenderStatistics statistics;
+    statistics.loadMilliseconds = loadMilliseconds_;
+    statistics.pyramidMilliseconds = pyramidMilliseconds_;
+    statistics.device = context_->device();
+    if (!renderer_) return statistics;
+    const InContext use(*context_);
+    const RenderStats stats = renderer_->stats();
+    statistics.samples = stats.samples;
+    statistics.setupMilliseconds = stats.setupMilliseconds;
+    statistics.renderMilliseconds = stats.renderMilliseconds;
+    statistics.trianglesDrawn = stats.trianglesDrawn;
+    statistics.trianglesAtFullDetail = plan_.trianglesAtFullDetail;
+    statistics.gpuBytes = stats.peakBytes;
+    return statistics;
+}
+
+Aovs SceneRenderer::State::aovs() {
+    checkStarted();
+    const InContext use(*context_);
+    AovImages images = renderAovs(frame_.world, plan_);
+    return {std::move(images.depth), std::move(images.coc), std::move(images.level)};
+}
+
+std::string SceneRenderer::State::planText() const {
+    checkStarted();
+    return defocus::planJson(plan_);
+}
+
+void SceneRenderer::State::write(const std::filesystem::path& path, const ImageView& image) const {
+    checkStarted();
+    const InContext use(*context_);
+    const RenderReport report{request_,           chosenMethod(request_).text(), frame_, plan_,
+                              renderer_->stats(), context_->software(),          0};
+    const double exposure = request_.exposure.value_or(photographicExposure(frame_.view.lens));
+    writeImage(path, image, renderMetadata(report), WriteOptions{request_.toneMap, exposure});
+}
+
+// ---- the public class -------------------------------------------------------------------------------------------
+
+SceneRenderer::SceneRenderer(const Request& request, const Progress& progress)
+    : state_(std::make_unique<State>(nullptr, request, progress)) {}
+
+SceneRenderer::SceneRenderer(SceneHandle scene, const Request& request, const Progress& progress) {
+    if (!scene) throw UsageError("no scene is open; loadScene() or schoolOfFish() opens one");
+    state_ = std::make_unique<State>(std::move(scene), request, progress);
+}
+
+SceneRenderer::~SceneRenderer() = default;
+SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
+SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;
+
+void SceneRenderer::start() {
+    state_->start(state_->first(), {});
+}
+
+void SceneRenderer::start(const Request& request) {
+    state_->start(request, {});
+}
+
+bool SceneRenderer::advance() {
+    return state_->advance();
+}
+
+std::uint32_t SceneRenderer::samples() const {
+    return state_->samples();
+}
+
+std::uint32_t SceneRenderer::sampleTotal() const {
+    return state_->sampleTotal();
+}
+
+Image SceneRenderer::image() {
+    return state_->image();
+}
+
+RenderStatistics SceneRenderer::statistics() const {
+    return state_->statistics();
+}
+
+Image SceneRenderer::render(const Progress& progress, std::stop_token stop) {
+    return render(state_->first(), progress, std::move(stop));
+}
+
+// At least one wave is drawn, so that there is an image.
+Image SceneRenderer::render(const Request& request, const Progress& progress, std::stop_token stop) {
+    state_->start(request, progress);
+    report(progress, "samples", 0, sampleTotal());
+    bool more = true;
+    do {
+        more = advance();
+        report(progress, "samples", samples(), sampleTotal());
+    } while (more && !stop.stop_requested());
+    return image();
+}
+
+Aovs SceneRenderer::aovs() {
+    return state_->aovs();
+}
+
+std::string SceneRenderer::planJson() const {
+    return state_->planText();
+}
+
+void SceneRenderer::write(const std::filesystem::path& path, const ImageView& image) const {
+    state_->write(path, image);
+}
+
+std::vector<std::string> SceneRenderer::warnings() const {
+    return state_->warnings();
+}
+
+SceneHandle SceneRenderer::scene() const {
+    return state_->scene();
+}
+
+}  // namespace defocus

@@ -1,0 +1,232 @@
+// The public API where it needs no GPU: scenes, settings, plans, and requests that nobody should make.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "cli/two_quads.h"
+#include "defocus/defocus.h"
+#include "image/scratch_folder.h"
+
+namespace defocus {
+namespace {
+
+using nlohmann::json;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+class Library : public testing::Test {
+protected:
+    void SetUp() override {
+        writeTwoQuads(folder_ / "quads.gltf");
+        request_.scene = folder_ / "quads.gltf";
+        request_.cacheFolder = folder_ / "cache";
+    }
+
+    ScratchFolder folder_;
+    Request request_;
+};
+
+TEST_F(Library, sceneInfoNamesWhatARequestMayName) {
+    const SceneInfo info = sceneInfo(*loadScene(request_.scene));
+    EXPECT_EQ(info.cameras, std::vector<std::string>{"Main"});
+    EXPECT_EQ(info.nodes, (std::vector<std::string>{"Near", "Far", "Tripod"}));
+    EXPECT_TRUE(info.clips.empty());
+    EXPECT_EQ(info.triangles, 2u);  // one mesh, drawn twice
+    EXPECT_TRUE(info.ignored.empty());
+    EXPECT_EQ(sceneInfo(*schoolOfFish(3, 400)).cameras.size(), 1u);
+}
+
+TEST_F(Library, scenesThatCannotBeOpened) {
+    const std::string missing = messageOf<Error>([&] { loadScene(folder_ / "missing.glb"); });
+    EXPECT_NE(missing.find("missing.glb"), std::string::npos) << missing;
+    EXPECT_THROW(loadScene(""), UsageError);
+    EXPECT_THROW(schoolOfFish(0), UsageError);
+    EXPECT_THROW(schoolOfFish(1, 3), UsageError);
+}
+
+TEST_F(Library, settingsByNameAreThoseOfTheStruct) {
+    setSetting(request_, "fStop", "1.4");
+    setSetting(request_, "size", "64x48");
+    setSetting(request_, "lod", "off");
+    setSetting(request_, "far-components", "5");
+    EXPECT_EQ(request_.lens.fStop, 1.4);
+    EXPECT_EQ(request_.width, 64);
+    EXPECT_EQ(request_.height, 48);
+    EXPECT_EQ(request_.settings.lod, LodMode::off);
+    EXPECT_EQ(request_.methodSettings.at("far-components"), "5");
+    const std::string unknown = messageOf<UsageError>([&] { setSetting(request_, "fStopp", "2"); });
+    EXPECT_NE(unknown.find("fStop"), std::string::npos) << unknown;
+    const std::string outside = messageOf<UsageError>([&] { setSetting(request_, "samples", "0"); });
+    EXPECT_TRUE(outside.starts_with("samples: ")) << outside;
+}
+
+TEST_F(Library, planListsEachObjectAndPyramidEachLevel) {
+    const json plan = json::parse(planJson(request_));
+    EXPECT_EQ(plan.at("objects").size(), 2u);
+    request_.scene.clear();
+    request_.fishCount = 2;
+    request_.trianglesPerFish = 600;
+    const json meshes = json::parse(pyramidJson(request_)).at("meshes");
+    ASSERT_EQ(meshes.size(), 2u);
+    for (const json& mesh : meshes) {
+        const json& levels = mesh.at("levels");
+        ASSERT_GT(levels.size(), 1u);
+        EXPECT_EQ(levels[0].at("error"), 0);
+        for (std::size_t l = 1; l < levels.size(); ++l) {
+            EXPECT_LT(levels[l].at("triangles"), levels[l - 1].at("triangles"));
+            EXPECT_GT(levels[l].at("meanEdge"), levels[l - 1].at("meanEdge"));
+        }
+    }
+}
+
+TEST_F(Library, progressMayCancelAPlan) {
+    struct Cancelled {};
+    EXPECT_THROW(planJson(request_, [](auto...) { throw Cancelled(); }), Cancelled);
+}
+
+// What a struct may hold and no text could say; the name is how the message begins.
+struct BadValue {
+    const char* name;
+    std::function<void(Request&)> set;
+};
+
+TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
+    const std::vector<BadValue> values = {
+        {"fStop", [](Request& r) { r.lens.fStop = 0; }},
+        {"fStop", [](Request& r) { r.lens.fStop = nan; }},
+        {"fStop", [](Request& r) { r.lens.fStop = 1e300; }},
+        {"focusDistance", [](Request& r) { r.lens.focusDistance = -1; }},
+        {"focusDistance", [](Request& r) { r.lens.focusDistance = infinity; }},
+        {"bladeCount", [](Request& r) { r.lens.bladeCount = 2; }},
+        {"bladeCount", [](Request& r) { r.lens.bladeCount = -5; }},
+        {"nodeBlur", [](Request& r) { r.nodeBlur["Near"] = -1; }},
+        {"size", [](Request& r) { r.width = 0; }},
+        {"size", [](Request& r) { r.height = -3; }},
+        {"size", [](Request& r) { r.width = mostPixels + 1; }},
+        {"samples", [](Request& r) { r.settings.sampleCount = 0; }},
+        {"samples", [](Request& r) { r.settings.sampleCount = mostSamples + 1; }},
+        {"cocTolerance", [](Request& r) { r.settings.cocTolerance = 0; }},
+        {"cocTolerance", [](Request& r) { r.settings.cocTolerance = nan; }},
+        {"blurThreshold", [](Request& r) { r.settings.thresholds.blur = -0.1; }},
+        {"lod", [](Request& r) { r.settings.lod = static_cast<LodMode>(17); }},
+        {"sequence", [](Request& r) { r.settings.sequence = static_cast<Sequence>(-1); }},
+        {"layerFormat", [](Request& r) { r.layerFormat = static_cast<LayerFormat>(99); }},
+        {"wave", [](Request& r) { r.wave = 65; }},
+        {"time", [](Request& r) { r.time = infinity; }},
+        {"shutter", [](Request& r) { r.shutter.seconds = -1; }},
+        {"motionSegments", [](Request& r) { r.shutter.motionSegments = 0; }},
+        {"cameraPosition",
+         [](Request& r) {
+             r.cameraPosition = Vector3{0, nan, 0};
+         }},
+        {"focusPixel",
+         [](Request& r) {
+             r.focusPixel = Pixel{-1, 0};
+         }},
+        {"background",
+         [](Request& r) {
+             r.background = Background::uniform;
+             r.backgroundColor = {0, -1, 0};
+         }},
+        {"fishCount", [](Request& r) { r.fishCount = -1; }},
+        {"exposure", [](Request& r) { r.exposure = nan; }},
+        {"method", [](Request& r) { r.method = "none such"; }},
+        {"method", [](Request& r) { r.methodSettings["far-components"] = "5"; }},  // not of this method
+        {"give at most one",
+         [](Request& r) {
+             r.focusAuto = true;
+             r.lens.focusDistance = 2;
+         }},
+    };
+    for (const BadValue& value : values) {
+        Request request = request_;
+        value.set(request);
+        const std::string message = messageOf<UsageError>([&] { planJson(request); });
+        EXPECT_TRUE(message.starts_with(value.name)) << value.name << ": " << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+
+// Members set to whatever: a plan or an Error, and numbers in the plan.
+TEST_F(Library, anyRequestIsPlannedOrRefused) {
+    std::mt19937 generator(3);
+    const std::vector<double> numbers = {nan,  infinity, -infinity, 0, -0.0, -1,  1e-300,
+                                         1e-9, 0.5,      1,         3, 64,   1e6, 1e300};
+    const auto number = [&] { return numbers[generator() % numbers.size()]; };
+    const auto whole = [&] {
+        const std::vector<std::int64_t> wholes = {-2147483648LL, -1, 0, 1, 2, 3, 63, 64, 16'384, 2147483647LL};
+        return wholes[generator() % wholes.size()];
+    };
+    const std::vector<std::function<void(Request&)>> setters = {
+        [&](Request& r) { r.lens.focalLength = number(); },
+        [&](Request& r) { r.lens.fStop = number(); },
+        [&](Request& r) { r.lens.focusDistance = number(); },
+        [&](Request& r) { r.lens.horizontalAperture = number(); },
+        [&](Request& r) { r.lens.blurScale = number(); },
+        [&](Request& r) { r.lens.focusBreathing = true; },
+        [&](Request& r) { r.lens.anamorphicRatio = number(); },
+        [&](Request& r) { r.lens.bladeCount = static_cast<int>(whole()); },
+        [&](Request& r) { r.lens.bladeCurvature = number(); },
+        [&](Request& r) { r.lens.catEye = number(); },
+        [&](Request& r) { r.lens.axialChromaticAberration = number(); },
+        [&](Request& r) { r.lens.foregroundLimit = number(); },
+        [&](Request& r) { r.lens.focusRangeFront = number(); },
+        [&](Request& r) { r.lens.focusTilt = number(); },
+        [&](Request& r) { r.lens.fieldCurvature = number(); },
+        [&](Request& r) { r.lens.radialBlurGain = number(); },
+        [&](Request& r) { r.width = static_cast<int>(whole()); },
+        [&](Request& r) { r.height = static_cast<int>(whole()); },
+        [&](Request& r) { r.time = number(); },
+        [&](Request& r) { r.shutter.seconds = number(); },
+        [&](Request& r) {
+            r.cameraPosition = Vector3{number(), number(), number()};
+        },
+        [&](Request& r) {
+            r.cameraTarget = Vector3{number(), number(), number()};
+        },
+        [&](Request& r) {
+            r.cameraUp = Vector3{number(), number(), number()};
+        },
+        [&](Request& r) {
+            r.focusPixel = Pixel{static_cast<int>(whole()), static_cast<int>(whole())};
+        },
+        [&](Request& r) { r.settings.sampleCount = static_cast<std::uint32_t>(whole() & 0xff); },
+        [&](Request& r) { r.settings.firstSample = static_cast<std::uint32_t>(whole()); },
+        [&](Request& r) { r.settings.seed = static_cast<std::uint32_t>(whole()); },
+        [&](Request& r) { r.settings.sequence = static_cast<Sequence>(whole()); },
+        [&](Request& r) { r.settings.lod = static_cast<LodMode>(whole()); },
+        [&](Request& r) { r.settings.metric = static_cast<LodMetric>(whole()); },
+        [&](Request& r) { r.settings.thresholds.blur = number(); },
+        [&](Request& r) { r.settings.thresholds.size = number(); },
+        [&](Request& r) { r.settings.cocTolerance = number(); },
+        [&](Request& r) { r.nodeBlur["Far"] = number(); },
+        [&](Request& r) { r.camera = "auto"; },
+    };
+    int planned = 0;
+    int refused = 0;
+    for (int i = 0; i < 600; ++i) {
+        Request request = request_;
+        request.noCache = true;
+        const std::size_t changes = 1 + generator() % 4;
+        for (std::size_t k = 0; k < changes; ++k) setters[generator() % setters.size()](request);
+        try {
+            const json plan = json::parse(planJson(request));
+            EXPECT_TRUE(plan.at("triangles").is_object() || plan.at("triangles").is_number());
+            ++planned;
+        } catch (const Error& error) {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            ++refused;
+        }
+    }
+    EXPECT_GT(planned, 50);
+    EXPECT_GT(refused, 50);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,318 @@
+// SceneRenderer: frame after frame of a scene, in a context of its own.
+
+#include <epoxy/egl.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "cli/two_quads.h"
+#include "defocus/defocus.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+#include "image/scratch_folder.h"
+
+namespace defocus {
+namespace {
+
+// Two fish of 2,000 triangles each, with levels of detail.
+Request smallRequest() {
+    Request request;
+    request.fishCount = 2;
+    request.trianglesPerFish = 2'000;
+    request.noCache = true;
+    request.width = 96;
+    request.height = 72;
+    request.settings.sampleCount = 16;
+    request.lens.fStop = 1;
+    request.wave = 4;
+    return request;
+}
+
+Request movedRequest() {
+    Request request = smallRequest();
+    request.cameraPosition = Vector3{0.4, 0.2, 2.5};
+    request.cameraTarget = Vector3{0, 0, -1};
+    request.lens.focusDistance = 3;
+    return request;
+}
+
+class SceneRendererTest : public testing::Test {
+protected:
+    void SetUp() override {
+        try {
+            static_cast<void>(createHeadlessContext());
+        } catch (const Error& error) {
+            GTEST_SKIP() << error.what();
+        }
+    }
+    ScratchFolder folder_;
+};
+
+TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
+    const Image whole = render(smallRequest());
+    ASSERT_EQ(whole.width, 96);
+    ASSERT_EQ(whole.height, 72);
+    ASSERT_EQ(whole.channels, 4);
+    EXPECT_GT(std::set<float>(whole.pixels.begin(), whole.pixels.end()).size(), 100u);  // something is shown
+
+    SceneRenderer renderer(smallRequest());
+    EXPECT_EQ(renderer.samples(), 0u);
+    renderer.start();
+    EXPECT_EQ(renderer.sampleTotal(), 16u);
+    std::vector<std::uint32_t> steps;
+    bool more = true;
+    while (more) {
+        more = renderer.advance();
+        steps.push_back(renderer.samples());
+        EXPECT_FALSE(renderer.image().empty());
+    }
+    EXPECT_EQ(steps, (std::vector<std::uint32_t>{4, 8, 12, 16}));
+    EXPECT_EQ(renderer.image().pixels, whole.pixels);
+    const RenderStatistics statistics = renderer.statistics();
+    EXPECT_EQ(statistics.samples, 16u);
+    EXPECT_GT(statistics.trianglesDrawn, 0u);
+    EXPECT_GT(statistics.trianglesAtFullDetail, statistics.trianglesDrawn);
+    EXPECT_GT(statistics.gpuBytes, 0u);
+    EXPECT_FALSE(statistics.device.empty());
+}
+
+// One after the other, of one renderer: each is the image of a renderer of its own.
+TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
+    std::vector<Request> requests(8, smallRequest());
+    requests[1] = movedRequest();
+    requests[2].settings.lod = LodMode::off;
+    requests[4].method = "circular";
+    requests[5].background = Background::uniform;
+    requests[5].backgroundColor = {0.5f, 0.25f, 0.125f};
+    requests[6].width = 64;
+    requests[6].layerFormat = LayerFormat::rgba32f;
+    requests[7] = movedRequest();
+    requests[7].settings.lod = LodMode::off;
+    SceneRenderer renderer(requests[0]);
+    for (std::size_t i = 0; i < requests.size(); ++i)
+        EXPECT_EQ(renderer.render(requests[i]).pixels, render(requests[i]).pixels) << "request " << i;
+    EXPECT_NE(render(requests[0]).pixels, render(requests[1]).pixels);
+    EXPECT_NE(render(requests[0]).pixels, render(requests[2]).pixels);
+}
+
+TEST_F(SceneRendererTest, pyramidsAreBuiltWhereThereAreNone) {
+    std::vector<std::string> stages;
+    const Progress progress = [&](std::string_view stage, auto...) {
+        if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
+    };
+    const auto stagesOf = [&](SceneRenderer& renderer, const Request& request) {
+        stages.clear();
+        renderer.render(request, progress);
+        return stages;
+    };
+    using Stages = std::vector<std::string>;
+    Request sharp = smallRequest();
+    sharp.settings.lod = LodMode::off;
+    SceneRenderer renderer(sharp);
+    const double before = renderer.statistics().pyramidMilliseconds;
+    EXPECT_EQ(stagesOf(renderer, sharp), Stages{"samples"});
+    EXPECT_EQ(stagesOf(renderer, smallRequest()), (Stages{"pyramids", "samples"}));
+    EXPECT_GT(renderer.statistics().pyramidMilliseconds, before);
+    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});
+    EXPECT_EQ(stagesOf(renderer, sharp), Stages{"samples"});
+    EXPECT_EQ(stagesOf(renderer, movedRequest()), Stages{"samples"});  // both kinds are kept
+}
+
+TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
+    struct Cancelled {};
+    const Image whole = render(smallRequest());
+    SceneRenderer renderer(smallRequest());
+    EXPECT_THROW(renderer.render([](std::string_view, std::uint64_t done, std::uint64_t) {
+        if (done >= 8) throw Cancelled();
+    }),
+                 Cancelled);
+    EXPECT_EQ(renderer.samples(), 8u);
+    EXPECT_FALSE(renderer.image().empty());
+    EXPECT_EQ(renderer.render().pixels, whole.pixels);
+    EXPECT_THROW(SceneRenderer(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
+
+    // While levels are made for the first time, too.
+    Request sharp = smallRequest();
+    sharp.settings.lod = LodMode::off;
+    SceneRenderer late(sharp);
+    const Image sharpImage = late.render();
+    EXPECT_THROW(late.render(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
+    EXPECT_EQ(late.image().pixels, sharpImage.pixels);  // the frame before is still there
+    EXPECT_EQ(late.render(smallRequest()).pixels, whole.pixels);
+}
+
+TEST_F(SceneRendererTest, aStopThatIsAskedForEndsWithWhatThereIs) {
+    SceneRenderer renderer(smallRequest());
+    std::stop_source stop;
+    const Image early = renderer.render(
+        [&](std::string_view, std::uint64_t done, std::uint64_t) {
+            if (done == 8) stop.request_stop();
+        },
+        stop.get_token());
+    EXPECT_EQ(early.width, 96);
+    EXPECT_EQ(renderer.samples(), 8u);
+    EXPECT_EQ(renderer.render({}, stop.get_token()).width, 96);
+    EXPECT_EQ(renderer.samples(), 4u);
+}
+
+TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
+    SceneRenderer renderer(smallRequest());
+    EXPECT_THROW(static_cast<void>(renderer.image()), Error);
+    EXPECT_THROW(renderer.advance(), Error);
+    EXPECT_THROW(static_cast<void>(renderer.aovs()), Error);
+    EXPECT_THROW(static_cast<void>(renderer.planJson()), Error);
+    renderer.start();
+    EXPECT_THROW(static_cast<void>(renderer.image()), Error);  // no sample yet
+    const Image whole = renderer.render();
+
+    std::vector<Request> bad(5, smallRequest());
+    bad[0].fishCount = 3;  // another scene
+    bad[1].camera = "none such";
+    bad[2].settings.sampleCount = 0;
+    bad[3].environment = folder_ / "missing.hdr";
+    bad[4].nodeBlur["none such"] = 1;
+    for (const Request& request : bad) EXPECT_THROW(renderer.start(request), Error);
+    EXPECT_EQ(renderer.image().pixels, whole.pixels);
+    EXPECT_THROW(SceneRenderer(SceneHandle(), smallRequest()), UsageError);
+}
+
+TEST_F(SceneRendererTest, aSceneIsSharedAndNobodyChangesIt) {
+    const SceneHandle school = schoolOfFish(2, 2'000);
+    const std::string fish = sceneInfo(*school).nodes.front();
+    const Image plain = render(smallRequest());
+    Request sharp = smallRequest();
+    for (const std::string& name : sceneInfo(*school).nodes)
+        if (!name.empty()) sharp.nodeBlur[name] = 0;
+    SceneRenderer first(school, sharp);
+    SceneRenderer second(school, smallRequest());
+    EXPECT_EQ(first.scene(), school);
+    const Image sharpImage = first.render();
+    EXPECT_NE(sharpImage.pixels, plain.pixels);
+    EXPECT_EQ(second.render().pixels, plain.pixels);
+    EXPECT_EQ(first.render(smallRequest()).pixels, plain.pixels);
+    EXPECT_EQ(first.render(sharp).pixels, sharpImage.pixels);
+}
+
+TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
+    writeTwoQuads(folder_ / "quads.gltf");
+    Request request;
+    request.scene = folder_ / "quads.gltf";
+    request.noCache = true;
+    request.width = 64;
+    request.height = 48;
+    request.settings.sampleCount = 4;
+    SceneRenderer renderer(request);
+    const Image image = renderer.render();
+    const Aovs aovs = renderer.aovs();
+    EXPECT_EQ(aovs.depth.width, 64);
+    EXPECT_EQ(aovs.depth.channels, 1);
+    // "Near" fills the column of the middle above the axis: 0.3 m at 2 m is 13 px above the centre's row.
+    EXPECT_NEAR(*aovs.depth.at(32, 11), 2, 1e-4);
+    EXPECT_EQ(*aovs.depth.at(2, 45), std::numeric_limits<float>::infinity());
+    EXPECT_EQ(*aovs.level.at(2, 45), -1);
+    EXPECT_LT(*aovs.coc.at(32, 11), *aovs.coc.at(2, 45));
+    EXPECT_EQ(nlohmann::json::parse(renderer.planJson()).at("objects").size(), 2u);
+    EXPECT_EQ(renderer.planJson(), planJson(request));
+
+    renderer.write(folder_ / "a.exr", image);
+    Metadata metadata;
+    EXPECT_EQ(readImage(folder_ / "a.exr", metadata).pixels, image.pixels);
+    EXPECT_EQ(std::get<std::string>(metadata.at("cameraLabel")), "Main");
+    EXPECT_EQ(std::get<std::string>(metadata.at("defocus:scene")), "quads.gltf");
+    EXPECT_TRUE(renderer.warnings().empty());
+}
+
+// ---- contexts and threads -----------------------------------------------------------------------------------------
+
+TEST_F(SceneRendererTest, theCallersContextIsCurrentAfterEachCall) {
+    const std::unique_ptr<GlContext> callers = createHeadlessContext();
+    const EGLContext own = eglGetCurrentContext();
+    ASSERT_NE(own, EGL_NO_CONTEXT);
+    const auto check = [&](const char* call) { EXPECT_EQ(eglGetCurrentContext(), own) << call; };
+    {
+        SceneRenderer renderer(smallRequest(), [&](auto...) { check("progress of the constructor"); });
+        check("constructor");
+        renderer.start();
+        check("start");
+        renderer.advance();
+        check("advance");
+        static_cast<void>(renderer.image());
+        check("image");
+        static_cast<void>(renderer.statistics());
+        check("statistics");
+        static_cast<void>(renderer.aovs());
+        check("aovs");
+        Request bad = smallRequest();
+        bad.camera = "none such";
+        EXPECT_THROW(renderer.start(bad), Error);
+        check("start that throws");
+        renderer.render([&](auto...) { check("progress"); });
+        check("render");
+        renderer.write(folder_ / "a.png", renderer.image());
+        check("write");
+    }
+    check("destructor");
+}
+
+TEST_F(SceneRendererTest, noContextIsCurrentWhereNoneWas) {
+    ASSERT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
+    {
+        SceneRenderer renderer(smallRequest());
+        EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
+        renderer.render();
+        EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
+    }
+    EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
+}
+
+TEST_F(SceneRendererTest, interleavedRenderersDrawWhatTheyDrawAlone) {
+    const Image one = render(smallRequest());
+    const Image other = render(movedRequest());
+    SceneRenderer first(smallRequest());
+    SceneRenderer second(movedRequest());
+    first.start();
+    second.start();
+    bool more = true;
+    while (more) {
+        const bool firstMore = first.advance();
+        more = second.advance() || firstMore;
+    }
+    EXPECT_EQ(first.image().pixels, one.pixels);
+    EXPECT_EQ(second.image().pixels, other.pixels);
+}
+
+TEST_F(SceneRendererTest, anotherThreadMayGoOn) {
+    const Image whole = render(smallRequest());
+    auto renderer = std::make_unique<SceneRenderer>(smallRequest());
+    renderer->start();
+    renderer->advance();
+    Image image;
+    std::thread([&] {
+        while (renderer->advance()) {
+        }
+        image = renderer->image();
+    }).join();
+    EXPECT_EQ(image.pixels, whole.pixels);
+    EXPECT_EQ(renderer->render().pixels, whole.pixels);
+    std::thread([&] { renderer.reset(); }).join();
+}
+
+TEST_F(SceneRendererTest, threadsMayRenderAtOnce) {
+    const Image one = render(smallRequest());
+    const Image other = render(movedRequest());
+    Image first;
+    Image second;
+    std::thread a([&] { first = render(smallRequest()); });
+    std::thread b([&] { second = render(movedRequest()); });
+    a.join();
+    b.join();
+    EXPECT_EQ(first.pixels, one.pixels);
+    EXPECT_EQ(second.pixels, other.pixels);
+}
+
+}  // namespace
+}  // namespace defocus

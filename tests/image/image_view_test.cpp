@@ -1,0 +1,63 @@
+// Pixels that lie elsewhere than in an Image are written and compared as an Image's.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "image/image.h"
+#include "scratch_folder.h"
+
+namespace defocus {
+namespace {
+
+Image gradient(int channels) {
+    Image image(9, 5, channels);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<float>(i % 23) / 22.0f;
+    return image;
+}
+
+TEST(ImageView, isAnImagesOwnPixels) {
+    const Image image = gradient(3);
+    const ImageView view = image;
+    EXPECT_EQ(view.pixels.data(), image.pixels.data());
+    EXPECT_EQ(view.at(4, 2), image.at(4, 2));
+    EXPECT_FALSE(view.empty());
+    EXPECT_TRUE(ImageView().empty());
+}
+
+TEST(ImageView, isWrittenAsAnImage) {
+    const ScratchFolder folder;
+    for (const int channels : {1, 3, 4}) {
+        const Image image = gradient(channels);
+        const std::vector<float> elsewhere = image.pixels;
+        const ImageView view(image.width, image.height, channels, elsewhere);
+        for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+            writeImage(folder / name, image);
+            const Image wanted = readImage(folder / name);
+            writeImage(folder / name, view);
+            EXPECT_EQ(readImage(folder / name).pixels, wanted.pixels) << name << ", " << channels;
+        }
+        EXPECT_EQ(elsewhere, image.pixels);
+    }
+}
+
+TEST(ImageView, isComparedAsAnImage) {
+    const Image image = gradient(4);
+    std::vector<float> elsewhere = image.pixels;
+    const ImageView view(image.width, image.height, 4, elsewhere);
+    EXPECT_EQ(compareImages(image, view).maxError, 0);
+    elsewhere[4 * (2 * 9 + 7)] += 0.5f;  // row 2, column 7
+    EXPECT_EQ(compareImages(image, view).maxErrorPixel, (Pixel{7, 2}));
+}
+
+TEST(ImageView, ofTooFewPixelsIsRefused) {
+    const ScratchFolder folder;
+    const std::vector<float> pixels(10);
+    EXPECT_NE(messageOf<Error>([&] { writeImage(folder / "a.exr", ImageView(9, 5, 1, pixels)); }), "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+    const Image whole(9, 5, 1);
+    EXPECT_NE(messageOf<Error>([&] { compareImages(whole, ImageView(9, 5, 1, pixels)); }), "");
+}
+
+}  // namespace
+}  // namespace defocus

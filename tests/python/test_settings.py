@@ -1,0 +1,180 @@
+"""Keywords and values: what the settings table has, and nothing else."""
+
+import ast
+import fractions
+import importlib.util
+import inspect
+import operator
+import pathlib
+import subprocess
+import sys
+
+import numpy
+import pytest
+
+import defocus
+from defocus import _settings
+
+
+def texts(keyword, value):
+    return list(_settings.texts(_settings.INFOS[keyword], value))
+
+
+def test_values_go_as_the_command_line_has_them():
+    assert texts("f_stop", 1.4) == ["1.4"]
+    assert texts("f_stop", numpy.float64(0.95)) == ["0.95"]
+    assert texts("f_stop", 2) == ["2"]
+    assert texts("samples", numpy.int32(64)) == ["64"]
+    assert texts("shutter", fractions.Fraction(1, 4)) == ["0.25"]
+    assert texts("shutter", "1/48") == ["1/48"]
+    assert texts("dof_enabled", False) == ["false"]
+    assert texts("loop", numpy.bool_(True)) == ["true"]
+    assert texts("lod", "off") == ["off"]
+    assert texts("environment", pathlib.Path("a b.hdr")) == ["a b.hdr"]
+    assert texts("size", (640, 480)) == ["640x480"]
+    assert texts("size", "640x480") == ["640x480"]
+    assert texts("camera_position", (0, 1.5, 3)) == ["0,1.5,3"]
+    assert texts("camera_up", numpy.array([0.0, 1.0, 0.25])) == ["0.0,1.0,0.25"]
+    assert texts("focus_pixel", (12, 34)) == ["12,34"]
+    assert texts("focus_points", ((1, 2), (3, 4), (5, 6))) == ["1,2,3,4,5,6"]
+    assert texts("node_blur", {"Fish=3": 0, "Weed": 0.5}) == ["Fish=3=0", "Weed=0.5"]
+
+
+# Every row of the table is a keyword that takes its own default.
+@pytest.mark.parametrize("setting", [s for s in defocus.settings() if s.default is not None], ids=lambda s: s.keyword)
+def test_every_setting_takes_its_default(setting):
+    defocus._settings.request_of(None, {setting.keyword: setting.default})
+
+
+def test_each_keyword_is_of_one_setting():
+    keywords = [info.keyword for info in defocus._defocus.setting_infos()]
+    assert len(keywords) == len(set(keywords)) > 50
+    far = {setting.keyword: setting for setting in defocus.settings()}["far_components"]
+    assert "circular" in far.methods and far.kind == "whole" and far.range[0] >= 1
+
+
+def test_a_setting_tells_range_and_unit():
+    rows = {setting.keyword: setting for setting in defocus.settings()}
+    assert rows["focal_length"].unit == "mm"
+    assert rows["focus_distance"].default is None
+    assert rows["samples"].range == (1, 65536)
+    assert rows["samples"].default == "64"
+    assert rows["tone_map"].choices == ("none", "aces", "agx")
+    assert rows["tone_map"].range is None
+    assert rows["f_stop"].option == "--fstop"
+
+
+def test_an_unknown_keyword_is_a_type_error_with_the_nearest():
+    with pytest.raises(defocus.UsageError) as caught:
+        defocus.plan(fstop=1.4)
+    assert str(caught.value) == "there is no setting 'fstop'; did you mean 'f_stop'?"
+    assert isinstance(caught.value, TypeError) and isinstance(caught.value, defocus.Error)
+    with pytest.raises(TypeError, match="there is no setting 'zzzzzz'; defocus.settings\\(\\) lists them"):
+        defocus.plan(zzzzzz=1)
+
+
+def test_wrong_values_say_what_the_program_says(program):
+    for keyword, option, value in [("f_stop", "--fstop", 0), ("samples", "--samples", 0), ("lod", "--lod", "of"),
+                                   ("size", "--size", "12"), ("node_blur", "--node-blur", "Fish"),
+                                   ("focus_pixel", "--focus-pixel", "1"), ("method", "--method", "circula")]:
+        with pytest.raises(defocus.UsageError) as caught:
+            defocus.plan(**{keyword: value})
+        assert isinstance(caught.value, ValueError)
+        assert str(caught.value).startswith(f"{keyword}: ")
+        rule = str(caught.value)[len(f"{keyword}: "):]
+        said = program("render", option, value).stderr
+        assert rule in said, (rule, said)
+
+
+def test_a_failure_says_what_the_program_says(program, meshes, tmp_path):
+    (tmp_path / "broken.glb").write_bytes(b"glTF but not really")
+    for scene, more, options in [(tmp_path / "missing.glb", {}, []), (tmp_path / "broken.glb", {}, []),
+                                 (meshes / "chess.glb", {"focus_node": "Kwueen"}, ["--focus-node", "Kwueen"]),
+                                 (meshes / "chess.glb", {"camera": "Left"}, ["--camera", "Left"])]:
+        with pytest.raises(defocus.Error) as caught:
+            defocus.plan(scene, **more)
+        outcome = program("plan", scene, *options)
+        assert outcome.returncode == 1
+        assert outcome.stderr == f"defocus: {caught.value}\n"
+
+
+def test_none_leaves_a_value_open(meshes):
+    plan = defocus.plan(meshes / "chess.glb", f_stop=None, camera=None, node_blur=None)
+    assert plan == defocus.plan(meshes / "chess.glb")
+    assert plan != defocus.plan(meshes / "chess.glb", f_stop=8)
+
+
+def test_the_school_has_no_file_and_a_scene_must_be_one(meshes):
+    with pytest.raises(defocus.UsageError, match="fish_count: is of the built-in school"):
+        defocus.plan(meshes / "chess.glb", fish_count=3)
+    with pytest.raises(defocus.UsageError, match="5 is neither a path nor a Scene"):
+        defocus.render(5)
+    with pytest.raises(defocus.UsageError, match="progress: 7 is not a function"):
+        defocus.render(progress=7)
+
+
+def test_help_shows_the_keywords():
+    for function in (defocus.render, defocus.progressive, defocus.plan, defocus.pyramid, defocus.Renderer):
+        assert {"f_stop", "focus_node", "far_components"} <= set(inspect.signature(function).parameters)
+    assert list(inspect.signature(defocus.render).parameters)[:2] == ["scene", "progress"]
+
+
+def test_stubs_have_the_keywords_of_the_table():
+    script = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "python_stubs.py"
+    outcome = subprocess.run([sys.executable, "-B", script, "--check"], capture_output=True, text=True, check=False)
+    assert outcome.returncode == 0, outcome.stderr
+
+
+def stub_parameters():
+    """Names of parameters by function, "render" and "Renderer.render", as the stub has them; None for classes."""
+    tree = ast.parse((pathlib.Path(defocus.__file__).parent / "__init__.pyi").read_text())
+    found = {}
+
+    def add(prefix, body):
+        for node in body:
+            if isinstance(node, ast.FunctionDef):
+                arguments = node.args
+                found[prefix + node.name] = [a.arg for a in arguments.posonlyargs + arguments.args + arguments.kwonlyargs]
+            elif isinstance(node, ast.ClassDef):
+                found[prefix + node.name] = None
+                add(node.name + ".", node.body)
+
+    add("", tree.body)
+    return found
+
+
+def own_parameters(function):
+    """Without the settings (the scene is one) and what gathers the rest."""
+    parameters = inspect.signature(function).parameters.values()
+    gathered = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+    return [p.name for p in parameters
+            if p.kind not in gathered and (function is defocus.write_image or p.name not in _settings.INFOS)]
+
+
+def test_stubs_have_each_public_name_with_its_parameters():
+    stub = stub_parameters()
+    assert set(defocus.__all__) <= set(stub)
+    compared = 0
+    for name, parameters in stub.items():
+        if name == "Keywords":
+            continue
+        member = operator.attrgetter(name)(defocus)
+        if inspect.isfunction(member):
+            assert own_parameters(member) == [p for p in parameters if p != "scene"], name
+            compared += 1
+    assert compared > 12
+
+
+def test_the_binding_uses_the_public_headers_alone():
+    source = pathlib.Path(__file__).resolve().parents[2] / "python" / "module.cpp"
+    included = [line.split('"')[1] for line in source.read_text().splitlines() if line.startswith('#include "')]
+    assert included == ["defocus/defocus.h"]
+
+
+def test_version_is_the_program_s(program):
+    assert program("--version").stdout.strip() == f"defocus {defocus.__version__}"
+
+
+def test_typed():
+    package = pathlib.Path(importlib.util.find_spec("defocus").origin).parent
+    assert (package / "py.typed").exists()
