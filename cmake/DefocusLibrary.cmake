@@ -22,7 +22,7 @@ function(defocus_library TARGET KIND)
                                                    "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>"
                                                    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
     target_compile_features(${TARGET} INTERFACE cxx_std_20)
-    set(DEPENDENCIES OpenImageIO::OpenImageIO fmt::fmt TinyGLTF::TinyGLTF draco::draco meshoptimizer::meshoptimizer
+    set(DEPENDENCIES OpenImageIO::OpenImageIO fmt::fmt TBB::tbb draco::draco meshoptimizer::meshoptimizer
                      PkgConfig::stb PkgConfig::epoxy PkgConfig::egl Threads::Threads)
     if(KIND STREQUAL "SHARED")  # whoever links it needs none of them
         list(TRANSFORM DEPENDENCIES REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
@@ -60,7 +60,7 @@ function(defocus_install_library TARGET KIND IN_ALL)
     file(RELATIVE_PATH PREFIX_FROM_PC "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
     set(PRIVATE_LIBRARIES "")
     if(KIND STREQUAL "STATIC")
-        set(PRIVATE_LIBRARIES "Requires.private: OpenImageIO fmt tinygltf draco stb epoxy egl\nLibs.private: -lmeshoptimizer -pthread\n")
+        set(PRIVATE_LIBRARIES "Requires.private: OpenImageIO fmt tbb draco stb epoxy egl\nLibs.private: -lmeshoptimizer -pthread\n")
     endif()
     configure_file("${PROJECT_SOURCE_DIR}/cmake/defocus.pc.in" "${GENERATED}/defocus.pc" @ONLY)
     install(FILES "${GENERATED}/defocus.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" ${RULE})
