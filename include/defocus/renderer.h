@@ -82,7 +82,7 @@ public:
     [[nodiscard]] SceneHandle scene() const;
 
 private:
-    class State;
+    class DEFOCUS_HIDDEN State;
     std::unique_ptr<State> state_;
 };
 
