@@ -36,7 +36,7 @@ SettingInfo infoOf(const MethodSetting& setting) {
     info.kind = !setting.choices.empty() ? SettingKind::choice
                 : setting.whole          ? SettingKind::whole
                                          : SettingKind::number;
-    info.metavar = setting.whole ? "N" : "R";
+    info.metavar.assign(1, setting.whole ? 'N' : 'R');
     info.least = setting.least;
     info.most = setting.most;
     info.choices = setting.choices;
