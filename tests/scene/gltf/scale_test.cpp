@@ -14,7 +14,7 @@
 namespace defocus {
 namespace {
 
-std::string errorOf(const GltfBuilder& builder) {
+std::string faultOf(const GltfBuilder& builder) {
     return messageOf<Error>([&] { (void)builder.load(); });
 }
 
@@ -95,9 +95,9 @@ TEST(UnpackBudget, instancesAreObjects) {
     builder.mesh(
         {{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}}},
         {{"name", "Herd"}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
-    EXPECT_NE(errorOf(builder).find("objects of node 'Herd': 400000 elements are far more than a file of"),
+    EXPECT_NE(faultOf(builder).find("objects of node 'Herd': 400000 elements are far more than a file of"),
               std::string::npos)
-        << errorOf(builder);
+        << faultOf(builder);
 }
 
 TEST(UnpackBudget, skinsTakeTheirJointsForEachNode) {
@@ -112,8 +112,8 @@ TEST(UnpackBudget, skinsTakeTheirJointsForEachNode) {
     nlohmann::json all;
     for (int i = 0; i < count; ++i) all.push_back(i);
     builder.json["skins"] = {{{"joints", all}}};
-    EXPECT_NE(errorOf(builder).find("joints of node '': 3000 elements are far more"), std::string::npos)
-        << errorOf(builder);
+    EXPECT_NE(faultOf(builder).find("joints of node '': 3000 elements are far more"), std::string::npos)
+        << faultOf(builder);
 }
 
 TEST(UnpackBudget, morphWeightsAreOfEachNode) {
@@ -122,8 +122,8 @@ TEST(UnpackBudget, morphWeightsAreOfEachNode) {
     nlohmann::json::array_t targets(count, nlohmann::json::object());
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}}}, {"targets", std::move(targets)}}});
     for (int i = 1; i < count; ++i) builder.add("nodes", {{"mesh", 0}});
-    EXPECT_NE(errorOf(builder).find("morph weights of node '': 6000 elements are far more"), std::string::npos)
-        << errorOf(builder);
+    EXPECT_NE(faultOf(builder).find("morph weights of node '': 6000 elements are far more"), std::string::npos)
+        << faultOf(builder);
 }
 
 }  // namespace
