@@ -57,7 +57,6 @@ Candidate QuadricModule::cheapest(VertexHandle v) {
     forEachSpoke(surface, v, [&](HalfedgeHandle spoke) {
         const VertexHandle to = surface.to_vertex_handle(spoke);
         __builtin_prefetch(&surface.data(to));
-        __builtin_prefetch(&surface.point(to));
         const HalfedgeHandle atTo =
             surface.is_boundary(spoke) ? surface.opposite_halfedge_handle(spoke) : surface.next_halfedge_handle(spoke);
         surface.wedges.prefetchStart(surface.wedge(atTo));

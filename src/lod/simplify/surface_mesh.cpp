@@ -58,6 +58,7 @@ void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet& t
         else
             halfedges[h] = SurfaceMesh::s_halfedge_handle(EdgeHandle(edges++), 0);
     }
+    if (edges == 0) return;
     mesh.resize(manifold.positions.size(), static_cast<std::size_t>(edges), manifold.faces.size());
 
     const std::vector<std::uint32_t> primitives = primitivesOf(triangles);
@@ -102,6 +103,7 @@ std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, std::vector<VertexHan
     auto copy = std::make_unique<SurfaceMesh>();
     copy->frame = mesh.frame;
     copy->wedges = std::move(mesh.wedges);
+    if (edgeCount == 0) return copy;
     copy->resize(vertexCount, edgeCount, faceCount);
     forEachVertex(mesh, [&](VertexHandle v) {
         copy->set_point(vertexNumber(v), mesh.point(v));

@@ -72,12 +72,35 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
     };
 };
 
-struct SurfaceMesh : OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits> {
+class SurfaceMesh : public OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits> {
+public:
     Frame frame;
     WedgeTable wedges;
 
+    SurfaceMesh() = default;
+    SurfaceMesh(const SurfaceMesh&) = delete;
+    SurfaceMesh& operator=(const SurfaceMesh&) = delete;
+
+    // Makes so many items (at least one each); the only way to make any.
+    void resize(std::size_t vertexCount, std::size_t edgeCount, std::size_t faceCount) {
+        using Kernel = OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits>;
+        Kernel::resize(vertexCount, edgeCount, faceCount);
+        vertexData_ = &Kernel::data(VertexHandle(0));
+        halfedgeData_ = &Kernel::data(HalfedgeHandle(0));
+        faceData_ = &Kernel::data(FaceHandle(0));
+        positions_ = points();
+    }
+
+    // At each access OpenMesh looks for the property's array first; here it is known.
+    [[nodiscard]] VertexData& data(VertexHandle v) { return vertexData_[v.idx()]; }
+    [[nodiscard]] const VertexData& data(VertexHandle v) const { return vertexData_[v.idx()]; }
+    [[nodiscard]] HalfedgeData& data(HalfedgeHandle h) { return halfedgeData_[h.idx()]; }
+    [[nodiscard]] const HalfedgeData& data(HalfedgeHandle h) const { return halfedgeData_[h.idx()]; }
+    [[nodiscard]] FaceData& data(FaceHandle f) { return faceData_[f.idx()]; }
+    [[nodiscard]] const FaceData& data(FaceHandle f) const { return faceData_[f.idx()]; }
+
     [[nodiscard]] glm::vec3 position(VertexHandle v) const {
-        const Point& p = point(v);
+        const Point& p = positions_[v.idx()];
         return {p[0], p[1], p[2]};
     }
     [[nodiscard]] glm::dvec3 place(VertexHandle v) const { return frame.point(position(v)); }
@@ -90,6 +113,12 @@ struct SurfaceMesh : OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits> {
     [[nodiscard]] bool isAlive(Handle item) const {
         return !status(item).deleted();
     }
+
+private:
+    VertexData* vertexData_ = nullptr;
+    HalfedgeData* halfedgeData_ = nullptr;
+    FaceData* faceData_ = nullptr;
+    const Point* positions_ = nullptr;
 };
 
 // What judges, prices and follows collapses.
