@@ -137,7 +137,7 @@ void forEachSpoke(const SurfaceMesh& mesh, VertexHandle v, const Visit& visit) {
     } while (spoke != last);
 }
 
-// The same for what lives.
+// Calls visit(handle) for every face, or every vertex, that lives, in the order of their numbers.
 template <typename Visit>
 void forEachFace(const SurfaceMesh& mesh, const Visit& visit) {
     for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f)

@@ -85,7 +85,8 @@ TEST(SurfaceMesh, holdsTwoEdgesBetweenTwoVertices) {
 
 TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
     DrawnSurface surface = drawn(flatGrid(4));
-    for (const auto& [from, to] : {std::pair{6u, 7u}, {16u, 11u}, {0u, 1u}}) {
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>> collapses = {{6, 7}, {16, 11}, {0, 1}};
+    for (const auto& [from, to] : collapses) {
         ASSERT_TRUE(surface.modules().shape.keepsTopology(surface.edge(from, to)));
         surface.collapse(from, to);
         expectLinked(surface.mesh());
