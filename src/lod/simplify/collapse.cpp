@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/memory.h"
 #include "lod/simplify/state.h"
 
 namespace defocus {
 
-Fit judgeCollapse(Simplifier& s, HalfedgeHandle along) {
-    CollapseModules& modules = *s.modules;
-    if (!modules.shape.keepsTopology(along)) return Fit::impossible;
-    return std::max(modules.wedges.judge(along), modules.shape.judge(along));
+Fit judgeFaces(Simplifier& s, HalfedgeHandle along) {
+    const Fit shape = s.modules->shape.judge(along);
+    return shape == Fit::bad ? shape : std::max(shape, s.modules->wedges.judge(along));
+}
+
+Fit judgeCollapse(Simplifier& s, HalfedgeHandle along, Fit worst) {
+    const Fit fit = judgeFaces(s, along);
+    return fit <= worst && !s.modules->shape.keepsTopology(along) ? Fit::impossible : fit;
 }
 
 void collapseEdge(Simplifier& s, HalfedgeHandle along) {
@@ -39,6 +44,7 @@ void compact(Simplifier& s) {
     s.modules.reset();
     s.mesh = std::move(living);
     s.modules.emplace(*s.mesh);
+    if (numbers.size() >= fewestToGiveBack) giveBackFreedMemory();
     s.survivors.resize(s.mesh->n_vertices());
     s.survivors.shrink_to_fit();
     for (std::size_t v = 0; v < s.survivors.size(); ++v) s.survivors[v] = VertexHandle(static_cast<int>(v));

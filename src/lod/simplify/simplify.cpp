@@ -60,16 +60,17 @@ void enqueueCheapest(Simplifier& s, VertexHandle v) {
     enqueue(s, v, s.modules->quadrics.cheapest(v));
 }
 
-// Puts the vertex's best collapse into the queue, all of them judged; nothing if none is possible.
+// Puts the vertex's best collapse of those that are allowed into the queue; nothing if none is possible.
 void enqueueBest(Simplifier& s, VertexHandle v) {
     Candidate best;
     best.fit = Fit::impossible;
     forEachSpoke(*s.mesh, v, [&](HalfedgeHandle spoke) {
-        const Fit fit = judgeCollapse(s, spoke);
-        if (fit == Fit::impossible || (fit == Fit::bad && best.fit < Fit::bad)) return;
+        const Fit fit = judgeFaces(s, spoke);
+        if (fit == Fit::bad && best.fit < Fit::bad) return;
         const float cost = s.modules->quadrics.cost(spoke, std::numeric_limits<float>::infinity()) *
                            (fit == Fit::poor ? poorPenalty : 1);
         if (!(cost < best.cost) && (fit == Fit::bad || best.fit < Fit::bad)) return;
+        if (!s.modules->shape.keepsTopology(spoke)) return;
         best = {spoke, cost, fit};
     });
     enqueue(s, v, best);
@@ -155,7 +156,7 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
             enqueueCheapest(s, v);
             continue;
         }
-        if (judgeCollapse(s, candidate.along) > candidate.fit) {
+        if (judgeCollapse(s, candidate.along, candidate.fit) > candidate.fit) {
             enqueueBest(s, v);
             continue;
         }
@@ -195,7 +196,7 @@ bool sweep(Simplifier& s, std::size_t target, float most) {
         if (!ready()) continue;
         if (candidate.outdated) enqueueCheapest(s, v);
         while (ready()) {
-            if (judgeCollapse(s, candidate.along) > candidate.fit) {
+            if (judgeCollapse(s, candidate.along, candidate.fit) > candidate.fit) {
                 enqueueBest(s, v);
                 continue;
             }

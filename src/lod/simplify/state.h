@@ -82,9 +82,12 @@ struct Simplifier {
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const Welded& positions,
                        std::span<const std::uint32_t> smoothing, const TriangleSet& triangles);
 
-// collapse.cpp: how good the collapse along a half-edge is.
-Fit judgeCollapse(Simplifier& s, HalfedgeHandle along);
-// Collapses along the half-edge, which has been judged last, and tells the modules.
+// collapse.cpp: how the faces around take the collapse along a half-edge, and their wedges.
+Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
+// The same, but impossible where the topology forbids it. That is looked at last, and only where the collapse is no
+// worse than `worst`: Debian's OpenMesh is built with assertions, which make is_collapse_ok dear.
+Fit judgeCollapse(Simplifier& s, HalfedgeHandle along, Fit worst);
+// Collapses along the half-edge, which the topology must allow, and tells the modules.
 void collapseEdge(Simplifier& s, HalfedgeHandle along);
 // The vertex that `v` is or has collapsed onto; invalid if that was taken out.
 VertexHandle survivorOf(Simplifier& s, VertexHandle v);
