@@ -68,6 +68,7 @@ Fit ShapeModule::judge(HalfedgeHandle along) {
     const glm::dvec3 target = surface.place(surface.to_vertex_handle(along));
     forEachSpoke(surface, from, [&](HalfedgeHandle spoke) {
         const FaceHandle face = surface.face_handle(spoke);
+        __builtin_prefetch(&surface.data(surface.to_vertex_handle(spoke)));  // it is priced anew after a collapse
         if (worst == Fit::bad || !face.is_valid()) return;
         if (face == surface.face_handle(along) || face == surface.face_handle(back)) return;
         const glm::dvec3 b = surface.place(surface.to_vertex_handle(spoke));

@@ -142,6 +142,11 @@ Fit WedgeModule::judge(HalfedgeHandle along) {
     handovers_.clear();
     judged_ = along;
     const Sides sides = sidesOf(surface, along);
+    for (const EdgeSide& side : sides.both) {
+        if (!side.face.is_valid()) continue;
+        surface.wedges.prefetch(side.from);  // the collapse that may follow adds them up
+        surface.wedges.prefetch(side.to);
+    }
     Fit worst = Fit::good;
     Choice choice;
     WedgeNumber lastWedge;
