@@ -1,5 +1,5 @@
 #pragma once
-// The disk cache of pyramids: one file a mesh, named after its key (pyramid_file.h). Several processes may use a folder
+// The disk cache of pyramids: one file a mesh, named after its key (file.h). Several processes may use a folder
 // at once. Whatever is wrong with a file is a miss, and the pyramid is built again and replaces it.
 
 #include <cstdint>
@@ -22,17 +22,17 @@ struct CachedPyramids {
     std::string failure;            // why a built one wasn't stored; empty where nothing went wrong
 };
 
-// As buildPyramids, but takes from `folder` what it holds and stores there what it doesn't; an empty `folder`: no
-// cache. The folder is made where it is missing. A pyramid that can't be stored is no fault; after the first, no other
-// is tried. Meshes that are too small to be simplified are not stored.
+// Does what buildPyramids does, but takes from `folder` the pyramids that it holds and stores there those that it
+// doesn't; with an empty `folder` there is no cache. A missing folder is made. A pyramid that can't be stored is no
+// fault; after the first, no other is tried. Meshes that are too small to be simplified are not stored.
 CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const std::filesystem::path& folder,
                               const PyramidOptions& options = {}, const Progress& progress = {});
 
-// One pyramid; nothing where the folder doesn't have it (whole and sound).
+// Loads one pyramid; nothing where the folder doesn't have it whole and sound.
 std::optional<Pyramid> loadPyramid(const Mesh& mesh, const std::filesystem::path& folder,
                                    const PyramidOptions& options = {});
 
-// Throws Error where it can't be written, and std::bad_alloc; no half file stays.
+// Stores one pyramid. Throws Error where it can't be written, and std::bad_alloc; no half file stays.
 void storePyramid(const Pyramid& pyramid, const Mesh& mesh, const std::filesystem::path& folder,
                   const PyramidOptions& options = {});
 
@@ -44,11 +44,11 @@ struct CacheFile {
     bool pending = false;         // being written, or left by a process that was killed
 };
 
-// Those files of `folder` that the cache wrote, told by name and first bytes, newest first; none where there is no such
-// folder. Throws Error where the folder can't be read.
+// Lists the files of `folder` that the cache wrote, told by name and first bytes, newest first; none where there is no
+// such folder. Throws Error where the folder can't be read.
 std::vector<CacheFile> cacheFiles(const std::filesystem::path& folder);
 
-// Removes them and returns them. Throws Error for one that can't be removed.
+// Removes those files and returns them. Throws Error for one that can't be removed.
 std::vector<CacheFile> clearCache(const std::filesystem::path& folder);
 
 }  // namespace defocus

@@ -118,7 +118,7 @@ void clusterPrimitive(std::span<std::uint32_t> indices, const std::vector<glm::v
 
 }  // namespace
 
-std::vector<Cluster> clusterTriangles(LevelTriangles& level, const std::vector<glm::vec3>& positions,
+std::vector<Cluster> clusterTriangles(TriangleSet& level, const std::vector<glm::vec3>& positions,
                                       std::span<const std::uint32_t> places, std::size_t placeCount) {
     std::vector<Cluster> result;
     result.reserve(level.indices.size() / (3 * mostClusterTriangles) + level.primitiveIndexCounts.size());

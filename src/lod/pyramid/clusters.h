@@ -32,7 +32,7 @@ inline constexpr std::uint32_t mostClusterTriangles = 64;
 // from neighbour to neighbour. `positions` are by the level's vertex numbers, and so are `places`, below `placeCount`:
 // vertices at one place have one position. The clusters' ranges count from the level's first index and follow each
 // other over all of it. Deterministic.
-std::vector<Cluster> clusterTriangles(LevelTriangles& level, const std::vector<glm::vec3>& positions,
+std::vector<Cluster> clusterTriangles(TriangleSet& level, const std::vector<glm::vec3>& positions,
                                       std::span<const std::uint32_t> places, std::size_t placeCount);
 
 }  // namespace defocus

@@ -17,7 +17,7 @@
 
 namespace defocus {
 
-// Of every vertex stream, every primitive's indices and the morph targets.
+// A hash of every vertex stream, every primitive's indices and the morph targets.
 std::uint64_t meshHash(const Mesh& mesh);
 
 // What a pyramid depends on.
@@ -30,7 +30,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
-    // Of the format. What buildPyramid makes of a mesh is in the key: see pyramidKey.
+    // It changes with the format alone. What buildPyramid makes of a mesh is in the key: see pyramidKey.
     static constexpr std::uint32_t expectedVersion = 3;
 
     std::uint64_t magic = expectedMagic;
@@ -64,12 +64,12 @@ struct PyramidFileLevel {
 // `pyramid` is what buildPyramid made of `mesh`.
 std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key);
 
-// Equal to what was encoded, bit for bit; nothing where `bytes` aren't a whole and sound file for this mesh and key.
+// Returns what was encoded, bit for bit; nothing where `bytes` aren't a whole and sound file for this mesh and key.
 // Whatever the bytes are: no index of the result is out of range, and no more memory is asked for than some 40 times
 // theirs.
 std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mesh& mesh, const PyramidKey& key);
 
-// The header alone, of any key and version; nothing where `bytes` are too short or of another kind.
+// Reads the header alone, of any key and version; nothing where `bytes` are too short or of another kind.
 std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes);
 
 }  // namespace defocus

@@ -16,28 +16,28 @@ struct LodThresholds {
     double size = 0;  // kSize: least target in px
 };
 
-// What is given, the rest by defaultThresholds.
+// Takes the thresholds that are given, and the rest from defaultThresholds.
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount);
 
-// Defaults that follow the number of samples N: (64/N)^(2/3) times the thresholds at N = 64, for `blur` at most twice
-// those (N ≤ 22), for `size` no more than those: few samples don't blur what is in focus. At N = 64 they are as coarse
-// as 42 dB from full detail allow on the built-in school at 1024 × 768. The levels' error grows as threshold^1.3, Sobol
-// points err as N^(−0.65): the levels' error is 0.9 to 1.6 times the sampling error up to N = 32, where trading samples
-// for finer levels gains nothing, 2.4 times at 64 and less and less beyond, and both vanish as N grows (school of fish,
-// 512 × 384: bench/results/llvmpipe-thresholds.txt).
+// The defaults follow the number of samples N: they are (64/N)^(2/3) times the thresholds at N = 64, for `blur` at most
+// twice those (N ≤ 22), for `size` no more than those: few samples don't blur what is in focus. At N = 64 they are as
+// coarse as 42 dB from full detail allow on the built-in school at 1024 × 768. The levels' error grows as
+// threshold^1.3, Sobol points err as N^(−0.65): the levels' error is 0.9 to 1.6 times the sampling error up to N = 32,
+// where trading samples for finer levels gains nothing, 2.4 times at 64 and less and less beyond, and both vanish as N
+// grows (school of fish, 512 × 384: bench/results/llvmpipe-thresholds.txt).
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 struct LevelQuery {
-    double pixelsPerUnit =
-        0;           // projected px per object unit at the nearest depth: largestScale · W / (2 tan(θx/2) · z)
+    // Projected px per object unit at the nearest depth: largestScale · W / (2 tan(θx/2) · z).
+    double pixelsPerUnit = 0;
     double coc = 0;  // CoC diameter the object may rely on, px, ≥ 0
 };
 
-// λ in [0, levels − 1], continuous in the query; τ = max(blur·c, size).
+// Chooses λ in [0, levels − 1], continuous in the query; τ = max(blur·c, size).
 //   size:  λ is where the stored mean edges, interpolated in their logarithm, project to τ.
 //   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]) between the stored errors projected to px.
-// A size of the projection that is no number, negative or infinite gives λ = 0; 0 px (a point) gives the coarsest
-// level.
+// A projection of negative or infinite size, or of none that is a number, gives λ = 0; one of 0 px (a point) gives the
+// coarsest level.
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds);
 

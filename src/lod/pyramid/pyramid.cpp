@@ -42,8 +42,8 @@ constexpr std::size_t mostPossibleLevels = 128;  // each leaves three quarters o
 constexpr double mostSpread = 2;                 // of numbers, in square roots of the vertices' count
 constexpr std::uint32_t unfitted = 0xffffffffu;
 
-LevelTriangles allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertexIds) {
-    LevelTriangles level;
+TriangleSet allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertexIds) {
+    TriangleSet level;
     level.indices.reserve(3 * mesh.triangleCount());
     for (const Primitive& primitive : mesh.primitives) {
         const std::size_t count = primitive.indices.size() / 3 * 3;
@@ -82,7 +82,7 @@ void measureEdges(PyramidLevel& level, const std::vector<std::uint32_t>& indices
 }
 
 // Appends a level's ranges and indices; `triangles` are in final vertex numbers.
-PyramidLevel appendLevel(Pyramid& pyramid, const LevelTriangles& triangles, std::vector<Cluster> clusters,
+PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet& triangles, std::vector<Cluster> clusters,
                          std::uint32_t vertexCount) {
     PyramidLevel level;
     level.clusters = std::move(clusters);
@@ -126,7 +126,7 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
 
 // Whether triangles that follow each other, and their corners, have numbers far apart, so that caches are of little
 // help: on a grid in rows they are √n apart.
-bool isScattered(const LevelTriangles& triangles, std::size_t vertexCount) {
+bool isScattered(const TriangleSet& triangles, std::size_t vertexCount) {
     const std::vector<std::uint32_t>& v = triangles.indices;
     const auto apart = [](std::uint32_t a, std::uint32_t b) { return a < b ? b - a : a - b; };
     std::uint64_t sum = 0;
@@ -150,7 +150,7 @@ void sortSpatially(Welded& unique, const std::vector<glm::vec3>& positions) {
     unique.first = std::move(first);
 }
 
-void sortSpatially(LevelTriangles& triangles) {
+void sortSpatially(TriangleSet& triangles) {
     std::size_t first = 0;
     std::vector<std::array<std::uint32_t, 4>> sorted;  // the triangle, after the place that it is sorted by
     for (const std::uint32_t count : triangles.primitiveIndexCounts) {
@@ -167,7 +167,7 @@ void sortSpatially(LevelTriangles& triangles) {
 
 // A level until its vertices are in their final order.
 struct FittedLevel {
-    LevelTriangles triangles;            // first in numbers of its own vertices, then in those of `numbers`
+    TriangleSet triangles;            // first in numbers of its own vertices, then in those of `numbers`
     std::vector<std::uint32_t> numbers;  // of its vertices, see SimplifiedLevel
     LevelFit fit;                        // of the same
     std::vector<Cluster> clusters;
@@ -180,7 +180,7 @@ FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     result.fit = fitLevel(source, level.mesh, std::move(level.anchors));
     growComponents(result.fit.positions, level, source.bounds);
     result.removed = std::move(level.removed);
-    result.triangles = {std::move(level.mesh.indices), std::move(level.primitiveIndexCounts)};
+    result.triangles = std::move(level.mesh.triangles);
     result.numbers = std::move(level.numbers);
     return result;
 }
@@ -291,7 +291,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     }
 
     // Order vertices by survival.
-    std::vector<LevelTriangles> triangles;
+    std::vector<TriangleSet> triangles;
     triangles.reserve(levels.size());
     for (FittedLevel& level : levels) triangles.push_back(std::move(level.triangles));
     const SurvivalOrder order = sortBySurvival(triangles, positions);

@@ -23,15 +23,16 @@ struct PyramidLevel {
     std::uint32_t vertexCount = 0;       // the prefix of the vertex buffer that the level uses
     std::uint32_t triangleCount = 0;
     std::vector<Cluster> clusters;  // their ranges follow each other over those of the primitives
-    // Fitted to level 0 (there: the mesh's own), inside its bounds; vertices at one position stay at one. Normals have
-    // a length of at most 1: the shorter, the more the normals that they stand for differ, and the less light a matt
-    // surface throws back.
+    // These are fitted to level 0 (there: the mesh's own) and lie inside its bounds; vertices at one position stay at
+    // one. Normals have a length of at most 1: the shorter one is, the more the normals that it stands for differ, and
+    // the less light a matt surface throws back.
     std::vector<glm::vec3> positions;  // vertexCount
     std::vector<glm::vec3> normals;    // vertexCount
     std::vector<glm::u8vec4> colors;   // vertexCount; empty without colours
 
-    // Object units. Mean of all faces' edge lengths (an edge counts once a face), raised where needed so that it grows
-    // by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew them.
+    // Object units. The mean of all faces' edge lengths (an edge counts once a face), raised where needed so that it
+    // grows by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew
+    // them.
     double meanEdge = 0;
     double longestEdge = 0;  // object units
 
@@ -52,7 +53,7 @@ struct Pyramid {
     Bounds bounds;                       // object units; of level 0's triangles
     std::vector<Bounds> jointBounds;     // object units; of what each joint moves, at any level; empty without joints
     std::vector<Bounds> morphBounds;     // object units; of each morph target's displacements and 0
-    std::uint32_t repairedFaces = 0;     // faces that half-edges can't hold as they are; see manifold.h
+    std::uint32_t repairedFaces = 0;     // how many faces half-edges can't hold as they are; see manifold.h
     PyramidEnd end = PyramidEnd::mostLevels;
 };
 
@@ -61,22 +62,22 @@ struct PyramidOptions {
     int mostLevels = 24;                // level 0 included
 };
 
-// Deterministic: same mesh, same pyramid, bit for bit. Level 0 keeps every triangle of the mesh. Levels end where a
-// further one would save less than a quarter of the triangles. Throws Error for an index beyond the vertices.
-// `helpers`: threads that fit and measure levels while the caller's goes on collapsing.
+// Builds a mesh's pyramid. Deterministic: same mesh, same pyramid, bit for bit. Level 0 keeps every triangle of the
+// mesh. Levels end where a further one would save less than a quarter of the triangles. Throws Error for an index
+// beyond the vertices. `helpers`: threads that fit and measure levels while the caller's goes on collapsing.
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0);
 
-// Helpers for one of `meshes` that are built at once: its share of the cores, by triangles.
+// How many helpers one of `meshes` gets that are built at once: its share of the cores, by triangles.
 std::size_t pyramidHelpers(const Mesh& mesh, std::span<const Mesh> meshes);
 
-// One pyramid a mesh, built on all cores.
+// Builds one pyramid a mesh, on all cores.
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},
                                    const Progress& progress = {});
 
 // Fills jointBounds and morphBounds from the rest of the pyramid and the mesh that it was made from.
 void measureDeformations(Pyramid& pyramid, const Mesh& mesh);
 
-// Only level 0, for renders that use no other; vertex and index order are optimised all the same.
+// Builds level 0 alone, for renders that use no other; vertex and index order are optimised all the same.
 Pyramid fullDetail(const Mesh& mesh);
 
 }  // namespace defocus

@@ -27,7 +27,7 @@ struct BoxNode {
     Four maximum[3];
 };
 
-// Made by prepareSurface, then only read (from any number of threads).
+// prepareSurface makes one; from then on it is only read, by any number of threads.
 struct Surface {
     LargeVector<std::array<glm::vec3, 3>> triangles;  // sorted along a Morton curve: neighbours are near in space
     LargeVector<double> areas;                        // of the triangles up to and with each one
@@ -43,15 +43,16 @@ struct Surface {
 // `indices` are three a triangle (a rest of one or two is passed over), all below positions.size().
 Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
-// From `point` (finite) to the closest point of the surface; infinite for an empty one.
+// The distance from `point` (finite) to the closest point of the surface; infinite for an empty surface.
 double distanceTo(const Surface& surface, const glm::dvec3& point);
 
-// Distances to `to` from `count` points of `from`, each of which stands for an equal share of its area: one a stratum
-// of the running area, within its triangle by the R2 sequence. None where `from` is empty.
+// The distances to `to` from `count` points of `from`, each of which stands for an equal share of its area: there is
+// one point in each stratum of the running area, placed within its triangle by the R2 sequence. None where `from` is
+// empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 
-// The `rank`-th largest (from 1) of what sampleDistances would return, or `least` if that is larger: without looking
-// for the closest point where one that is near enough is found. `least` if there are fewer.
+// The `rank`-th largest (from 1) of what sampleDistances would return, or `least` if that is larger or there are fewer.
+// It doesn't look for the closest point where one that is near enough is found.
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double least);
 
 struct Distances {
@@ -66,8 +67,8 @@ struct SurfaceDistance {
     Distances both;      // the larger of the two, figure by figure, as the two-sided Hausdorff distance is
 };
 
-// From `count` points on each. The mean's error falls with about 1 / count; the maximum is of these points only, a
-// lower bound of the Hausdorff distance.
+// Measures from `count` points on each surface. The mean's error falls with about 1 / count; the maximum is of these
+// points only, a lower bound of the Hausdorff distance.
 SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count);
 
 }  // namespace defocus

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t mostSteps = 12;  // vertices whose faces are looked at, on the way to the closest face
 constexpr double noDistance = 1e-24;   // squared, where the mesh is about 1 wide: rounding
 constexpr double leastUpright = 0.99;  // squared cosine of the angle between a face's normal and the way straight up
-constexpr std::uint32_t noFace = 0xffffffffu;
+constexpr std::uint32_t noCorner = 0xffffffffu;
 // Of the vertices that have collapsed onto one, at least so many are looked for: each second, fourth … of more.
 constexpr std::uint32_t enoughAnchors = 16;
 
@@ -30,25 +30,26 @@ struct FaceRings {
     std::vector<std::uint32_t> first;  // of each vertex, into `corners`
     std::vector<std::uint32_t> corners;
 
-    [[nodiscard]] std::span<const std::uint32_t> around(std::uint32_t v) const {
-        return std::span(corners).subspan(first[v], first[v + 1] - first[v]);
+    [[nodiscard]] std::span<const std::uint32_t> around(VertexHandle v) const {
+        return std::span(corners).subspan(first[indexOf(v)], first[indexOf(v) + 1] - first[indexOf(v)]);
     }
-    [[nodiscard]] const glm::dvec3& point(std::size_t corner) const { return points[level.corners[corner]]; }
+    [[nodiscard]] const glm::dvec3& point(VertexHandle v) const { return points[indexOf(v)]; }
+    [[nodiscard]] const glm::dvec3& point(std::size_t corner) const { return point(level.corners[corner]); }
 };
 
 FaceRings faceRings(const Snapshot& level, const Frame& frame) {
     FaceRings rings{level, {}, {}, {}, {}};
     rings.points.reserve(level.positions.size());
     for (const glm::vec3& position : level.positions) rings.points.push_back(frame.point(position));
-    const std::vector<std::uint32_t>& corners = level.corners;
+    const std::vector<VertexHandle>& corners = level.corners;
     rings.first.assign(level.positions.size() + 1, 0);
-    for (const std::uint32_t v : corners) ++rings.first[v + 1];
+    for (const VertexHandle v : corners) ++rings.first[indexOf(v) + 1];
     std::partial_sum(rings.first.begin(), rings.first.end(), rings.first.begin());
     rings.corners.resize(corners.size());
     std::vector<std::uint32_t> next(rings.first.begin(), rings.first.end() - 1);
     rings.normals.reserve(corners.size() / 3);
     for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-        rings.corners[next[corners[corner]]++] = static_cast<std::uint32_t>(corner);
+        rings.corners[next[indexOf(corners[corner])]++] = static_cast<std::uint32_t>(corner);
         if (corner % 3 != 0) continue;
         const glm::dvec3& a = rings.point(corner);
         rings.normals.push_back(glm::cross(rings.point(corner + 1) - a, rings.point(corner + 2) - a));
@@ -58,17 +59,17 @@ FaceRings faceRings(const Snapshot& level, const Frame& frame) {
 
 struct Closest {
     double squaredDistance = 0;
-    std::uint32_t corner = Corner::none;  // of the face; none: the vertex itself is the closest point
-    glm::dvec2 along{0};                  // see closestCoordinates; from the corner to the next and the previous one
+    std::uint32_t corner = noCorner;  // of the face; none: the vertex itself is the closest point
+    glm::dvec2 along{0};              // see closestCoordinates; from the corner to the next and the previous one
 };
 
-// The corner of `face` nearest to `p` that isn't among `seen`; noFace if all are.
-std::uint32_t nearestUnseen(const FaceRings& rings, std::uint32_t face, const glm::dvec3& p,
-                            std::span<const std::uint32_t> seen) {
-    std::uint32_t nearest = noFace;
+// The corner of `face` nearest to `p` that isn't among `seen`; invalid if all are.
+VertexHandle nearestUnseen(const FaceRings& rings, std::uint32_t face, const glm::dvec3& p,
+                           std::span<const VertexHandle> seen) {
+    VertexHandle nearest;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t corner = 3 * std::size_t{face}; corner < 3 * std::size_t{face} + 3; ++corner) {
-        const std::uint32_t v = rings.level.corners[corner];
+        const VertexHandle v = rings.level.corners[corner];
         if (std::find(seen.begin(), seen.end(), v) != seen.end()) continue;
         const glm::dvec3 offset = p - rings.point(corner);
         if (const double distance = glm::dot(offset, offset); distance < least) {
@@ -91,17 +92,17 @@ bool liesBelow(const FaceRings& rings, std::uint32_t face, const glm::dvec2& alo
 // The point of the level's surface closest to `p`, near the vertex `start`: from the faces around one vertex to those
 // around the corners of the closest, as long as that leads closer and no face lies straight below.
 // Only faces that look to `side` count: a thin fin has two sides in one place.
-Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t start, const glm::dvec3& side) {
+Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle start, const glm::dvec3& side) {
     Closest result;
-    std::uint32_t nearest = start;
-    const glm::dvec3 away = p - rings.points[start];
+    VertexHandle nearest = start;
+    const glm::dvec3 away = p - rings.point(start);
     bool below = false;
     double least = glm::dot(away, away);
-    std::array<std::uint32_t, mostSteps> seen;
-    for (std::size_t step = 0; step < mostSteps && nearest != noFace; ++step) {
-        if (least <= (result.corner == Corner::none ? 0 : noDistance)) break;
+    std::array<VertexHandle, mostSteps> seen;
+    for (std::size_t step = 0; step < mostSteps && nearest.is_valid(); ++step) {
+        if (least <= (result.corner == noCorner ? 0 : noDistance)) break;
         seen[step] = nearest;
-        const glm::dvec3& a = rings.points[nearest];
+        const glm::dvec3& a = rings.point(nearest);
         const glm::dvec3 fromA = p - a;
         for (const std::uint32_t corner : rings.around(nearest)) {
             const glm::dvec3& b = rings.point(nextCorner(corner));
@@ -119,7 +120,7 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t sta
             below = liesBelow(rings, face, along, offset);
             if (below) break;
         }
-        if (result.corner == Corner::none || below) break;
+        if (result.corner == noCorner || below) break;
         nearest = nearestUnseen(rings, result.corner / 3, p, std::span(seen.data(), step + 1));
     }
     result.squaredDistance = least;
@@ -129,8 +130,8 @@ Closest closestTo(const FaceRings& rings, const glm::dvec3& p, std::uint32_t sta
 // For each vertex of the level, of how many mesh vertices that have collapsed onto it one is enough.
 std::vector<std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
     std::vector<std::uint32_t> strides(level.positions.size(), 0);
-    for (const std::uint32_t v : origin.firstVertex)
-        if (v != Corner::none && level.nearest[v] != Corner::none) ++strides[level.nearest[v]];
+    for (const VertexHandle v : origin.firstVertex)
+        if (v.is_valid() && level.nearest[indexOf(v)].is_valid()) ++strides[indexOf(level.nearest[indexOf(v)])];
     for (std::uint32_t& stride : strides) stride = std::bit_floor(std::max(1u, stride / enoughAnchors));
     return strides;
 }
@@ -139,32 +140,36 @@ std::vector<std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& l
 
 std::vector<Anchor> anchors(const Origin& origin, const Snapshot& level) {
     const FaceRings rings = faceRings(level, origin.frame);
-    std::vector<std::uint32_t> cornerOf(origin.firstVertex.size(), noFace);  // of each of the mesh's vertices
-    for (std::uint32_t corner = 0; corner < level.wedges.size(); ++corner)
-        if (level.wedges[corner] < cornerOf.size()) cornerOf[level.wedges[corner]] = corner;
+    std::vector<std::uint32_t> cornerOf(origin.firstVertex.size(), noCorner);  // of each of the mesh's vertices
+    const std::vector<std::uint32_t>& drawn = level.drawn.indices;
+    for (std::uint32_t corner = 0; corner < drawn.size(); ++corner)
+        if (drawn[corner] < cornerOf.size()) cornerOf[drawn[corner]] = corner;
     std::vector<std::uint32_t> firstFaces = {0};  // of each primitive
-    for (const std::uint32_t count : level.primitiveIndexCounts) firstFaces.push_back(firstFaces.back() + count / 3);
+    for (const std::uint32_t count : level.drawn.primitiveIndexCounts)
+        firstFaces.push_back(firstFaces.back() + count / 3);
 
     std::vector<Anchor> result(origin.firstVertex.size());
     const std::vector<std::uint32_t> strides = anchorStrides(origin, level);
     std::vector<std::uint32_t> waiting(strides.size(), 0);
-    for (std::uint32_t wedge = 0; wedge < result.size(); ++wedge) {
-        const std::uint32_t v = origin.firstVertex[wedge];
-        if (v == Corner::none) continue;
-        Anchor& anchor = result[wedge];
-        const std::uint32_t survivor = level.nearest[v];
-        if (survivor == Corner::none || waiting[survivor]++ % strides[survivor] != 0) continue;
-        anchor.count = static_cast<float>(strides[survivor]);
-        const glm::dvec3 side = origin.vertices.normals[wedge];
-        const Closest closest = closestTo(rings, origin.frame.point(origin.vertices.positions[wedge]), survivor, side);
-        if (closest.corner == Corner::none) {
-            const std::uint32_t corner = cornerOf[wedge];
-            if (closest.squaredDistance != 0 || corner == noFace) continue;
+    for (std::uint32_t own = 0; own < result.size(); ++own) {
+        const VertexHandle v = origin.firstVertex[own];
+        if (!v.is_valid()) continue;
+        Anchor& anchor = result[own];
+        const VertexHandle survivor = level.nearest[indexOf(v)];
+        if (!survivor.is_valid()) continue;
+        const std::uint32_t stride = strides[indexOf(survivor)];
+        if (waiting[indexOf(survivor)]++ % stride != 0) continue;
+        anchor.count = static_cast<float>(stride);
+        const glm::dvec3 side = origin.vertices.normals[own];
+        const Closest closest = closestTo(rings, origin.frame.point(origin.vertices.positions[own]), survivor, side);
+        if (closest.corner == noCorner) {
+            const std::uint32_t corner = cornerOf[own];
+            if (closest.squaredDistance != 0 || corner == noCorner) continue;
             anchor.triangle = corner / 3;
             anchor.weight[corner % 3] = 1;
             continue;
         }
-        const std::uint32_t primitive = origin.firstPrimitive[wedge];
+        const std::uint32_t primitive = origin.firstPrimitive[own].value;
         const std::uint32_t face = closest.corner / 3;
         if (face < firstFaces[primitive] || face >= firstFaces[primitive + 1]) continue;
         anchor.triangle = face;

@@ -8,11 +8,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "lod/simplify/surface_mesh.h"
+
 namespace defocus {
 
 class CollapseQueue {
 public:
-    // No vertex waits; numbers are below `vertexCount`.
+    // Empties the queue, for vertices whose numbers are below `vertexCount`.
     void reset(std::size_t vertexCount) {
         heap_.clear();
         places_.assign(vertexCount, absent);
@@ -20,11 +22,11 @@ public:
 
     [[nodiscard]] bool empty() const { return heap_.empty(); }
 
-    // The vertex waits with this cost (≥ 0), whether it did before or not.
-    void put(std::uint32_t vertex, float cost, bool bad) {
+    // Makes the vertex wait with this cost (≥ 0), whether it did before or not.
+    void put(VertexHandle vertex, float cost, bool bad) {
         const std::uint64_t bits = std::bit_cast<std::uint32_t>(std::max(0.0f, cost));
-        const std::uint64_t key = std::uint64_t{bad} << 63 | bits << 32 | vertex;
-        std::uint32_t place = places_[vertex];
+        const std::uint64_t key = std::uint64_t{bad} << 63 | bits << 32 | numberOf(vertex);
+        std::uint32_t place = places_[numberOf(vertex)];
         if (place == absent) {
             place = static_cast<std::uint32_t>(heap_.size());
             heap_.push_back(key);
@@ -36,11 +38,11 @@ public:
         }
     }
 
-    // The vertex waits no more, if it did.
-    void take(std::uint32_t vertex) {
-        const std::uint32_t place = places_[vertex];
+    // Makes the vertex wait no more, if it did.
+    void take(VertexHandle vertex) {
+        const std::uint32_t place = places_[numberOf(vertex)];
         if (place == absent) return;
-        places_[vertex] = absent;
+        places_[numberOf(vertex)] = absent;
         const std::uint64_t last = heap_.back();
         heap_.pop_back();
         if (place == heap_.size()) return;
@@ -50,10 +52,10 @@ public:
             sink(place, last);
     }
 
-    // Of a queue that isn't empty.
-    [[nodiscard]] std::uint32_t best() const { return static_cast<std::uint32_t>(heap_.front()); }
-    std::uint32_t takeBest() {
-        const std::uint32_t vertex = best();
+    // The vertex whose turn is next; the queue must not be empty.
+    [[nodiscard]] VertexHandle best() const { return VertexHandle(static_cast<int>(heap_.front() & 0xffffffffu)); }
+    VertexHandle takeBest() {
+        const VertexHandle vertex = best();
         take(vertex);
         return vertex;
     }
@@ -61,6 +63,8 @@ public:
 private:
     static constexpr std::uint32_t arity = 4;
     static constexpr std::uint32_t absent = 0xffffffffu;
+
+    static std::uint32_t numberOf(VertexHandle vertex) { return static_cast<std::uint32_t>(vertex.idx()); }
 
     void set(std::uint32_t place, std::uint64_t key) {
         heap_[place] = key;

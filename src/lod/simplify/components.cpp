@@ -19,42 +19,56 @@ constexpr double largestRatio = 1.2;      // of sizes that count as equal when t
 constexpr double mostLarger = 4;          // a neighbour this many times as large stands in for nothing: it would swell
 constexpr double manyShare = 0.25;        // of the faces
 constexpr std::uint32_t fewestFaces = 4;  // of what collapses can't make smaller: a tetrahedron
-constexpr std::uint32_t noComponent = Corner::none;
 
-std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t v) {
-    while (parents[v] != v) v = parents[v] = parents[parents[v]];
-    return v;
+// Which vertices hang together: a forest of their numbers (union-find).
+class Forest {
+public:
+    explicit Forest(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
+
+    [[nodiscard]] VertexHandle root(VertexHandle v) {
+        int i = v.idx();
+        while (parent(i) != i) i = parent(i) = parent(parent(i));
+        return VertexHandle(i);
+    }
+    void join(VertexHandle a, VertexHandle b) {
+        const int rootOfA = root(a).idx();
+        parent(rootOfA) = root(b).idx();
+    }
+
+private:
+    [[nodiscard]] int& parent(int i) { return parents_[static_cast<std::size_t>(i)]; }
+
+    std::vector<int> parents_;
+};
+
+VertexHandle firstVertexOf(const SurfaceMesh& mesh, FaceHandle face) {
+    return mesh.from_vertex_handle(mesh.halfedge_handle(face));
 }
 
-void join(std::vector<std::uint32_t>& parents, std::uint32_t a, std::uint32_t b) {
-    parents[rootOf(parents, a)] = rootOf(parents, b);
-}
-
-// Which vertices hang together by faces: a forest.
-std::vector<std::uint32_t> joinedByFaces(const Simplifier& s) {
-    std::vector<std::uint32_t> parents(s.vertexCount());
-    std::iota(parents.begin(), parents.end(), 0u);
-    forEachLiveFace(s, [&](std::uint32_t face) {
-        join(parents, s.faces.corners[3 * face].vertex, s.faces.corners[3 * face + 1].vertex);
-        join(parents, s.faces.corners[3 * face].vertex, s.faces.corners[3 * face + 2].vertex);
+Forest joinedByFaces(const SurfaceMesh& mesh) {
+    Forest forest(mesh.n_vertices());
+    forEachFace(mesh, [&](FaceHandle face) {
+        const FaceCorners corners = cornersOf(mesh, face);
+        const VertexHandle first = mesh.from_vertex_handle(corners.at[0]);
+        forest.join(first, mesh.from_vertex_handle(corners.at[1]));
+        forest.join(first, mesh.from_vertex_handle(corners.at[2]));
     });
-    return parents;
+    return forest;
 }
 
-// Which vertices hang together, by faces, collapses or an equal position: the root of each.
-std::vector<std::uint32_t> joinedVertices(const Simplifier& s) {
-    std::vector<std::uint32_t> parents = joinedByFaces(s);
-    for (std::uint32_t v = 0; v < parents.size(); ++v) join(parents, v, s.survivors[v]);
+// Joined by faces, collapses or an equal position.
+Forest joinedVertices(const Simplifier& s) {
+    Forest forest = joinedByFaces(*s.mesh);
+    for (std::size_t v = 0; v < s.survivors.size(); ++v) forest.join(VertexHandle(static_cast<int>(v)), s.survivors[v]);
     // Cuts of the manifold leave several vertices at one position.
     const std::vector<std::uint32_t>& places = s.origin->places;
-    std::vector<std::uint32_t> seen(places.empty() ? 0 : 1 + *std::max_element(places.begin(), places.end()),
-                                    noComponent);  // a vertex that was at each position
+    std::vector<VertexHandle> seen(places.empty() ? 0 : 1 + *std::max_element(places.begin(), places.end()));
     for (std::size_t v = 0; v < places.size(); ++v) {
-        if (seen[places[v]] == noComponent) seen[places[v]] = s.current[v];
-        join(parents, s.current[v], seen[places[v]]);
+        VertexHandle& first = seen[places[v]];
+        if (!first.is_valid()) first = s.current[v];
+        forest.join(s.current[v], first);
     }
-    for (std::uint32_t v = 0; v < parents.size(); ++v) parents[v] = rootOf(parents, v);
-    return parents;
+    return forest;
 }
 
 double areaOf(const Vertices& vertices, const std::uint32_t* corner) {
@@ -64,38 +78,41 @@ double areaOf(const Vertices& vertices, const std::uint32_t* corner) {
     return std::isfinite(area) ? area : 0;
 }
 
-// Of all that the mesh had of them, whatever is left.
-void measureComponents(Simplifier& s, const LevelTriangles& triangles) {
+// Measures all that the mesh had of the components, whatever is left.
+void measureComponents(Simplifier& s, const TriangleSet& triangles) {
     const Vertices& vertices = s.origin->vertices;
-    const std::vector<std::uint32_t>& firstVertex = s.origin->firstVertex;
-    const auto componentAt = [&](std::uint32_t v) {
-        return firstVertex[v] == Corner::none ? noComponent : s.componentOf[s.current[firstVertex[v]]];
+    const std::vector<VertexHandle>& firstVertex = s.origin->firstVertex;
+    const auto componentOf = [&](std::size_t v) {
+        return firstVertex[v].is_valid() ? s.mesh->data(s.current[indexOf(firstVertex[v])]).component
+                                         : ComponentNumber();
     };
     std::vector<Bounds> boxes(s.components.size());
-    for (std::uint32_t v = 0; v < firstVertex.size(); ++v)
-        if (const std::uint32_t c = componentAt(v); c != noComponent)
-            boxes[c].extend(glm::dvec3(vertices.positions[v]));
+    for (std::size_t v = 0; v < firstVertex.size(); ++v)
+        if (const ComponentNumber c = componentOf(v); c.isValid())
+            boxes[c.value].extend(glm::dvec3(vertices.positions[v]));
     for (std::size_t c = 0; c < boxes.size(); ++c) s.components[c].ball.centre = boxes[c].centre();
-    for (std::uint32_t v = 0; v < firstVertex.size(); ++v) {
-        const std::uint32_t c = componentAt(v);
-        if (c == noComponent) continue;
-        Ball& ball = s.components[c].ball;
+    for (std::size_t v = 0; v < firstVertex.size(); ++v) {
+        const ComponentNumber c = componentOf(v);
+        if (!c.isValid()) continue;
+        Ball& ball = s.components[c.value].ball;
         ball.radius = std::max(ball.radius, glm::distance(glm::dvec3(vertices.positions[v]), ball.centre));
     }
     for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3)
-        if (const std::uint32_t c = componentAt(triangles.indices[i]); c != noComponent)
-            s.components[c].area += areaOf(vertices, &triangles.indices[i]);
+        if (const ComponentNumber c = componentOf(triangles.indices[i]); c.isValid())
+            s.components[c.value].area += areaOf(vertices, &triangles.indices[i]);
     for (const Component& component : s.components) s.area += component.area;
 }
 
-// What lives of them.
+// Counts what lives of the components.
 void countComponents(Simplifier& s) {
-    forEachLiveFace(s,
-                    [&](std::uint32_t face) { ++s.components[s.componentOf[s.faces.corners[3 * face].vertex]].faces; });
-    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
-        if (s.isAlive(v) && s.candidates[v].harmless()) ++s.components[s.componentOf[v]].harmless;
-    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
-        if (s.isAlive(v) && s.components[s.componentOf[v]].harmless == 0) spend(s, v);
+    const SurfaceMesh& mesh = *s.mesh;
+    forEachFace(mesh, [&](FaceHandle face) { ++s.componentAt(firstVertexOf(mesh, face)).faces; });
+    forEachVertex(mesh, [&](VertexHandle v) {
+        if (mesh.data(v).candidate.harmless()) ++s.componentAt(v).harmless;
+    });
+    forEachVertex(mesh, [&](VertexHandle v) {
+        if (s.componentAt(v).harmless == 0) spend(s, v);
+    });
 }
 
 // Spreads equal sizes over the mesh, whatever order they come in.
@@ -105,21 +122,23 @@ std::uint32_t scattered(std::uint32_t c) {
     return c ^ (c >> 16);
 }
 
-// What may go, smallest first: all but the largest component and those that collapses can still make smaller.
+// A component that may go.
 struct Removable {
-    std::uint32_t component = 0;
+    ComponentNumber component;
     std::size_t size = 0;  // class; grows
-    std::vector<std::uint32_t> faces;
+    std::vector<FaceHandle> faces;
 };
 
+// The components that may go, smallest first: all but the largest and those that collapses can still make smaller.
 std::vector<Removable> removableComponents(const Simplifier& s) {
+    const SurfaceMesh& mesh = *s.mesh;
     std::vector<Removable> all(s.components.size());
     std::vector<std::uint8_t> movable(s.components.size(), 0);
-    forEachLiveFace(s, [&](std::uint32_t face) {
-        const std::uint32_t c = s.componentOf[s.faces.corners[3 * face].vertex];
+    forEachFace(mesh, [&](FaceHandle face) {
+        const std::uint32_t c = mesh.data(firstVertexOf(mesh, face)).component.value;
         all[c].faces.push_back(face);
-        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner)
-            if (s.candidates[s.faces.corners[corner].vertex].possible()) movable[c] = 1;
+        for (const HalfedgeHandle corner : cornersOf(mesh, face))
+            if (mesh.data(mesh.from_vertex_handle(corner)).candidate.possible()) movable[c] = 1;
     });
     std::uint32_t largest = 0;
     for (std::uint32_t c = 1; c < s.components.size(); ++c)
@@ -128,17 +147,17 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     std::vector<Removable> removable;
     for (std::uint32_t c = 0; c < all.size(); ++c) {
         if (c == largest || movable[c] != 0 || s.components[c].removed) continue;
-        all[c].component = c;
+        all[c].component = {c};
         removable.push_back(std::move(all[c]));
     }
-    const auto radius = [&](const Removable& r) { return s.components[r.component].ball.radius; };
+    const auto radius = [&](const Removable& r) { return s.components[r.component.value].ball.radius; };
     std::sort(removable.begin(), removable.end(),
               [&](const Removable& a, const Removable& b) { return radius(a) < radius(b); });
     for (auto begin = removable.begin(); begin != removable.end();) {
         const auto end = std::find_if(begin, removable.end(),
                                       [&](const Removable& r) { return radius(r) > largestRatio * radius(*begin); });
         std::sort(begin, end, [](const Removable& a, const Removable& b) {
-            return scattered(a.component) < scattered(b.component);
+            return scattered(a.component.value) < scattered(b.component.value);
         });
         const auto size = static_cast<std::size_t>(begin - removable.begin());
         std::for_each(begin, end, [&](Removable& r) { r.size = size; });
@@ -147,26 +166,31 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     return removable;
 }
 
-// The vertex across the half-edge from its face; none at a border.
-std::uint32_t vertexBeyond(const Simplifier& s, std::uint32_t halfEdge) {
-    const std::uint32_t twin = s.faces.corners[halfEdge].twin;
-    return twin == Corner::none ? Corner::none : s.faces.corners[previousCorner(twin)].vertex;
+// The vertex across the half-edge from its face; invalid at a border.
+VertexHandle vertexBeyond(const SurfaceMesh& mesh, HalfedgeHandle halfedge) {
+    return mesh.opposite_he_opposite_vh(halfedge);
 }
 
 // Is the face a triangle of its own, or one of a tetrahedron?
-bool isSmallest(const Simplifier& s, std::uint32_t face) {
-    const std::uint32_t apex = vertexBeyond(s, 3 * face);
-    return vertexBeyond(s, 3 * face + 1) == apex && vertexBeyond(s, 3 * face + 2) == apex;
+bool isSmallest(const SurfaceMesh& mesh, FaceHandle face) {
+    const FaceCorners corners = cornersOf(mesh, face);
+    const VertexHandle apex = vertexBeyond(mesh, corners.at[0]);
+    return vertexBeyond(mesh, corners.at[1]) == apex && vertexBeyond(mesh, corners.at[2]) == apex;
 }
 
 void removeComponent(Simplifier& s, const Removable& removable) {
-    for (const std::uint32_t face : removable.faces) {
-        for (std::uint32_t corner = 3 * face; corner < 3 * face + 3; ++corner)
-            s.survivors[s.faces.corners[corner].vertex] = Corner::none;
-        s.faces.corners[3 * face].vertex = Corner::none;
+    SurfaceMesh& mesh = *s.mesh;
+    for (const FaceHandle face : removable.faces) {
+        for (const HalfedgeHandle corner : cornersOf(mesh, face)) {
+            const VertexHandle v = mesh.from_vertex_handle(corner);
+            s.survivor(v) = VertexHandle();
+            mesh.status(v).set_deleted(true);
+            mesh.status(mesh.edge_handle(corner)).set_deleted(true);
+        }
+        mesh.status(face).set_deleted(true);
     }
     s.liveFaces -= removable.faces.size();
-    Component& component = s.components[removable.component];
+    Component& component = s.components[removable.component.value];
     if (component.spent) {
         s.spentFaces -= component.faces;
         s.spentArea -= component.area;
@@ -178,12 +202,12 @@ void removeComponent(Simplifier& s, const Removable& removable) {
 }  // namespace
 
 bool isConnected(const Simplifier& s) {
-    std::vector<std::uint32_t> parents = joinedByFaces(s);
-    std::uint32_t first = noComponent;
+    Forest forest = joinedByFaces(*s.mesh);
+    VertexHandle first;
     bool connected = true;
-    forEachLiveFace(s, [&](std::uint32_t face) {
-        const std::uint32_t root = rootOf(parents, s.faces.corners[3 * face].vertex);
-        if (first == noComponent) first = root;
+    forEachFace(*s.mesh, [&](FaceHandle face) {
+        const VertexHandle root = forest.root(firstVertexOf(*s.mesh, face));
+        if (!first.is_valid()) first = root;
         connected = connected && root == first;
     });
     return connected;
@@ -191,28 +215,31 @@ bool isConnected(const Simplifier& s) {
 
 bool manyAreSmallest(const Simplifier& s) {
     std::size_t count = 0;
-    forEachLiveFace(s, [&](std::uint32_t face) { count += isSmallest(s, face) ? 1 : 0; });
+    forEachFace(*s.mesh, [&](FaceHandle face) { count += isSmallest(*s.mesh, face) ? 1 : 0; });
     return static_cast<double>(count) > manyShare * static_cast<double>(s.liveFaces);
 }
 
-void findComponents(Simplifier& s, const LevelTriangles& triangles) {
+void findComponents(Simplifier& s, const TriangleSet& triangles) {
     if (!s.components.empty()) return;
-    const std::vector<std::uint32_t> roots = joinedVertices(s);
-    std::vector<std::uint32_t> numbers(roots.size(), noComponent);
-    forEachLiveFace(s, [&](std::uint32_t face) {
-        std::uint32_t& number = numbers[roots[s.faces.corners[3 * face].vertex]];
-        if (number != noComponent) return;
-        number = static_cast<std::uint32_t>(s.components.size());
-        s.components.emplace_back().primitive = s.faces.primitives[face];
+    SurfaceMesh& mesh = *s.mesh;
+    Forest forest = joinedVertices(s);
+    std::vector<ComponentNumber> numbers(mesh.n_vertices());  // of the roots
+    forEachFace(mesh, [&](FaceHandle face) {
+        ComponentNumber& number = numbers[indexOf(forest.root(firstVertexOf(mesh, face)))];
+        if (number.isValid()) return;
+        number = {static_cast<std::uint32_t>(s.components.size())};
+        s.components.emplace_back().primitive = mesh.primitive(face);
     });
-    s.componentOf.reserve(roots.size());
-    for (const std::uint32_t root : roots) s.componentOf.push_back(numbers[root]);
+    for (std::size_t i = 0; i < mesh.n_vertices(); ++i) {
+        const VertexHandle v(static_cast<int>(i));
+        mesh.data(v).component = numbers[indexOf(forest.root(v))];
+    }
     measureComponents(s, triangles);
     countComponents(s);
 }
 
-void spend(Simplifier& s, std::uint32_t v) {
-    Component& component = s.components[s.componentOf[v]];
+void spend(Simplifier& s, VertexHandle v) {
+    Component& component = s.componentAt(v);
     if (component.spent) return;
     component.spent = true;
     s.spentFaces += component.faces;
@@ -223,9 +250,9 @@ double evenShare(const Simplifier& s, double area, std::size_t faces) {
     return area / s.area * static_cast<double>(faces);
 }
 
-bool isKept(const Simplifier& s, std::uint32_t v, Fit fit, std::size_t target, double share) {
+bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share) {
     if (s.components.empty()) return false;
-    const Component& component = s.components[s.componentOf[v]];
+    const Component& component = s.componentAt(v);
     if (fit == Fit::bad) return static_cast<double>(component.faces) <= evenShare(s, component.area, target);
     if (component.spent || 2 * s.spentFaces <= target) return false;
     const auto rest = static_cast<double>(s.liveFaces - s.spentFaces);
@@ -248,22 +275,23 @@ void removeComponents(Simplifier& s, std::size_t target) {
             std::vector<std::uint32_t> later;
             for (const std::uint32_t i : turn) {
                 if (s.liveFaces <= target) break;
-                Component& gone = s.components[rest[i].component];
-                if (stays[rest[i].component] != 0) {
+                Component& gone = s.components[rest[i].component.value];
+                if (stays[rest[i].component.value] != 0) {
                     later.push_back(i);
                     continue;
                 }
                 removeComponent(s, rest[i]);
-                const std::uint32_t heir = tree.nearest(gone.ball.centre, [&](std::uint32_t c) {
-                    const Component& other = s.components[c];
+                const ComponentNumber heir = tree.nearest(gone.ball.centre, [&](ComponentNumber c) {
+                    const Component& other = s.components[c.value];
                     return !other.removed && other.primitive == gone.primitive &&
                            other.ball.radius <= mostLarger * gone.ball.radius;
                 });
-                if (heir == noComponent) continue;
-                s.components[heir].area += gone.area;
-                if (s.components[heir].spent) s.spentArea += gone.area;
-                s.components[heir].standsIn = true;
-                stays[heir] = 1;
+                if (!heir.isValid()) continue;
+                Component& next = s.components[heir.value];
+                next.area += gone.area;
+                if (next.spent) s.spentArea += gone.area;
+                next.standsIn = true;
+                stays[heir.value] = 1;
             }
             turn = std::move(later);
         }
@@ -284,9 +312,10 @@ std::vector<Growth> growths(const Simplifier& s) {
     for (std::uint32_t c = 0; c < result.size(); ++c) {
         const Component& own = s.components[c];
         if (own.removed || !(own.standsIn || own.faces <= fewestFaces) || !(own.ball.radius > 0)) continue;
-        const std::uint32_t next = tree.nearest(own.ball.centre, [&](std::uint32_t other) { return other != c; });
-        if (next == noComponent) continue;
-        const double reach = glm::distance(own.ball.centre, s.components[next].ball.centre);
+        const ComponentNumber next =
+            tree.nearest(own.ball.centre, [&](ComponentNumber other) { return other.value != c; });
+        if (!next.isValid()) continue;
+        const double reach = glm::distance(own.ball.centre, s.components[next.value].ball.centre);
         result[c] = {own.ball.centre, own.area, std::max(1.0, reach / own.ball.radius)};
     }
     return result;

@@ -21,8 +21,8 @@ constexpr int rounds = 3;  // of two means
 
 struct CornerNormal {
     std::uint32_t corner;
-    glm::dvec3
-        normal;  // of the face as the mesh winds it, as long as twice its area; then as long as the corner's angle
+    // Of the face as the mesh winds it; as long as twice its area, then as long as the corner's angle.
+    glm::dvec3 normal;
 };
 
 double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
@@ -39,19 +39,23 @@ bool surelyAgree(std::span<const CornerNormal> corners) {
     });
 }
 
-CornerNormal cornerNormal(const Simplifier& s, std::uint32_t corner) {
-    const auto point = [&](std::uint32_t c) { return s.point(s.faces.corners[c].vertex); };
-    const glm::dvec3 p = point(corner);
-    const glm::dvec3 normal = glm::cross(point(nextCorner(corner)) - p, point(previousCorner(corner)) - p);
-    return {corner, s.faces.turned[corner / 3] != 0 ? -normal : normal};
+// The places of a corner and of the two beside it, as the mesh winds the face.
+struct CornerPlaces {
+    glm::dvec3 own, next, previous;
+};
+
+CornerPlaces placesAt(const SurfaceMesh& mesh, std::span<const HalfedgeHandle> corners, std::uint32_t corner) {
+    const auto place = [&](std::uint32_t c) { return mesh.place(mesh.from_vertex_handle(corners[c])); };
+    return {place(corner), place(nextCorner(corner)), place(previousCorner(corner))};
 }
 
-void weighByAngle(const Simplifier& s, CornerNormal& c) {
-    const auto point = [&](std::uint32_t corner) { return s.point(s.faces.corners[corner].vertex); };
-    const glm::dvec3 p = point(c.corner);
+CornerNormal cornerNormal(const CornerPlaces& at, std::uint32_t corner) {
+    return {corner, glm::cross(at.next - at.own, at.previous - at.own)};
+}
+
+void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
     const double length = glm::length(c.normal);
-    c.normal *=
-        length > 0 ? angleBetween(point(nextCorner(c.corner)) - p, point(previousCorner(c.corner)) - p) / length : 0;
+    c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
 }
 
 // Moves the corners of one of the two sides behind the returned place; all stay before it where one side is enough.
@@ -95,62 +99,66 @@ struct CornerGroups {
     std::vector<std::uint32_t> corners;
 };
 
-CornerGroups groupCorners(const Simplifier& s) {
+CornerGroups groupCorners(const Simplifier& s, std::span<const HalfedgeHandle> corners) {
     // Number the groups that are left.
-    std::vector<std::uint32_t> numbers(s.origin->smoothing.size(), Corner::none);
+    constexpr std::uint32_t unnumbered = 0xffffffffu;
+    const WedgeTable& wedges = s.mesh->wedges;
+    std::vector<std::uint32_t> numbers(s.origin->smoothing.size(), unnumbered);
     std::vector<std::uint32_t> groupOf;  // of each wedge
-    groupOf.reserve(s.faces.wedges.size());
+    groupOf.reserve(wedges.size());
     std::uint32_t count = 0;
-    for (const Wedge& wedge : s.faces.wedges) {
-        std::uint32_t& number = numbers[s.origin->smoothing[wedge.source]];
-        if (number == Corner::none) number = count++;
+    for (std::uint32_t w = 0; w < wedges.size(); ++w) {
+        std::uint32_t& number = numbers[s.origin->smoothing[wedges.source({w})]];
+        if (number == unnumbered) number = count++;
         groupOf.push_back(number);
     }
 
     CornerGroups groups;
+    const auto groupAt = [&](HalfedgeHandle corner) { return groupOf[s.mesh->wedge(corner).value]; };
     groups.first.assign(std::size_t{count} + 1, 0);
-    for (const Corner& corner : s.faces.corners) ++groups.first[groupOf[corner.wedge] + 1];
+    for (const HalfedgeHandle corner : corners) ++groups.first[groupAt(corner) + 1];
     std::partial_sum(groups.first.begin(), groups.first.end(), groups.first.begin());
-    groups.corners.resize(s.faces.corners.size());
+    groups.corners.resize(corners.size());
     std::vector<std::uint32_t> next(groups.first.begin(), groups.first.end() - 1);
-    for (std::uint32_t corner = 0; corner < s.faces.corners.size(); ++corner)
-        groups.corners[next[groupOf[s.faces.corners[corner].wedge]]++] = corner;
+    for (std::uint32_t corner = 0; corner < corners.size(); ++corner)
+        groups.corners[next[groupAt(corners[corner])]++] = corner;
     return groups;
 }
 
 }  // namespace
 
-Creases creases(Simplifier& s) {
+Creases creases(Simplifier& s, std::span<const HalfedgeHandle> corners) {
+    const SurfaceMesh& mesh = *s.mesh;
     Creases result;
-    std::vector<std::uint32_t>& wedges = result.wedges;
-    wedges.reserve(s.faces.corners.size());
-    for (const Corner& corner : s.faces.corners) wedges.push_back(s.faces.wedges[corner.wedge].source);
+    std::vector<std::uint32_t>& drawn = result.drawn;
+    drawn.reserve(corners.size());
+    for (const HalfedgeHandle corner : corners) drawn.push_back(mesh.wedges.source(mesh.wedge(corner)));
 
-    const CornerGroups groups = groupCorners(s);
+    const CornerGroups groups = groupCorners(s, corners);
     const auto vertexCount = static_cast<std::uint32_t>(s.origin->firstVertex.size());
     std::vector<CornerNormal> around;
     std::vector<std::uint32_t> inFront;
     for (std::size_t group = 0; group + 1 < groups.first.size(); ++group) {
         around.clear();
         for (std::size_t i = groups.first[group]; i < groups.first[group + 1]; ++i)
-            around.push_back(cornerNormal(s, groups.corners[i]));
+            around.push_back(cornerNormal(placesAt(mesh, corners, groups.corners[i]), groups.corners[i]));
         if (around.size() < 2 || surelyAgree(around)) continue;
-        for (CornerNormal& c : around) weighByAngle(s, c);
-        const std::uint32_t leader = s.origin->smoothing[wedges[around[0].corner]];
+        for (CornerNormal& c : around) weighByAngle(placesAt(mesh, corners, c.corner), c);
+        const std::uint32_t leader = s.origin->smoothing[drawn[around[0].corner]];
         const std::size_t kept = splitSides(around, s.origin->vertices.normals[leader]);
         if (kept == around.size() || kept == 0) continue;
         inFront.clear();
-        for (const CornerNormal& c : std::span(around).first(kept)) inFront.push_back(wedges[c.corner]);
+        for (const CornerNormal& c : std::span(around).first(kept)) inFront.push_back(drawn[c.corner]);
         for (const CornerNormal& c : std::span(around).subspan(kept)) {
-            const std::uint32_t wedge = wedges[c.corner];
-            if (std::find(inFront.begin(), inFront.end(), wedge) == inFront.end()) {
-                result.behind.push_back(wedge);  // all of it: at a seam, each side has a wedge of its own
+            const std::uint32_t v = drawn[c.corner];
+            if (std::find(inFront.begin(), inFront.end(), v) == inFront.end()) {
+                result.behind.push_back(v);  // all of it: at a seam, each side has a wedge of its own
                 continue;
             }
             const auto [twin, isNew] =
-                s.twinOf.try_emplace(wedge, static_cast<std::uint32_t>(vertexCount + s.twins.size()));
-            if (isNew) s.twins.push_back(wedge);
-            wedges[c.corner] = twin->second;
+                s.twinOf.try_emplace(v, static_cast<std::uint32_t>(vertexCount + s.twins.size()));
+            if (isNew) s.twins.push_back(v);
+            drawn[c.corner] = twin->second;
         }
     }
     std::sort(result.behind.begin(), result.behind.end());

@@ -1,5 +1,5 @@
 #pragma once
-// Values picked by number, in the order of the numbers, which must be below values.size(). An attribute that the
+// Picks values by number, in the order of the numbers, which must be below values.size(). An attribute that the
 // vertices don't have stays empty.
 
 #include <cstdint>

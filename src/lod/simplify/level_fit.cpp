@@ -75,11 +75,11 @@ struct AnchorSums {
 // Unit length; zero of a triangle without area.
 std::vector<glm::vec3> unitNormals(const std::vector<glm::vec3>& positions, const LevelMesh& level) {
     std::vector<glm::vec3> normals;
-    normals.reserve(level.indices.size() / 3);
-    for (std::size_t i = 0; i + 2 < level.indices.size(); i += 3) {
-        const glm::dvec3 a = positions[level.sources[level.indices[i]]];
-        const glm::dvec3 normal = glm::cross(glm::dvec3(positions[level.sources[level.indices[i + 1]]]) - a,
-                                             glm::dvec3(positions[level.sources[level.indices[i + 2]]]) - a);
+    normals.reserve(level.triangles.indices.size() / 3);
+    for (std::size_t i = 0; i + 2 < level.triangles.indices.size(); i += 3) {
+        const glm::dvec3 a = positions[level.sources[level.triangles.indices[i]]];
+        const glm::dvec3 normal = glm::cross(glm::dvec3(positions[level.sources[level.triangles.indices[i + 1]]]) - a,
+                                             glm::dvec3(positions[level.sources[level.triangles.indices[i + 2]]]) - a);
         const double length = glm::length(normal);
         normals.push_back(length > 0 ? glm::vec3(normal / length) : glm::vec3(0));
     }
@@ -91,12 +91,12 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level, std::span
     const std::vector<glm::vec3> normals = unitNormals(vertices.positions, level);
     AnchorSums sums;
     sums.vertices.resize(level.sources.size());
-    sums.triangles.resize(level.indices.size() / 3);
+    sums.triangles.resize(level.triangles.indices.size() / 3);
     for (std::size_t v = 0; v < anchors.size(); ++v) {
         const Anchor& anchor = anchors[v];
         const float* w = anchor.weight;
         if (w[0] == 0 && w[1] == 0 && w[2] == 0) continue;
-        const std::uint32_t* const corner = &level.indices[3 * std::size_t{anchor.triangle}];
+        const std::uint32_t* const corner = &level.triangles.indices[3 * std::size_t{anchor.triangle}];
         const bool atCorner = w[0] == 1 || w[1] == 1 || w[2] == 1;
         const glm::vec3& normal = vertices.normals[v];
         const glm::vec3& face = normals[anchor.triangle];
@@ -162,8 +162,8 @@ template <std::size_t channels, typename Value>
 LeastSquares equations(const LevelMesh& level, const AnchorSums& sums, const Grouping& groups, const Value& value) {
     LeastSquares result;
     result.triangles = sums.triangles;
-    result.corners.reserve(level.indices.size());
-    for (const std::uint32_t v : level.indices) result.corners.push_back(groups.of[v]);
+    result.corners.reserve(level.triangles.indices.size());
+    for (const std::uint32_t v : level.triangles.indices) result.corners.push_back(groups.of[v]);
     std::vector<double> weights(groups.count(), 0);
     std::vector<std::array<double, channels>> targets(groups.count());
     for (std::size_t v = 0; v < groups.of.size(); ++v) {
@@ -235,7 +235,7 @@ std::vector<glm::vec3> fitPositions(const FitSource& source, const LevelMesh& le
 std::vector<glm::dvec3> faceNormals(const std::vector<glm::vec3>& positions, const LevelMesh& level,
                                     const Grouping& groups) {
     std::vector<glm::dvec3> sums(groups.count(), glm::dvec3(0));
-    const std::vector<std::uint32_t>& indices = level.indices;
+    const std::vector<std::uint32_t>& indices = level.triangles.indices;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
         const glm::dvec3 a = positions[indices[i]];
         const glm::dvec3 normal =

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/bounds.h"
+#include "lod/simplify/triangle_set.h"
 #include "lod/simplify/weld.h"
 #include "scene/mesh.h"
 
@@ -23,16 +24,16 @@ struct Anchor {
     float count = 1;  // of vertices that it stands for
 };
 
-// A level's triangles with vertices numbered from 0.
+// A level's triangles, with vertices numbered from 0.
 struct LevelMesh {
-    std::vector<std::uint32_t> indices;
+    TriangleSet triangles;
     std::vector<std::uint32_t> sources;  // for each vertex, which one of the mesh's it has its values from
-    // 1: on the other side of a thin sheet than the others at its place, it shares its normal and colour only with
-    // those that are as well.
+    // For each vertex; 1: it is on the other side of a thin sheet than the others at its place, and shares its normal
+    // and colour only with those that are as well.
     std::vector<std::uint8_t> apart;
 };
 
-// Of each vertex of a LevelMesh.
+// The values of each vertex of a LevelMesh.
 struct LevelFit {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;   // of length ≤ 1: the shorter, the more the normals that it stands for differ
@@ -40,7 +41,7 @@ struct LevelFit {
 };
 
 // What all levels of a mesh are fitted to. Vertices with equal numbers in `smoothing` share a normal (smoothingGroups),
-// in `shades` a colour; the number is that of one of them.
+// those with equal numbers in `shades` a colour; the number is that of one of them.
 struct FitSource {
     const Vertices& vertices;
     const Welded& positions;
@@ -50,14 +51,14 @@ struct FitSource {
     Bounds bounds;                      // of level 0's triangles
 };
 
-// `indices` are level 0's triangles. Keeps references to the other three.
+// Prepares the fit; `indices` are level 0's triangles. Keeps references to the other three.
 FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
                      std::span<const std::uint32_t> indices);
 
-// `anchors` holds one entry a vertex of the mesh, which counts by its area, foreshortened on its triangle; vertices
-// that no anchor names keep the values they have from the mesh. The fit turns no triangle by more than 60° and leaves
-// no part of them outside level 0's box. Vertices at one position stay at one; those whose normals agree within a
-// degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
+// Fits a level. `anchors` holds one entry a vertex of the mesh, which counts by its area, foreshortened on its
+// triangle; vertices that no anchor names keep the values they have from the mesh. The fit turns no triangle by more
+// than 60° and leaves no part of them outside level 0's box. Vertices at one position stay at one; those whose normals
+// agree within a degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, std::vector<Anchor> anchors);
 
 }  // namespace defocus

@@ -37,7 +37,7 @@ void chooseGrowth(Grown& grown, const Growth& growth, const Bounds& limits) {
 void growComponents(std::vector<glm::vec3>& positions, const SimplifiedLevel& level, const Bounds& limits) {
     if (level.growthsOf.empty()) return;
     std::vector<Grown> grown(level.growths.size());
-    const std::vector<std::uint32_t>& indices = level.mesh.indices;
+    const std::vector<std::uint32_t>& indices = level.mesh.triangles.indices;
     for (std::size_t i = 0; i < indices.size(); i += 3) {
         const glm::dvec3 a = positions[indices[i]];
         grown[level.growthsOf[indices[i]]].area +=

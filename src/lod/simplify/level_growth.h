@@ -9,8 +9,8 @@
 
 namespace defocus {
 
-// Scales those of the level's components that have less area than they are to stand for (SimplifiedLevel::growths),
-// within `limits`. `positions` are of the level's vertices.
+// Scales those of the level's components that have less area than they are to stand for (SimplifiedLevel::growths). The
+// result stays within `limits`. `positions` are those of the level's vertices.
 void growComponents(std::vector<glm::vec3>& positions, const SimplifiedLevel& level, const Bounds& limits);
 
 }  // namespace defocus

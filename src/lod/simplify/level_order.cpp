@@ -10,11 +10,11 @@ constexpr std::uint32_t none = 0xffffffffu;
 
 }  // namespace
 
-SurvivalOrder sortBySurvival(std::vector<LevelTriangles>& levels, const Welded& positions) {
+SurvivalOrder sortBySurvival(std::vector<TriangleSet>& levels, const Welded& positions) {
     // The vertices of each position, in a list that starts at `head`; only those that a level uses.
     const std::size_t vertexCount = positions.id.size();
     std::vector<std::uint8_t> used(vertexCount, 0);
-    for (const LevelTriangles& level : levels)
+    for (const TriangleSet& level : levels)
         for (const std::uint32_t v : level.indices) used[v] = 1;
     std::vector<std::uint32_t> head(positions.first.size(), none);
     std::vector<std::uint32_t> next(vertexCount, none);
@@ -38,7 +38,7 @@ SurvivalOrder sortBySurvival(std::vector<LevelTriangles>& levels, const Welded& 
         }
         order.vertexCounts[l] = static_cast<std::uint32_t>(order.vertices.size());
     }
-    for (LevelTriangles& level : levels)
+    for (TriangleSet& level : levels)
         for (std::uint32_t& v : level.indices) v = newNumber[v];
     return order;
 }

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "lod/simplify/corners.h"
+#include "lod/simplify/triangle_set.h"
 
 namespace defocus {
 
@@ -59,14 +59,15 @@ std::vector<std::uint32_t> bucketed(std::uint32_t count, std::size_t keyCount, c
 }
 
 // The faces that are neither degenerate nor repetitions, in input order.
-std::vector<std::uint32_t> properFaces(const Triangles& triangles, std::size_t positionCount) {
-    const auto corners = [&](std::uint32_t face) { return &triangles.positions[3 * std::size_t{face}]; };
+std::vector<std::uint32_t> properFaces(const TriangleSet& triangles, const std::vector<std::uint32_t>& primitives,
+                                       std::size_t positionCount) {
+    const auto corners = [&](std::uint32_t face) { return &triangles.indices[3 * std::size_t{face}]; };
     const auto least = [&](std::uint32_t face) {
         const std::uint32_t* p = corners(face);
         if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return Manifold::none;
         return std::min({p[0], p[1], p[2]});
     };
-    const auto faceCount = static_cast<std::uint32_t>(triangles.primitives.size());
+    const auto faceCount = static_cast<std::uint32_t>(triangles.count());
     std::vector<std::uint32_t> first;
     const std::vector<std::uint32_t> order = bucketed(faceCount, positionCount, least, first);
 
@@ -82,7 +83,7 @@ std::vector<std::uint32_t> properFaces(const Triangles& triangles, std::size_t p
         for (std::uint32_t i = first[position]; i < first[position + 1]; ++i) {
             const std::uint32_t* p = corners(order[i]);
             const auto at = static_cast<std::size_t>(std::find(p, p + 3, position) - p);
-            keys.push_back({{p[(at + 1) % 3], p[(at + 2) % 3], triangles.primitives[order[i]]}, order[i]});
+            keys.push_back({{p[(at + 1) % 3], p[(at + 2) % 3], primitives[order[i]]}, order[i]});
         }
         std::sort(keys.begin(), keys.end(),
                   [](const Key& a, const Key& b) { return a.value != b.value ? a.value < b.value : a.face < b.face; });
@@ -276,27 +277,26 @@ Repairs repairsOf(const PairedSurface& surface, std::size_t inputFaces) {
 
 }  // namespace
 
-Triangles weldedTriangles(std::span<const std::uint32_t> indices, std::span<const std::uint32_t> primitiveIndexCounts,
-                          const Welded& positions, const std::vector<glm::dvec3>& points) {
-    Triangles triangles;
-    triangles.positions.reserve(indices.size());
-    for (std::size_t f = 0; f < indices.size() / 3; ++f) {
-        const std::uint32_t p[3] = {positions.id[indices[3 * f]], positions.id[indices[3 * f + 1]],
-                                    positions.id[indices[3 * f + 2]]};
+TriangleSet weldedTriangles(const TriangleSet& triangles, const Welded& positions,
+                            const std::vector<glm::dvec3>& points) {
+    TriangleSet welded;
+    welded.primitiveIndexCounts = triangles.primitiveIndexCounts;
+    welded.indices.reserve(triangles.indices.size());
+    for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3) {
+        const std::uint32_t p[3] = {positions.id[triangles.indices[i]], positions.id[triangles.indices[i + 1]],
+                                    positions.id[triangles.indices[i + 2]]};
         const glm::dvec3 sum = points[p[0]] + points[p[1]] + points[p[2]];
         const bool proper = std::isfinite(sum.x + sum.y + sum.z);
-        for (const std::uint32_t corner : p) triangles.positions.push_back(proper ? corner : p[0]);
+        for (const std::uint32_t corner : p) welded.indices.push_back(proper ? corner : p[0]);
     }
-    triangles.primitives.reserve(indices.size() / 3);
-    for (std::uint32_t p = 0; p < primitiveIndexCounts.size(); ++p)
-        triangles.primitives.insert(triangles.primitives.end(), primitiveIndexCounts[p] / 3, p);
-    return triangles;
+    return welded;
 }
 
-Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>& points) {
+Manifold buildManifold(const TriangleSet& triangles, const std::vector<glm::dvec3>& points) {
     // Keep the faces that can be part of a surface.
     Manifold manifold;
-    manifold.faces = properFaces(triangles, points.size());
+    const std::vector<std::uint32_t> primitives = primitivesOf(triangles);
+    manifold.faces = properFaces(triangles, primitives, points.size());
     const std::size_t count = manifold.faces.size();
     PairedSurface surface{points, {}, {}, {}, {}, {}};
     surface.turned.assign(count, 0);
@@ -305,8 +305,8 @@ Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>
     surface.at.reserve(3 * count);
     surface.primitives.reserve(count);
     for (const std::uint32_t face : manifold.faces) {
-        for (std::size_t i = 0; i < 3; ++i) surface.at.push_back(triangles.positions[3 * std::size_t{face} + i]);
-        surface.primitives.push_back(triangles.primitives[face]);
+        for (std::size_t i = 0; i < 3; ++i) surface.at.push_back(triangles.indices[3 * std::size_t{face} + i]);
+        surface.primitives.push_back(primitives[face]);
     }
 
     // Make neighbours agree, join them edge by edge, and give each fan its vertex.
@@ -317,7 +317,7 @@ Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>
 
     manifold.turned = std::move(surface.turned);
     manifold.twins = std::move(surface.twins);
-    manifold.repairs = repairsOf(surface, triangles.primitives.size());
+    manifold.repairs = repairsOf(surface, triangles.count());
     return manifold;
 }
 

@@ -9,18 +9,13 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
 #include "lod/simplify/repairs.h"
+#include "lod/simplify/triangle_set.h"
 #include "lod/simplify/weld.h"
 
 namespace defocus {
-
-struct Triangles {
-    std::vector<std::uint32_t> positions;   // three a face, welded: equal numbers, equal positions
-    std::vector<std::uint32_t> primitives;  // one a face
-};
 
 struct Manifold {
     static constexpr std::uint32_t none = 0xffffffffu;
@@ -28,18 +23,18 @@ struct Manifold {
     std::vector<std::uint32_t> faces;    // the input face of each face
     std::vector<std::uint32_t> corners;  // the vertices of each face, three a face, in the input face's corner order
     std::vector<std::uint8_t> turned;    // 1: the surface's orientation runs against the corner order
-    std::vector<std::uint32_t>
-        twins;  // half-edge 3·f + i runs from corner i to i + 1: the one on its other side, or none
+    // Half-edge 3·f + i runs from corner i to i + 1: the one on its other side, or none.
+    std::vector<std::uint32_t> twins;
     std::vector<std::uint32_t> positions;  // the welded position of each vertex
     Repairs repairs;
 };
 
-// Faces by the welded positions of their corners, those of primitive after primitive; `points` are those positions.
-// Faces with a corner that is no place at all become degenerate.
-Triangles weldedTriangles(std::span<const std::uint32_t> indices, std::span<const std::uint32_t> primitiveIndexCounts,
-                          const Welded& positions, const std::vector<glm::dvec3>& points);
+// The triangles by the welded positions of their corners; `points` are those positions. A triangle with a corner that
+// is no place at all becomes degenerate.
+TriangleSet weldedTriangles(const TriangleSet& triangles, const Welded& positions,
+                            const std::vector<glm::dvec3>& points);
 
-// `points` are the welded positions; their count bounds Triangles::positions.
-Manifold buildManifold(const Triangles& triangles, const std::vector<glm::dvec3>& points);
+// `triangles` are by welded positions: equal numbers, equal positions; `points` are these.
+Manifold buildManifold(const TriangleSet& triangles, const std::vector<glm::dvec3>& points);
 
 }  // namespace defocus

@@ -2,8 +2,8 @@
 // Garland and Heckbert 1997, Surface Simplification Using Quadric Error Metrics: the weighted sum of squared distances
 // to a set of planes, dᵀAd + 2bᵀd + c.
 //
-// Places d are steps from the vertex that the quadric belongs to: all that it is asked for lies near by, so that single
-// precision serves.
+// Places d are steps from the vertex that the quadric belongs to. All places that it is asked for lie near by, so that
+// single precision serves.
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -17,13 +17,13 @@ struct Quadric {
     glm::vec3 b{0};
     float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // A
 
-    // The plane through the vertex with the unit normal `normal`.
+    // Adds the plane through the vertex with the unit normal `normal`.
     void addPlane(const glm::vec3& normal, float planeWeight) {
         addSquare(normal, planeWeight);
         weight += planeWeight;
     }
 
-    // squareWeight · (gᵀd)², without counting towards `weight`.
+    // Adds squareWeight · (gᵀd)², which doesn't count towards `weight`.
     void addSquare(const glm::vec3& g, float squareWeight) {
         const glm::vec3 weighted = squareWeight * g;
         xx += weighted.x * g.x;
@@ -34,7 +34,7 @@ struct Quadric {
         zz += weighted.z * g.z;
     }
 
-    // The quadric of another vertex, from which `step` leads to this one's.
+    // Adds the quadric of another vertex, from which `step` leads to this one's.
     void add(const Quadric& other, const glm::vec3& step) {
         b += other.b + other.timesA(step);
         c += other.at(step);
@@ -51,6 +51,7 @@ struct Quadric {
         return {xx * d.x + xy * d.y + xz * d.z, xy * d.x + yy * d.y + yz * d.z, xz * d.x + yz * d.y + zz * d.z};
     }
 
+    // The sum at d; never negative.
     [[nodiscard]] float at(const glm::vec3& d) const { return std::max(0.0f, glm::dot(timesA(d) + 2.0f * b, d) + c); }
 };
 

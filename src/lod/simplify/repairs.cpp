@@ -7,20 +7,19 @@
 namespace defocus {
 
 Repairs repairsOf(const Mesh& mesh) {
-    std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> counts;
-    indices.reserve(3 * mesh.triangleCount());
+    TriangleSet triangles;
+    triangles.indices.reserve(3 * mesh.triangleCount());
     for (const Primitive& primitive : mesh.primitives) {
         const std::size_t count = primitive.indices.size() / 3 * 3;
-        indices.insert(indices.end(), primitive.indices.begin(),
-                       primitive.indices.begin() + static_cast<std::ptrdiff_t>(count));
-        counts.push_back(static_cast<std::uint32_t>(count));
+        triangles.indices.insert(triangles.indices.end(), primitive.indices.begin(),
+                                 primitive.indices.begin() + static_cast<std::ptrdiff_t>(count));
+        triangles.primitiveIndexCounts.push_back(static_cast<std::uint32_t>(count));
     }
     const Welded positions = weldPositions(mesh.vertices.positions);
     std::vector<glm::dvec3> points;
     points.reserve(positions.first.size());
     for (const std::uint32_t v : positions.first) points.emplace_back(mesh.vertices.positions[v]);
-    return buildManifold(weldedTriangles(indices, counts, positions, points), points).repairs;
+    return buildManifold(weldedTriangles(triangles, positions, points), points).repairs;
 }
 
 }  // namespace defocus

@@ -1,6 +1,6 @@
 #pragma once
-// What of a mesh has no place in a manifold as it is. It is drawn unchanged at level 0; coarser levels are made of the
-// repaired surface (see manifold.h).
+// Which faces of a mesh have no place in a manifold as they are. They are drawn unchanged at level 0; coarser levels
+// are made of the repaired surface (see manifold.h).
 
 #include <cstdint>
 
@@ -8,7 +8,7 @@
 
 namespace defocus {
 
-// Faces; one may be among several kinds.
+// Numbers of faces; one face may be among several kinds.
 struct Repairs {
     std::uint32_t faces = 0;    // in all
     std::uint32_t dropped = 0;  // degenerate, or repetitions

@@ -33,19 +33,20 @@ constexpr double leastShareOfMovable = 0.25;
 constexpr double keptShare = 0.5;
 constexpr double leastKeptShare = 0.25;
 
-void setCandidate(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
-    const bool before = s.candidates[v].harmless();
-    s.candidates[v] = candidate;
+void setCandidate(Simplifier& s, VertexHandle v, const Candidate& candidate) {
+    Candidate& own = s.mesh->data(v).candidate;
+    const bool before = own.harmless();
+    own = candidate;
     if (s.components.empty() || candidate.harmless() == before) return;
-    Component& component = s.components[s.componentOf[v]];
+    Component& component = s.componentAt(v);
     if (!before)
         ++component.harmless;
     else if (--component.harmless == 0)
         spend(s, v);
 }
 
-// What the vertex waits for, in the queue once there is one.
-void enqueue(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
+// Sets what the vertex waits for, in the queue once there is one.
+void enqueue(Simplifier& s, VertexHandle v, const Candidate& candidate) {
     setCandidate(s, v, candidate);
     if (!s.queued) return;
     if (candidate.possible())
@@ -55,99 +56,85 @@ void enqueue(Simplifier& s, std::uint32_t v, const Candidate& candidate) {
 }
 
 // Puts the vertex's cheapest collapse into the queue, unseen whether it is a good one.
-void enqueueCheapest(Simplifier& s, std::uint32_t v) {
-    enqueue(s, v, cheapestCollapse(s, v));
+void enqueueCheapest(Simplifier& s, VertexHandle v) {
+    enqueue(s, v, s.modules->quadrics.cheapest(v));
 }
 
-// Puts the vertex's best collapse into the queue, all of them judged; nothing if none is possible.
-void enqueueBest(Simplifier& s, std::uint32_t v) {
+// Puts the vertex's best collapse of those that are allowed into the queue; nothing if none is possible.
+void enqueueBest(Simplifier& s, VertexHandle v) {
     Candidate best;
     best.fit = Fit::impossible;
-    forEachEdgeAround(s, v, [&](const Edge& edge, std::uint32_t to) {
-        const Fit fit = judgeCollapse(s, v, to);
-        if (fit == Fit::impossible || (fit == Fit::bad && best.fit < Fit::bad)) return;
-        const float cost =
-            collapseCost(s, edge, v, to, std::numeric_limits<float>::infinity()) * (fit == Fit::poor ? poorPenalty : 1);
+    forEachSpoke(*s.mesh, v, [&](HalfedgeHandle spoke) {
+        const Fit fit = judgeFaces(s, spoke);
+        if (fit == Fit::bad && best.fit < Fit::bad) return;
+        const float cost = s.modules->quadrics.cost(spoke, std::numeric_limits<float>::infinity()) *
+                           (fit == Fit::poor ? poorPenalty : 1);
         if (!(cost < best.cost) && (fit == Fit::bad || best.fit < Fit::bad)) return;
-        best = {to, cost, fit};
+        if (!s.modules->shape.keepsTopology(spoke)) return;
+        best = {spoke, cost, fit};
     });
     enqueue(s, v, best);
 }
 
 void fillQueue(Simplifier& s) {
     s.queued = true;
-    s.queue.reset(s.vertexCount());
-    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
-        if (s.isAlive(v)) enqueueCheapest(s, v);
+    s.queue.reset(s.mesh->n_vertices());
+    forEachVertex(*s.mesh, [&](VertexHandle v) { enqueueCheapest(s, v); });
 }
 
 // From here on vertices wait in the queue for what they have waited for before.
 void startQueue(Simplifier& s) {
     s.queued = true;
-    s.queue.reset(s.vertexCount());
-    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
-        if (s.isAlive(v)) enqueue(s, v, Candidate(s.candidates[v]));
+    s.queue.reset(s.mesh->n_vertices());
+    forEachVertex(*s.mesh, [&](VertexHandle v) { enqueue(s, v, Candidate(s.mesh->data(v).candidate)); });
 }
 
 // The survivor, and its neighbours that would have collapsed onto it or onto what is gone, or not at all, look for
 // their best anew. While faces are many, they do so when their turn comes: what they wait for has only become dearer,
 // but for the few to which the survivor is nearer than what is gone.
-void requeueAround(Simplifier& s, std::uint32_t survivor, std::uint32_t gone) {
+void requeueAround(Simplifier& s, VertexHandle survivor) {
+    SurfaceMesh& mesh = *s.mesh;
     const bool atOnce = s.liveFaces <= mostFacesToFollow;
-    const auto outdate = [&](std::uint32_t v) {
-        Candidate& candidate = s.candidates[v];
+    const auto outdate = [&](VertexHandle v) {
+        Candidate& candidate = mesh.data(v).candidate;
         if (!atOnce && candidate.possible() && candidate.fit == Fit::good)
             candidate.outdated = true;
         else
             enqueueCheapest(s, v);
     };
     outdate(survivor);
-    forEachEdgeAround(s, survivor, [&](const Edge& edge, std::uint32_t v) {
-        const Candidate& candidate = s.candidates[v];
+    forEachSpoke(mesh, survivor, [&](HalfedgeHandle spoke) {
+        const VertexHandle v = mesh.to_vertex_handle(spoke);
+        const Candidate& candidate = mesh.data(v).candidate;
+        // Half-edges that led to what is gone lead to the survivor now.
         const bool known =
-            candidate.possible() && candidate.fit == Fit::good && candidate.to != gone && candidate.to != survivor;
+            candidate.possible() && candidate.fit == Fit::good && mesh.to_vertex_handle(candidate.along) != survivor;
         if (!known) return outdate(v);
         if (!atOnce || candidate.outdated) return;
-        if (const float cost = collapseCost(s, {edge.back, edge.along}, v, survivor, candidate.cost);
-            cost < candidate.cost)
-            enqueue(s, v, {survivor, cost});
+        const HalfedgeHandle back = mesh.opposite_halfedge_handle(spoke);
+        if (const float cost = s.modules->quadrics.cost(back, candidate.cost); cost < candidate.cost)
+            enqueue(s, v, {back, cost});
     });
 }
 
-void loseFace(Simplifier& s, std::uint32_t v) {
+void loseFace(Simplifier& s, VertexHandle v) {
     --s.liveFaces;
     if (s.components.empty()) return;
-    Component& component = s.components[s.componentOf[v]];
+    Component& component = s.componentAt(v);
     --component.faces;
     if (component.spent) --s.spentFaces;
 }
 
-// Of what was judged last.
-void collapse(Simplifier& s, std::uint32_t from, std::uint32_t to) {
-    const Edge edge = s.edge;
-    const glm::vec3 step(s.step(from, to));
-    for (const std::uint32_t side : {edge.along, edge.back})
-        if (side != Corner::none) loseFace(s, from);
-    for (const Retarget& retarget : s.retargets) {
-        Corner& corner = s.faces.corners[retarget.corner];
-        AttributeQuadric& old = s.attributeQuadrics[corner.wedge];
-        if (corner.wedge != retarget.wedge && old.squares.weight > 0) {
-            addAttributeQuadric(s, corner.wedge, retarget.wedge, step);
-            old = {};
-        }
-        corner.vertex = to;
-        corner.wedge = retarget.wedge;
-    }
-    s.vertices[to].quadric.add(s.vertices[from].quadric, step);
+// Applies the collapse that was judged last.
+void collapse(Simplifier& s, HalfedgeHandle along) {
+    const SurfaceMesh& mesh = *s.mesh;
+    const VertexHandle from = mesh.from_vertex_handle(along);
+    const VertexHandle to = mesh.to_vertex_handle(along);
+    for (const HalfedgeHandle side : {along, mesh.opposite_halfedge_handle(along)})
+        if (!mesh.is_boundary(side)) loseFace(s, from);
+    collapseEdge(s, along);
     setCandidate(s, from, Candidate());
-    removeEdge(s, edge, from, to);
-    requeueAround(s, to, from);
-}
-
-// What looking at the vertex's collapses begins with.
-void prefetchVertex(const Simplifier& s, std::uint32_t v) {
-    prefetch(&s.candidates[v]);
-    prefetch(&s.vertices[v]);
+    requeueAround(s, to);
 }
 
 // Collapses in order of fit and cost until `floor` faces are left or nothing more is possible. `target` and `share`:
@@ -162,29 +149,31 @@ void collapseTo(Simplifier& s, std::size_t floor, std::size_t target, double sha
             fillQueue(s);
             continue;
         }
-        const std::uint32_t v = s.queue.takeBest();
-        if (!s.queue.empty()) prefetchVertex(s, s.queue.best());
-        const Candidate candidate = s.candidates[v];
+        const VertexHandle v = s.queue.takeBest();
+        if (!s.queue.empty()) __builtin_prefetch(&s.mesh->data(s.queue.best()));
+        const Candidate candidate = s.mesh->data(v).candidate;
         if (candidate.outdated) {
             enqueueCheapest(s, v);
             continue;
         }
-        if (judgeCollapse(s, v, candidate.to) > candidate.fit) {
+        if (judgeCollapse(s, candidate.along, candidate.fit) > candidate.fit) {
             enqueueBest(s, v);
             continue;
         }
         if (isKept(s, v, candidate.fit, target, share)) continue;
-        collapse(s, v, candidate.to);
+        collapse(s, candidate.along);
         collapsed = true;
     }
 }
 
 // The cost that `rank` of the collapses that are not bad are cheaper than, about.
-float costAtRank(const Simplifier& s, std::size_t rank) {
+float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     std::vector<float> costs;
-    const std::size_t stride = 1 + s.vertexCount() / costSample;
-    for (std::size_t v = 0; v < s.vertexCount(); v += stride)
-        if (const Candidate& c = s.candidates[v]; c.possible() && c.fit < Fit::bad) costs.push_back(c.cost);
+    const std::size_t stride = 1 + mesh.n_vertices() / costSample;
+    for (std::size_t v = 0; v < mesh.n_vertices(); v += stride)
+        if (const Candidate& c = mesh.data(VertexHandle(static_cast<int>(v))).candidate;
+            c.possible() && c.fit < Fit::bad)
+            costs.push_back(c.cost);
     if (costs.size() <= rank / stride) return std::numeric_limits<float>::infinity();
     const auto place = costs.begin() + static_cast<std::ptrdiff_t>(rank / stride);
     std::nth_element(costs.begin(), place, costs.end());
@@ -194,25 +183,24 @@ float costAtRank(const Simplifier& s, std::size_t rank) {
 // Makes the collapses that cost at most `most` and aren't bad, in the order of vertices, until `target` faces are left.
 // Says whether there were any.
 bool sweep(Simplifier& s, std::size_t target, float most) {
+    if (s.mesh->n_vertices() == 0) return false;
     bool collapsed = false;
-    const Candidate* const candidates = s.candidates.data();
-    const auto count = static_cast<std::uint32_t>(s.vertexCount());
-    for (std::uint32_t v = 0; v < count && s.liveFaces > target; ++v) {
-        while (v < count && !(candidates[v].cost <= most)) ++v;  // most are too dear
-        if (v == count) break;
-        const auto ready = [&] {
-            const Candidate& c = candidates[v];
-            return c.cost <= most && c.fit < Fit::bad && c.possible();
-        };
+    const auto* const vertices = &s.mesh->data(VertexHandle(0));
+    const auto count = static_cast<int>(s.mesh->n_vertices());
+    for (int i = 0; i < count && s.liveFaces > target; ++i) {
+        while (i < count && !(vertices[i].candidate.cost <= most)) ++i;  // most are too dear
+        if (i == count) break;
+        const VertexHandle v(i);
+        const Candidate& candidate = vertices[i].candidate;
+        const auto ready = [&] { return candidate.cost <= most && candidate.fit < Fit::bad && candidate.possible(); };
         if (!ready()) continue;
-        if (s.candidates[v].outdated) enqueueCheapest(s, v);
+        if (candidate.outdated) enqueueCheapest(s, v);
         while (ready()) {
-            const Candidate candidate = s.candidates[v];
-            if (judgeCollapse(s, v, candidate.to) > candidate.fit) {
+            if (judgeCollapse(s, candidate.along, candidate.fit) > candidate.fit) {
                 enqueueBest(s, v);
                 continue;
             }
-            collapse(s, v, candidate.to);
+            collapse(s, candidate.along);
             collapsed = true;
             break;
         }
@@ -225,38 +213,42 @@ bool sweep(Simplifier& s, std::size_t target, float most) {
 bool sweepTo(Simplifier& s, std::size_t target) {
     while (s.liveFaces > target) {
         const std::size_t wanted = (s.liveFaces - target) / 2;
-        const float most = costAtRank(s, std::max(wanted / sweepsPerLevel, s.liveFaces / leastSweepShare));
+        const float most = costAtRank(*s.mesh, std::max(wanted / sweepsPerLevel, s.liveFaces / leastSweepShare));
         if (!sweep(s, target, most) && !(most < std::numeric_limits<float>::infinity())) return false;
     }
     return true;
 }
 
-// What is known of components once many are as small as they get.
+// Notes what is known of components once many are as small as they get.
 void noteComponents(const Simplifier& s, Snapshot& level) {
     if (!s.grows) return;
     level.removed = removedBalls(s);
     level.growths = growths(s);
-    level.growthsOf = s.componentOf;
+    level.growthsOf.reserve(s.mesh->n_vertices());
+    forEachVertex(*s.mesh, [&](VertexHandle v) { level.growthsOf.push_back(s.mesh->data(v).component); });
 }
 
-// Of what compact() has left.
+// Takes a picture of what compact() has left.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
+    const SurfaceMesh& mesh = *s.mesh;
     Snapshot level;
-    level.positions.reserve(s.vertexCount());
-    for (const SurfaceVertex& vertex : s.vertices) level.positions.push_back(vertex.position);
+    level.positions.reserve(mesh.n_vertices());
+    forEachVertex(mesh, [&](VertexHandle v) { level.positions.push_back(mesh.position(v)); });
     level.nearest = s.current;
-    Creases found = creases(s);
-    level.wedges = std::move(found.wedges);
+    std::vector<HalfedgeHandle> corners;
+    corners.reserve(3 * mesh.n_faces());
+    level.drawn.primitiveIndexCounts.assign(primitiveCount, 0);
+    forEachFace(mesh, [&](FaceHandle face) {
+        level.drawn.primitiveIndexCounts[mesh.primitive(face).value] += 3;
+        const FaceCorners around = cornersOf(mesh, face);
+        corners.insert(corners.end(), around.begin(), around.end());
+        if (mesh.data(face).isTurned()) std::swap(corners[corners.size() - 1], corners[corners.size() - 2]);
+    });
+    Creases found = creases(s, corners);
+    level.drawn.indices = std::move(found.drawn);
     level.behind = std::move(found.behind);
-    level.corners.reserve(s.faces.corners.size());
-    for (const Corner& corner : s.faces.corners) level.corners.push_back(corner.vertex);
-    level.primitiveIndexCounts.assign(primitiveCount, 0);
-    for (std::uint32_t face = 0; face < s.faces.count(); ++face) {
-        level.primitiveIndexCounts[s.faces.primitives[face]] += 3;
-        if (s.faces.turned[face] == 0) continue;
-        std::swap(level.wedges[3 * face + 1], level.wedges[3 * face + 2]);
-        std::swap(level.corners[3 * face + 1], level.corners[3 * face + 2]);
-    }
+    level.corners.reserve(corners.size());
+    for (const HalfedgeHandle corner : corners) level.corners.push_back(mesh.from_vertex_handle(corner));
     level.twins = s.twins;
     noteComponents(s, level);
     return level;
@@ -265,24 +257,26 @@ Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
 SimplifiedLevel described(const Origin& origin, const Snapshot& snapshot) {
     SimplifiedLevel level;
     level.anchors = anchors(origin, snapshot);
-    level.primitiveIndexCounts = snapshot.primitiveIndexCounts;
+    level.mesh.triangles.primitiveIndexCounts = snapshot.drawn.primitiveIndexCounts;
     const auto vertexCount = static_cast<std::uint32_t>(origin.firstVertex.size());
-    std::vector<std::uint32_t> local(vertexCount + snapshot.twins.size(), Corner::none);
-    level.mesh.indices.reserve(snapshot.wedges.size());
+    constexpr std::uint32_t unused = 0xffffffffu;
+    std::vector<std::uint32_t> local(vertexCount + snapshot.twins.size(), unused);
+    level.mesh.triangles.indices.reserve(snapshot.drawn.indices.size());
     level.removed = snapshot.removed;
     level.growths = snapshot.growths;
-    for (std::size_t i = 0; i < snapshot.wedges.size(); ++i) {
-        const std::uint32_t wedge = snapshot.wedges[i];
-        if (local[wedge] == Corner::none) {
-            local[wedge] = static_cast<std::uint32_t>(level.numbers.size());
-            const bool twin = wedge >= vertexCount;
-            level.numbers.push_back(wedge);
-            level.mesh.sources.push_back(twin ? snapshot.twins[wedge - vertexCount] : wedge);
-            const bool behind = std::binary_search(snapshot.behind.begin(), snapshot.behind.end(), wedge);
+    for (std::size_t i = 0; i < snapshot.drawn.indices.size(); ++i) {
+        const std::uint32_t v = snapshot.drawn.indices[i];
+        if (local[v] == unused) {
+            local[v] = static_cast<std::uint32_t>(level.numbers.size());
+            const bool twin = v >= vertexCount;
+            level.numbers.push_back(v);
+            level.mesh.sources.push_back(twin ? snapshot.twins[v - vertexCount] : v);
+            const bool behind = std::binary_search(snapshot.behind.begin(), snapshot.behind.end(), v);
             level.mesh.apart.push_back(twin || behind ? 1 : 0);
-            if (!snapshot.growthsOf.empty()) level.growthsOf.push_back(snapshot.growthsOf[snapshot.corners[i]]);
+            if (!snapshot.growthsOf.empty())
+                level.growthsOf.push_back(snapshot.growthsOf[indexOf(snapshot.corners[i])].value);
         }
-        level.mesh.indices.push_back(local[wedge]);
+        level.mesh.triangles.indices.push_back(local[v]);
     }
     return level;
 }
@@ -301,15 +295,18 @@ std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
 
 // How many faces collapses should leave at least, of a level that should have `target`; `share`: see isKept.
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
+    const SurfaceMesh& mesh = *s.mesh;
     std::size_t stuck = 0;  // faces of whose vertices none can go: of tetrahedra, single triangles and the like
     std::vector<std::uint8_t> movable(s.components.size(), 0);  // has others
-    forEachLiveFace(s, [&](std::uint32_t face) {
-        const Corner* const corner = &s.faces.corners[3 * std::size_t{face}];
-        const auto canGo = [&](std::size_t i) { return s.candidates[corner[i].vertex].possible(); };
-        if (!canGo(0) && !canGo(1) && !canGo(2))
+    forEachFace(mesh, [&](FaceHandle face) {
+        const FaceCorners corners = cornersOf(mesh, face);
+        const bool canGo = std::any_of(corners.begin(), corners.end(), [&](HalfedgeHandle corner) {
+            return mesh.data(mesh.from_vertex_handle(corner)).candidate.possible();
+        });
+        if (!canGo)
             ++stuck;
         else if (!movable.empty())
-            movable[s.componentOf[corner[0].vertex]] = 1;
+            movable[mesh.data(mesh.from_vertex_handle(corners.at[0])).component.value] = 1;
     });
     const auto rest = static_cast<double>(s.liveFaces - stuck);
     double kept = leastShareOfMovable * rest;
@@ -336,29 +333,29 @@ void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
 }
 
 // Why no level is tried from so many faces.
-PyramidEnd endAt(std::size_t faces, const LevelTriangles& mesh, const SimplifyOptions& options) {
+PyramidEnd endAt(std::size_t faces, const TriangleSet& mesh, const SimplifyOptions& options) {
     if (faces == 0 && !mesh.indices.empty()) return PyramidEnd::noSurface;
     return faces <= options.leastTriangles ? PyramidEnd::leastTriangles : PyramidEnd::smallSaving;
 }
 
 bool canCollapse(const Simplifier& s) {
-    for (std::uint32_t v = 0; v < s.vertexCount(); ++v)
-        if (s.isAlive(v) && s.candidates[v].possible()) return true;
-    return false;
+    bool found = false;
+    forEachVertex(*s.mesh, [&](VertexHandle v) { found = found || s.mesh->data(v).candidate.possible(); });
+    return found;
 }
 
 }  // namespace
 
 Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
-                        const LevelTriangles& triangles, const SimplifyOptions& options, Tasks& tasks,
+                        const TriangleSet& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take) {
     Simplification result;
-    Simplifier s = prepareSimplifier(vertices, positions, smoothing, triangles);
+    Simplifier s;
+    prepareSimplifier(s, vertices, positions, smoothing, triangles);
     result.repairedFaces = s.repairedFaces;
 
     // Collapse, and take a picture whenever half of the triangles are gone.
-    s.candidates.resize(s.vertexCount());
-    for (std::uint32_t v = 0; v < s.vertexCount(); ++v) enqueueCheapest(s, v);
+    forEachVertex(*s.mesh, [&](VertexHandle v) { enqueueCheapest(s, v); });
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
         const std::size_t target = nextTarget(s, options.leastTriangles);
         const auto most = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));

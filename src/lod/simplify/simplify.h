@@ -2,7 +2,7 @@
 // Half-edge collapse with quadrics: from a mesh, a sequence of ever coarser ones whose vertices are among the mesh's.
 //
 // The surface is joined by position over all primitives, so that seams and material borders stay shut; see manifold.h
-// for what becomes of surfaces that aren't manifold and corners.h for the attributes. A collapse is
+// for what becomes of surfaces that aren't manifold and wedges.h for the attributes. A collapse is
 //   good:  nothing speaks against it;
 //   poor:  it leaves a seam or an open border, or makes a sliver: it costs ten times as much;
 //   bad:   it turns a face's normal by more than 75° or draws a vertex of another primitive: it is made only when no
@@ -21,8 +21,8 @@
 
 #include "core/parallel.h"
 #include "lod/simplify/level_fit.h"
-#include "lod/simplify/level_order.h"
 #include "lod/simplify/pyramid_end.h"
+#include "lod/simplify/triangle_set.h"
 #include "lod/simplify/weld.h"
 #include "scene/mesh.h"
 
@@ -32,7 +32,7 @@ constexpr std::size_t fewestToGiveBack = 16'384;  // triangles of a mesh whose f
 
 struct SimplifyOptions {
     std::uint32_t leastTriangles = 64;  // halving ends here
-    int mostLevels = 23;                // level 0 not among them
+    int mostLevels = 23;                // without level 0
 };
 
 struct Ball {
@@ -49,8 +49,7 @@ struct Growth {
 };
 
 struct SimplifiedLevel {
-    LevelMesh mesh;  // primitive after primitive
-    std::vector<std::uint32_t> primitiveIndexCounts;
+    LevelMesh mesh;
     // For each vertex of `mesh` its number: that of the mesh's vertex, or vertexCount + i for the twin i.
     std::vector<std::uint32_t> numbers;
     std::vector<Anchor> anchors;  // one a vertex of the mesh
@@ -68,11 +67,11 @@ struct Simplification {
     PyramidEnd end = PyramidEnd::mostLevels;
 };
 
-// Each level halves the triangles; the levels end where less than a quarter can be saved. Each is given to
+// Makes levels of half the triangles each; they end where less than a quarter can be saved. Each is given to
 // take(l, level) once, l = 0 … levelCount − 1, by whichever thread of `tasks` has made its anchors; all are when
 // tasks.wait() has returned, which the caller does. `smoothing` (see FitSource) and `vertices` are read until then.
 Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
-                        const LevelTriangles& triangles, const SimplifyOptions& options, Tasks& tasks,
+                        const TriangleSet& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);
 
 }  // namespace defocus

@@ -14,10 +14,10 @@ struct Welded {
     std::vector<std::uint32_t> first;  // for each id the first vertex that has it
 };
 
-// Exactly equal positions (−0 equals 0; a position that is no number equals none).
+// Welds exactly equal positions (−0 equals 0; a position that is no number equals none).
 Welded weldPositions(const std::vector<glm::vec3>& positions);
 
-// Every attribute equal to the last bit, morph targets included.
+// Welds vertices of which every attribute is equal to the last bit, morph targets included.
 Welded weldVertices(const Mesh& mesh);
 
 }  // namespace defocus

@@ -57,7 +57,7 @@ defocus::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& 
     source.areas.assign(t.anchors.size(), 1);  // level 0's triangles are nowhere written down: all alike
     source.bounds.extend({0, 0, 1});
     LevelMesh level;
-    level.indices = indices;
+    level.triangles.indices = indices;
     for (std::uint32_t v = 0; v < indices.size(); ++v) level.sources.push_back(v);
     level.apart.assign(indices.size(), 0);
     return fitLevel(source, level, t.anchors);
@@ -151,7 +151,7 @@ TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     const auto smoothing = smoothingGroups(t.vertices.normals, positions.id);
     FitSource source = prepareFit(t.vertices, positions, smoothing, indices);
     source.areas.assign(t.anchors.size(), 1);
-    const LevelMesh level{{0, 1, 2, 3, 1, 2}, {0, 1, 2, 0}, {0, 0, 0, 1}};
+    const LevelMesh level{{{0, 1, 2, 3, 1, 2}, {6}}, {0, 1, 2, 0}, {0, 0, 0, 1}};
     const defocus::LevelFit fitted = fitLevel(source, level, t.anchors);
     EXPECT_EQ(fitted.positions[3], fitted.positions[0]);
     EXPECT_GT(fitted.normals[0].x, 0.05f);

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t none = Manifold::none;
 
 Manifold manifoldOf(const std::vector<glm::dvec3>& points, const std::vector<std::uint32_t>& corners) {
-    return buildManifold({corners, std::vector<std::uint32_t>(corners.size() / 3, 0)}, points);
+    return buildManifold({corners, {static_cast<std::uint32_t>(corners.size())}}, points);
 }
 
 std::ptrdiff_t pairedHalfEdges(const Manifold& manifold) {
@@ -107,7 +107,7 @@ TEST(Manifold, DegenerateAndRepeatedFacesHaveNoPlaceInASurface) {
 }
 
 TEST(Manifold, SameFaceInTwoPrimitivesStays) {
-    const Manifold manifold = buildManifold({{0, 1, 2, 0, 1, 2}, {0, 1}}, square);
+    const Manifold manifold = buildManifold({{0, 1, 2, 0, 1, 2}, {3, 3}}, square);
     EXPECT_EQ(manifold.faces.size(), 2u);
     EXPECT_EQ(manifold.positions.size(), 6u);
 }

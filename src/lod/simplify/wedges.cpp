@@ -1,0 +1,174 @@
+#include "lod/simplify/wedges.h"
+
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <tuple>
+#include <type_traits>
+
+namespace defocus {
+
+namespace {
+
+constexpr double leastQuality = 1e-3;  // twice the area / sum of squared edges; 0.29 for an equilateral triangle
+
+// How the attributes of a table of AttributeQuadric<n> change from one row to another.
+template <std::size_t n>
+AttributeRow<n> changeBetween(std::span<const float> from, std::span<const float> to) {
+    AttributeRow<n> result;
+    for (std::size_t j = 0; j < n; ++j) result[j] = to[j] - from[j];
+    return result;
+}
+
+template <std::size_t n>
+AttributeRow<n> rowOf(std::span<const float> row) {
+    AttributeRow<n> result;
+    std::copy_n(row.begin(), n, result.begin());
+    return result;
+}
+
+// How many attributes the quadrics of a vector have.
+template <typename Quadrics>
+constexpr std::size_t attributesOf = std::tuple_size_v<decltype(std::remove_cvref_t<Quadrics>::value_type::offset)>;
+
+// Squares of what attributes [first, last) differ by, as weighed in rows.
+double squares(std::span<const float> a, std::span<const float> b, std::size_t first, std::size_t last) {
+    float sum = 0;
+    for (std::size_t j = first; j < last; ++j) sum += (a[j] - b[j]) * (a[j] - b[j]);
+    return double{sum};
+}
+
+template <std::size_t n>
+void addFaceTo(LargeVector<AttributeQuadric<n>>& quadrics, const WedgeTable& table, const WedgeNumber* corners,
+               const glm::dvec3* places, float weight) {
+    AttributeRow<n> rows[3];
+    const AttributeRow<n>* rowsOf[3];
+    const glm::dvec3* points[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        rows[i] = rowOf<n>(table.row(corners[i]));
+        rowsOf[i] = &rows[i];
+        points[i] = &places[i];
+    }
+    AttributeQuadric<n> face;
+    face.addFace(attributeGradients(points, rowsOf), weight);
+    for (std::size_t i = 0; i < 3; ++i) quadrics[corners[i].value].addFaces(face);
+}
+
+}  // namespace
+
+void WedgeTable::assign(const Vertices& vertices, float uvScale) {
+    hasColors_ = !vertices.colors.empty();
+    hasUv_ = !vertices.uv0.empty();
+    attributeCount_ = std::size_t{3} + (hasColors_ ? 3 : 0) + (hasUv_ ? 2 : 0);
+    sources_.resize(vertices.count());
+    rows_.clear();
+    rows_.reserve(attributeCount_ * vertices.count());
+    for (std::size_t v = 0; v < sources_.size(); ++v) {
+        sources_[v] = static_cast<std::uint32_t>(v);
+        const glm::vec3 normal = vertices.normals.empty() ? glm::vec3(0) : normalWeight * vertices.normals[v];
+        rows_.insert(rows_.end(), {normal.x, normal.y, normal.z});
+        if (hasColors_) {
+            const glm::vec3 color = colorWeight / 255.0f * glm::vec3(vertices.colors[v]);
+            rows_.insert(rows_.end(), {color.x, color.y, color.z});
+        }
+        if (hasUv_) {
+            const glm::vec2 uv = uvWeight * uvScale * vertices.uv0[v];
+            rows_.insert(rows_.end(), {uv.x, uv.y});
+        }
+    }
+}
+
+void WedgeTable::startQuadrics() {
+    switch (attributeCount_) {
+        case 3:
+            quadrics_.emplace<0>(sources_.size());
+            break;
+        case 5:
+            quadrics_.emplace<1>(sources_.size());
+            break;
+        case 6:
+            quadrics_.emplace<2>(sources_.size());
+            break;
+        default:
+            quadrics_.emplace<3>(sources_.size());
+            break;
+    }
+}
+
+void WedgeTable::keep(std::span<const WedgeNumber> order) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::size_t w = order[i].value;
+        sources_[i] = sources_[w];
+        std::copy_n(&rows_[w * attributeCount_], attributeCount_, &rows_[i * attributeCount_]);
+    }
+    sources_.resize(order.size());
+    rows_.resize(order.size() * attributeCount_);
+    giveBackRoom(sources_);
+    giveBackRoom(rows_);
+    std::visit(
+        [&](auto& quadrics) {
+            for (std::size_t i = 0; i < order.size(); ++i) quadrics[i] = quadrics[order[i].value];
+            quadrics.resize(order.size());
+            giveBackRoom(quadrics);
+        },
+        quadrics_);
+}
+
+double WedgeTable::uvDifference(WedgeNumber a, WedgeNumber b) const {
+    if (!hasUv_) return 0;
+    return squares(row(a), row(b), attributeCount_ - 2, attributeCount_) / double{uvWeight * uvWeight};
+}
+
+double WedgeTable::difference(WedgeNumber a, WedgeNumber b) const {
+    const double normals = squares(row(a), row(b), 0, 3) / double{normalWeight * normalWeight};
+    const double colors = hasColors_ ? squares(row(a), row(b), 3, 6) / double{colorWeight * colorWeight} : 0;
+    return normals + 4 * colors + uvDifference(a, b);
+}
+
+void WedgeTable::addFace(const WedgeNumber* corners, const glm::dvec3* places) {
+    double squaredEdges = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 edge = places[(i + 1) % 3] - places[i];
+        squaredEdges += glm::dot(edge, edge);
+    }
+    const double doubleArea = glm::length(glm::cross(places[1] - places[0], places[2] - places[0]));
+    if (!(doubleArea > leastQuality * squaredEdges)) return;
+    std::visit([&](auto& quadrics) { addFaceTo(quadrics, *this, corners, places, static_cast<float>(doubleArea / 6)); },
+               quadrics_);
+}
+
+float WedgeTable::cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const {
+    return std::visit(
+        [&](const auto& quadrics) {
+            constexpr std::size_t n = attributesOf<decltype(quadrics)>;
+            return quadrics[from.value].at(step, changeBetween<n>(row(from), row(to))) + quadrics[to.value].squares.c;
+        },
+        quadrics_);
+}
+
+void WedgeTable::moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step) {
+    std::visit(
+        [&](auto& quadrics) {
+            constexpr std::size_t n = attributesOf<decltype(quadrics)>;
+            if (!(quadrics[from.value].squares.weight > 0)) return;
+            quadrics[to.value].add(quadrics[from.value], step, changeBetween<n>(row(from), row(to)));
+            quadrics[from.value] = {};
+        },
+        quadrics_);
+}
+
+void WedgeTable::prefetchStart(WedgeNumber w) const {
+    __builtin_prefetch(&rows_[w.value * attributeCount_]);
+    std::visit([&](const auto& quadrics) { __builtin_prefetch(&quadrics[w.value]); }, quadrics_);
+}
+
+void WedgeTable::prefetch(WedgeNumber w) const {
+    __builtin_prefetch(&rows_[w.value * attributeCount_]);
+    std::visit(
+        [&](const auto& quadrics) {
+            const auto* const bytes = reinterpret_cast<const std::byte*>(&quadrics[w.value]);
+            for (std::size_t i = 0; i < sizeof(quadrics[0]); i += 64) __builtin_prefetch(bytes + i);
+        },
+        quadrics_);
+}
+
+}  // namespace defocus

@@ -1,0 +1,80 @@
+#pragma once
+// Wedges. The surface is joined by position, but each corner of a face draws a mesh vertex of its own, its wedge (Hoppe
+// 1998, Efficient Implementation of Progressive Meshes), so that UV seams, creases and material borders live on a
+// closed surface. The table holds each wedge's attributes and its attribute quadric.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "core/memory.h"
+#include "lod/simplify/attribute_quadric.h"
+#include "lod/simplify/number.h"
+#include "scene/mesh.h"
+
+namespace defocus {
+
+// The distance, in the mesh's longest sides, that weighs as much as a unit of an attribute (of uv: scaled to lengths of
+// the surface, so that it tells a texture that slides). Swept on the school of fish: half or twice as much costs up to
+// 0.5 dB at the same triangles.
+constexpr float normalWeight = 0.003f;
+constexpr float colorWeight = 0.005f;  // of colours in [0, 1]
+constexpr float uvWeight = 0.05f;
+
+class WedgeTable {
+public:
+    // Makes one wedge a vertex, with the weighted attributes that the vertices have. `uvScale` leads from uv to lengths
+    // of the unit frame.
+    void assign(const Vertices& vertices, float uvScale);
+    // Gives each wedge an empty quadric; before addFace().
+    void startQuadrics();
+    // Keeps the wedges that are named, in this order (ascending).
+    void keep(std::span<const WedgeNumber> order);
+
+    [[nodiscard]] std::size_t size() const { return sources_.size(); }
+    // The mesh vertex that the wedge's corners draw.
+    [[nodiscard]] std::uint32_t source(WedgeNumber w) const { return sources_[w.value]; }
+    // Weighted attributes: normal, then colour, then uv, as far as the mesh has them.
+    [[nodiscard]] std::span<const float> row(WedgeNumber w) const {
+        return {&rows_[w.value * attributeCount_], attributeCount_};
+    }
+
+    // Whether no seam lies between two wedges: they differ in nothing but their normals.
+    [[nodiscard]] bool sameChart(WedgeNumber a, WedgeNumber b) const {
+        const auto first = row(a);
+        return std::equal(first.begin() + 3, first.end(), row(b).begin() + 3);
+    }
+    // The square of the way between two wedges in texture space, in units of the frame.
+    [[nodiscard]] double uvDifference(WedgeNumber a, WedgeNumber b) const;
+    // How unlike two wedges are: the squares of the way between their normals, between their colours (which weighs 4)
+    // and in texture space.
+    [[nodiscard]] double difference(WedgeNumber a, WedgeNumber b) const;
+
+    // Adds a face with these three wedges at its corners `places` to their quadrics; a sliver's gradients would be
+    // noise, so it is left out.
+    void addFace(const WedgeNumber* corners, const glm::dvec3* places);
+    // What it costs to draw `to`, which is `step` away, where `from` was drawn; never negative.
+    [[nodiscard]] float cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const;
+    // Moves what the quadric of `from` holds to that of `to`, which is `step` away.
+    void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);
+    // Asks the caches for the first of what cost() needs of a survivor, and for all that moveQuadric() needs.
+    void prefetchStart(WedgeNumber w) const;
+    void prefetch(WedgeNumber w) const;
+
+private:
+    // All sets of attributes that a mesh can have: its normals alone, or with uv, with colours, with both.
+    using Quadrics = std::variant<LargeVector<AttributeQuadric<3>>, LargeVector<AttributeQuadric<5>>,
+                                  LargeVector<AttributeQuadric<6>>, LargeVector<AttributeQuadric<8>>>;
+
+    std::size_t attributeCount_ = 3;
+    bool hasColors_ = false;
+    bool hasUv_ = false;
+    LargeVector<float> rows_;  // attributeCount_ a wedge
+    LargeVector<std::uint32_t> sources_;
+    Quadrics quadrics_;
+};
+
+}  // namespace defocus
