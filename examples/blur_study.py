@@ -60,13 +60,13 @@ top.colorbar(shown, ax=list(axes[1]), label="circle of confusion, px\n(> 0: behi
 for axis in axes.flat:
     axis.set_axis_off()
 
-# %% Error against samples: halving the error of a blur takes less than four times the samples, as they are well spread.
+# %% Error against samples. Small bright lamps need the most: until the samples fill their discs, each draws a dot.
 left, right = bottom.subplots(1, 2)
 for marker, f_stop in zip("osd^", F_STOPS):
     left.loglog(SAMPLES, [error.rmse for error in errors[f_stop]], marker=marker, label=f"f/{f_stop}")
     right.loglog(SAMPLES, [error.flip for error in errors[f_stop]], marker=marker, label=f"f/{f_stop}")
 slope = errors[F_STOPS[0]][0].rmse * numpy.sqrt(SAMPLES[0] / numpy.array(SAMPLES))
-left.loglog(SAMPLES, slope, "k:", label="random samples, $N^{-1/2}$")
+left.loglog(SAMPLES, slope, "k:", label="$N^{-1/2}$, as of random samples")
 left.set_ylabel("root mean squared error")
 right.set_ylabel("mean FLIP")
 for axis in (left, right):

@@ -16,7 +16,6 @@ END = "# ---- end of keywords ----\n"
 TYPES = {"number": "float", "whole": "int", "truth": "bool", "text": "str", "path": "Path"}
 # Of settings whose values have a form of their own. A string in the command line's form always goes too.
 FORMS = {
-    "S": "Union[float, str]",
     "N|exact": "Union[int, str]",
     "WHAT": "Union[str, Point]",
     "X,Y,Z": "Union[Point, str]",
@@ -31,6 +30,8 @@ FORMS = {
 def type_of(setting):
     if setting.kind == "choice":
         return "Literal[" + ", ".join(f'"{choice}"' for choice in setting.choices) + "]"
+    if setting.kind == "number" and setting.unit == "s" and setting.range[0] >= 0:
+        return "Union[float, str]"  # 1/48 too
     return FORMS[setting.form] if setting.kind == "other" else TYPES[setting.kind]
 
 

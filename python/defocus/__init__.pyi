@@ -17,6 +17,84 @@ __version__: str
 __all__: List[str]
 
 # ---- keywords, from the settings table ----
+
+class Keywords(TypedDict, total=False):
+    fish_count: Optional[int]
+    triangles_per_fish: Optional[int]
+    time: Optional[float]  # s
+    clip: Optional[str]
+    loop: Optional[bool]
+    shutter: Optional[Union[float, str]]  # s
+    shutter_position: Optional[Literal["start", "centre", "end"]]
+    motion_segments: Optional[Union[int, str]]
+    environment: Optional[Path]
+    background: Optional[Union[str, Point]]
+    camera: Optional[str]
+    camera_position: Optional[Union[Point, str]]  # m
+    camera_target: Optional[Union[Point, str]]  # m
+    camera_up: Optional[Union[Point, str]]
+    size: Optional[Union[Tuple[int, int], str]]  # px
+    focal_length: Optional[float]  # mm
+    f_stop: Optional[float]
+    focus_distance: Optional[float]  # m
+    focus_node: Optional[str]
+    focus_pixel: Optional[Union[Pixel, str]]
+    focus_points: Optional[Union[Tuple[Pixel, Pixel, Pixel], str]]
+    focus_auto: Optional[bool]
+    horizontal_aperture: Optional[float]  # mm
+    dof_enabled: Optional[bool]
+    blur_scale: Optional[float]
+    focus_breathing: Optional[bool]
+    exposure_time: Optional[Union[float, str]]  # s
+    iso: Optional[float]
+    blade_count: Optional[int]
+    blade_rotation: Optional[float]  # degrees
+    blade_curvature: Optional[float]
+    anamorphic_ratio: Optional[float]
+    obstruction: Optional[float]
+    spherical_aberration: Optional[float]
+    cat_eye: Optional[float]
+    axial_chromatic_aberration: Optional[float]  # dioptres
+    foreground_limit: Optional[float]  # px
+    background_limit: Optional[float]  # px
+    focus_range_front: Optional[float]  # m
+    focus_range_behind: Optional[float]  # m
+    focus_tilt: Optional[float]  # degrees
+    focus_swing: Optional[float]  # degrees
+    field_curvature: Optional[float]
+    radial_blur_gain: Optional[float]
+    aperture_image: Optional[Path]
+    node_blur: Optional[Union[Mapping[str, float], str]]
+    samples: Optional[int]
+    sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]
+    seed: Optional[int]
+    lod: Optional[Literal["fractional", "continuous", "nearest", "off"]]
+    blur_threshold: Optional[float]
+    size_threshold: Optional[float]  # px
+    cache_folder: Optional[Path]
+    no_cache: Optional[bool]
+    method: Optional[str]
+    layer_format: Optional[Literal["automatic", "rgb9e5", "rgba16f", "rgba32f", "rgba8"]]
+    tone_map: Optional[Literal["none", "aces", "agx"]]
+    exposure: Optional[float]  # EV
+    lod_metric: Optional[Literal["size", "error"]]
+    lod_coc: Optional[Literal["smallest", "centre"]]
+    coc_tolerance: Optional[float]  # px
+    keep_all: Optional[bool]
+    wave: Optional[int]
+    coc: Optional[Literal["published", "thin-lens"]]
+    taps: Optional[int]
+    max_coc: Optional[Literal["published", "unlimited"]]
+    pinholes: Optional[int]
+    near_components: Optional[int]
+    far_components: Optional[int]
+    resolution: Optional[Literal["full", "half", "quarter"]]
+    kernel_taps: Optional[Literal["exact", "eight", "sets"]]
+    storage: Optional[Literal["float", "half", "r10g10b10a2"]]
+    fields: Optional[Literal["separate", "combined"]]
+    blend_bias: Optional[float]
+    convolution: Optional[Literal["separable", "direct"]]
+
 # ---- end of keywords ----
 
 class Error(RuntimeError): ...
