@@ -584,7 +584,7 @@ TEST(PyramidCache, listsAndClearsItsOwnFilesOnly) {
     EXPECT_THROW((void)cacheFiles(scratch / "plain file"), Error);
 }
 
-class Environment : public testing::Test {
+class CacheEnvironment : public testing::Test {
 protected:
     void TearDown() override {
         restore("XDG_CACHE_HOME", caches_);
@@ -608,7 +608,7 @@ private:
 };
 
 // XDG Base Directory Specification: empty counts as unset, and relative paths are ignored.
-TEST_F(Environment, tellsTheDefaultFolder) {
+TEST_F(CacheEnvironment, tellsTheDefaultFolder) {
     set("/caches", "/home/me");
     EXPECT_EQ(defaultCacheFolder(), "/caches/defocus");
     set(nullptr, "/home/me");
