@@ -23,8 +23,8 @@ Vertices grid() {
     return vertices;
 }
 
-// The same places, but the right column of quads has vertices of its own where the two columns meet, with uv that are
-// `jump` cells away:
+// The same places, but the right column of quads has vertices of its own where the two columns meet, with uv
+// that are `jump` cells away:
 //
 //  6---7 11---8
 //  | / |  | / |
@@ -41,9 +41,9 @@ Vertices tornGrid(float jump) {
     return vertices;
 }
 
-const std::vector<std::uint32_t> left = {0, 1, 4, 0, 4, 3, 3, 4, 7, 3, 7, 6};
-const std::vector<std::uint32_t> right = {1, 2, 5, 1, 5, 4, 4, 5, 8, 4, 8, 7};
-const std::vector<std::uint32_t> rightOfSeam = {9, 2, 5, 9, 5, 10, 10, 5, 8, 10, 8, 11};
+const std::vector<std::uint32_t> leftTriangles = {0, 1, 4, 0, 4, 3, 3, 4, 7, 3, 7, 6};
+const std::vector<std::uint32_t> rightTriangles = {1, 2, 5, 1, 5, 4, 4, 5, 8, 4, 8, 7};
+const std::vector<std::uint32_t> rightTrianglesOfSeam = {9, 2, 5, 9, 5, 10, 10, 5, 8, 10, 8, 11};
 
 std::vector<std::uint32_t> together(std::vector<std::uint32_t> a, const std::vector<std::uint32_t>& b) {
     a.insert(a.end(), b.begin(), b.end());
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> together(std::vector<std::uint32_t> a, const std::vec
 }
 
 TEST(WedgeModule, insideAChartCornersDrawTheSurvivor) {
-    DrawnSurface surface(grid(), {together(left, right)});
+    DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
     WedgeModule& wedges = surface.modules().wedges;
     EXPECT_EQ(wedges.judge(surface.edge(4, 5)), Fit::good);
     ASSERT_EQ(wedges.handovers().size(), 4u);
@@ -62,7 +62,7 @@ TEST(WedgeModule, insideAChartCornersDrawTheSurvivor) {
 }
 
 TEST(WedgeModule, alongASeamEachSideKeepsItsOwn) {
-    DrawnSurface surface(tornGrid(10), {together(left, rightOfSeam)});
+    DrawnSurface surface(tornGrid(10), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(surface.modules().wedges.judge(surface.edge(4, 1)), Fit::good);
     surface.collapse(4, 1);
     EXPECT_EQ(drawnFaces(surface.mesh()),
@@ -70,9 +70,9 @@ TEST(WedgeModule, alongASeamEachSideKeepsItsOwn) {
 }
 
 TEST(WedgeModule, leavingASeamIsPoorWhereTheTextureJumps) {
-    DrawnSurface far(tornGrid(10), {together(left, rightOfSeam)});
+    DrawnSurface far(tornGrid(10), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(far.modules().wedges.judge(far.edge(4, 5)), Fit::poor);
-    DrawnSurface near(tornGrid(0.5f), {together(left, rightOfSeam)});
+    DrawnSurface near(tornGrid(0.5f), {together(leftTriangles, rightTrianglesOfSeam)});
     EXPECT_EQ(near.modules().wedges.judge(near.edge(4, 5)), Fit::good);
     // Either way, the corners on the left can only draw what the survivor has.
     near.collapse(4, 5);
@@ -81,7 +81,7 @@ TEST(WedgeModule, leavingASeamIsPoorWhereTheTextureJumps) {
 }
 
 TEST(WedgeModule, drawingAVertexOfAnotherPrimitiveIsBad) {
-    DrawnSurface surface(tornGrid(0), {left, rightOfSeam});
+    DrawnSurface surface(tornGrid(0), {leftTriangles, rightTrianglesOfSeam});
     WedgeModule& wedges = surface.modules().wedges;
     EXPECT_EQ(wedges.judge(surface.edge(4, 5)), Fit::bad);
     EXPECT_EQ(wedges.judge(surface.edge(4, 3)), Fit::bad);
@@ -90,15 +90,15 @@ TEST(WedgeModule, drawingAVertexOfAnotherPrimitiveIsBad) {
     EXPECT_EQ(wedges.collapse_priority(CollapseInfo(surface.mesh(), surface.edge(4, 1))), 0);
 }
 
-// A crease runs from vertex 4 upwards: above, the right column has normals of its own. Below, vertex 1 has one normal;
-// its corners take over the vertex of the survivor that is most like it.
+// A crease runs from vertex 4 upwards: above, the right column has normals of its own. Below, vertex 1 has one
+// normal; its corners take over the vertex of the survivor that is most like it.
 TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
     for (const bool likeTheRight : {false, true}) {
         Vertices vertices = tornGrid(0);
         vertices.normals.assign(12, {0, 0, 1});
         for (const std::size_t v : {5u, 8u, 10u, 11u}) vertices.normals[v] = {1, 0, 0};
         if (likeTheRight) vertices.normals[1] = glm::normalize(glm::vec3(1, 0, 0.5f));
-        DrawnSurface surface(vertices, {together(left, {1, 2, 5, 1, 5, 10, 10, 5, 8, 10, 8, 11})});
+        DrawnSurface surface(vertices, {together(leftTriangles, {1, 2, 5, 1, 5, 10, 10, 5, 8, 10, 8, 11})});
         EXPECT_EQ(surface.modules().wedges.judge(surface.edge(1, 4)), Fit::good);
         surface.collapse(1, 4);
         EXPECT_EQ(drawnFaces(surface.mesh()),
@@ -110,13 +110,13 @@ TEST(WedgeModule, whereACreaseBeginsCornersTakeTheMostSimilarNormal) {
 // At one place, a quadric costs its faces' area times the square of what the attributes are off by: three faces meet at
 // vertex 5, and six more at vertex 4.
 TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
-    DrawnSurface surface(grid(), {together(left, right)});
+    DrawnSurface surface(grid(), {together(leftTriangles, rightTriangles)});
     const WedgeTable& wedges = surface.mesh().wedges;
     const float before = wedges.cost({5}, {0}, {0, 0, 0});
     ASSERT_GT(before, 0);
     surface.collapse(4, 5);
     EXPECT_NEAR(wedges.cost({5}, {0}, {0, 0, 0}) / before, 3, 1e-4);
-    EXPECT_EQ(wedges.cost({4}, {0}, {0, 0, 0}), 0) << "nothing is left at the vertex that is gone";
+    EXPECT_EQ(wedges.cost({4}, {0}, {0, 0, 0}), 0) << "nothing is leftTriangles at the vertex that is gone";
 }
 
 }  // namespace
