@@ -22,13 +22,14 @@ function(defocus_library TARGET KIND)
                                                    "$<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>"
                                                    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
     target_compile_features(${TARGET} INTERFACE cxx_std_20)
-    set(DEPENDENCIES OpenImageIO::OpenImageIO fmt::fmt TBB::tbb draco::draco meshoptimizer::meshoptimizer
-                     OpenMeshCore PkgConfig::stb PkgConfig::epoxy PkgConfig::egl Threads::Threads)
-    if(KIND STREQUAL "SHARED")  # whoever links it needs none of them
-        list(TRANSFORM DEPENDENCIES REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
+    set(LIBRARIES OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util fmt::fmt TBB::tbb draco::draco meshoptimizer::meshoptimizer OpenMeshCore)
+    set(FLAGS PkgConfig::stb PkgConfig::epoxy PkgConfig::egl Threads::Threads)
+    if(KIND STREQUAL "SHARED")  # whoever links it needs none of them: its package doesn't name them
+        list(TRANSFORM LIBRARIES REPLACE "(.+)" "$<BUILD_INTERFACE:$<TARGET_LINKER_FILE:\\1>>")
+        list(TRANSFORM FLAGS REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
         target_link_options(${TARGET} PRIVATE -Wl,--no-undefined -Wl,--exclude-libs,ALL)
     endif()
-    target_link_libraries(${TARGET} PRIVATE "$<BUILD_INTERFACE:defocus_options>" ${DEPENDENCIES})
+    target_link_libraries(${TARGET} PRIVATE "$<BUILD_INTERFACE:defocus_options>" ${LIBRARIES} ${FLAGS})
 endfunction()
 
 # Rules for one of the two. `IN_ALL`: a plain cmake --install has it.
@@ -47,8 +48,8 @@ function(defocus_install_library TARGET KIND IN_ALL)
     install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/defocus" "${PROJECT_BINARY_DIR}/include/defocus"
             DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${RULE} FILES_MATCHING PATTERN "*.h")
 
-    # find_package(defocus)
-    install(EXPORT ${TARGET}Targets FILE defocusTargets.cmake NAMESPACE defocus:: DESTINATION "${PACKAGE_FOLDER}" ${RULE})
+    # find_package(defocus). The two kinds' targets stand in files of their own: CMake generates one for each name.
+    install(EXPORT ${TARGET}Targets FILE defocusTargets-${COMPONENT}.cmake NAMESPACE defocus:: DESTINATION "${PACKAGE_FOLDER}" ${RULE})
     configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/defocusConfig-${COMPONENT}.cmake.in"
                                   "${GENERATED}/defocusConfig.cmake" INSTALL_DESTINATION "${PACKAGE_FOLDER}"
                                   NO_SET_AND_CHECK_MACRO)
