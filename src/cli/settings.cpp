@@ -101,7 +101,7 @@ std::string markdown() {
     std::string page =
         "# Settings\n\n"
         "Every setting of a picture, by its names. `defocus settings --markdown` prints this page from the table that "
-        "the\nprogram itself reads (`src/frame/settings.cpp`).\n\n"
+        "the\nprogram itself reads (`src/frame/setting_rows.cpp`).\n\n"
         "- **Option**: on the command line of `render`, `capture`, `view`, `plan` and the benches that follow it.\n"
         "- **Python**: the keyword of `defocus.render` and its kin. C++ has the same names in `defocus::Request`.\n"
         "- **Shot**: its place in a shot file, and whether it may have keys there. A camera's extras in a glTF file "

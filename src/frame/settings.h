@@ -1,7 +1,7 @@
 #pragma once
 // Every setting of a request, one row each. The command line, shots and their schema, image metadata, the settings
 // hash, *Copy as command*, the window, Python's keywords and docs/settings.md are made from these rows: a new setting
-// is a member of Request (include/defocus/) and a row of settings.cpp.
+// is a member of Request (include/defocus/) and a row of setting_rows.cpp.
 //
 // Values go in and out as text, as the command line has it. What writes a value and what reads it back agree: for each
 // row and request, set(request, text(request)) changes nothing.

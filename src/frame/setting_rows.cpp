@@ -1,0 +1,423 @@
+// The rows of the table of settings, in the order in which --help shows them.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "frame/setting_kinds.h"
+#include "lens/lens_fields.h"
+#include "lod/pyramid/level_selection.h"
+
+namespace defocus {
+
+namespace {
+
+using namespace setting_kinds;
+
+// What a member of Request is called in the rows below.
+#define MEMBER(path)             \
+    [](auto& request) -> auto& { \
+        return request.path;     \
+    }
+
+// ---- values with a form of their own ------------------------------------------------------------------------------
+
+void setShutter(Request& request, const std::string& text) {
+    request.shutter.seconds = parseSeconds(text);
+}
+
+void setSegments(Request& request, const std::string& text) {
+    constexpr std::uint64_t mostSegments = 64;
+    request.shutter.exactMotion = text == "exact";
+    if (!request.shutter.exactMotion)
+        request.shutter.motionSegments = static_cast<std::uint32_t>(parseWhole(text, 1, mostSegments));
+}
+
+std::optional<std::string> segmentsText(const Request& request) {
+    return request.shutter.exactMotion ? "exact" : fmt::format("{}", request.shutter.motionSegments);
+}
+
+void setBackground(Request& request, const std::string& text) {
+    if (text.find(',') != std::string::npos) {
+        const std::vector<double> color = parseNumbers(text, 3, {0, 1e9});
+        request.background = Background::uniform;
+        for (std::size_t i = 0; i < 3; ++i) request.backgroundColor[i] = static_cast<float>(color[i]);
+        return;
+    }
+    const std::size_t chosen = parseChoice(text, {"environment", "none", "R,G,B"});
+    if (chosen > 1) fail("give three numbers for R,G,B, such as 0.2,0.2,0.2");
+    request.background = chosen == 0 ? Background::environment : Background::none;
+}
+
+std::optional<std::string> backgroundText(const Request& request) {
+    if (request.background == Background::uniform) return fmt::format("{}", fmt::join(request.backgroundColor, ","));
+    return request.background == Background::none ? "none" : "environment";
+}
+
+template <typename Member>
+Setting point(std::string name, std::string option, Member member, std::string help) {
+    return other(
+        std::move(name), std::move(option), "X,Y,Z",
+        [=](Request& request, const std::string& text) {
+            const std::vector<double> xyz = parseNumbers(text, 3, {-1e12, 1e12});
+            member(request) = Vector3{xyz[0], xyz[1], xyz[2]};
+        },
+        [=](const Request& request) -> std::optional<std::string> {
+            if (!member(request)) return std::nullopt;
+            return fmt::format("{}", fmt::join(*member(request), ","));
+        },
+        std::move(help));
+}
+
+void setSize(Request& request, const std::string& text) {
+    const std::size_t cross = text.find_first_of("xX");
+    if (cross == std::string::npos) fail("'{}' is not WIDTHxHEIGHT, such as 1024x768", text);
+    try {
+        request.width = static_cast<int>(parseWhole(text.substr(0, cross), 1, mostPixels));
+        request.height = static_cast<int>(parseWhole(text.substr(cross + 1), 1, mostPixels));
+    } catch (const Error&) {
+        fail("'{}': width and height must be whole numbers from 1 to {}, such as 1024x768", text, mostPixels);
+    }
+}
+
+void setFocusPixel(Request& request, const std::string& text) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos) fail("'{}' is not X,Y (column and row, 0,0 at the top left)", text);
+    request.focusPixel = Pixel{static_cast<int>(parseWhole(text.substr(0, comma), 0, mostPixels - 1)),
+                               static_cast<int>(parseWhole(text.substr(comma + 1), 0, mostPixels - 1))};
+}
+
+std::optional<std::string> focusPixelText(const Request& request) {
+    if (!request.focusPixel) return std::nullopt;
+    return fmt::format("{},{}", request.focusPixel->column, request.focusPixel->row);
+}
+
+void setFocusPoints(Request& request, const std::string& text) {
+    const std::vector<double> numbers = parseNumbers(text, 6, {0, mostPixels - 1});
+    std::array<Pixel, 3>& points = request.focusPoints.emplace();
+    for (std::size_t i = 0; i < 3; ++i)
+        points[i] = {static_cast<int>(numbers[2 * i]), static_cast<int>(numbers[2 * i + 1])};
+}
+
+std::optional<std::string> focusPointsText(const Request& request) {
+    if (!request.focusPoints) return std::nullopt;
+    std::vector<int> numbers;
+    for (const Pixel& point : *request.focusPoints) numbers.insert(numbers.end(), {point.column, point.row});
+    return fmt::format("{}", fmt::join(numbers, ","));
+}
+
+// A name may hold an equals sign.
+void addNodeBlur(Request& request, const std::string& text) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0) fail("'{}' is not NAME=SCALE, such as Fish3=0", text);
+    request.nodeBlur[text.substr(0, equals)] = parseNumber(text.substr(equals + 1), {0, 1e3});
+}
+
+std::vector<std::string> nodeBlurTexts(const Request& request) {
+    std::vector<std::string> texts;
+    for (const auto& [name, scale] : request.nodeBlur) texts.push_back(fmt::format("{}={}", name, scale));
+    return texts;
+}
+
+void setMethod(Request& request, const std::string& text) {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    static_cast<void>(parseChoice(text.substr(0, text.find(':')), names));
+    request.method = parseMethodUse(text).text();
+}
+
+// ---- the lens -------------------------------------------------------------------------------------------------------
+
+std::string unitOf(std::string_view metavar) {
+    if (metavar == "MM") return "mm";
+    if (metavar == "M") return "m";
+    if (metavar == "DEG") return "degrees";
+    if (metavar == "PX") return "px";
+    if (metavar == "D") return "dioptres";
+    if (metavar == "S") return "s";
+    return "";
+}
+
+double parseLensValue(const LensField& field, const std::string& text) {
+    if (std::holds_alternative<bool Lens::*>(field.member)) return parseTruth(text) ? 1 : 0;
+    if (std::holds_alternative<int Lens::*>(field.member))
+        return static_cast<double>(
+            parseWhole(text, static_cast<std::uint64_t>(field.least), static_cast<std::uint64_t>(field.most)));
+    if (std::string_view(field.unit) == "S") return parseSeconds(text);
+    return parseNumber(text, {field.least, field.most});
+}
+
+Setting lensSetting(const LensField& field) {
+    const SettingKind kind = std::holds_alternative<bool Lens::*>(field.member)  ? SettingKind::truth
+                             : std::holds_alternative<int Lens::*>(field.member) ? SettingKind::whole
+                                                                                 : SettingKind::number;
+    Setting setting = row(kind, field.name, field.option, field.unit, field.description);
+    setting.unit = unitOf(field.unit);
+    setting.least = field.least;
+    setting.most = field.most;
+    setting.shotPlace = fmt::format("/lens/{}", field.name);
+    setting.keyed = true;
+    setting.lensField = true;
+    setting.clear = [&field](Request& request) { giveLensValue(request.lens, field, std::nullopt); };
+    setting.set = [&field](Request& request, const std::string& text) {
+        giveLensValue(request.lens, field, parseLensValue(field, text));
+    };
+    setting.text = [&field, kind](const Request& request) -> std::optional<std::string> {
+        const std::optional<double> value = givenLensValue(request.lens, field);
+        if (!value) return std::nullopt;
+        if (kind == SettingKind::truth) return *value != 0 ? "true" : "false";
+        return fmt::format("{}", std::min(*value, field.most));
+    };
+    return setting;
+}
+
+// ---- the rows -------------------------------------------------------------------------------------------------------
+
+using Rows = std::vector<Setting>;
+
+// A value in seconds, which may be told as a fraction.
+Setting seconds(Setting setting) {
+    setting.kind = SettingKind::number;
+    setting.unit = std::string("s");
+    setting.least = 0;
+    setting.most = 1e6;
+    return setting;
+}
+
+Setting inShot(Setting setting, std::string place) {
+    setting.shotPlace = std::move(place);
+    return setting;
+}
+
+Setting withUnit(Setting setting, std::string unit) {
+    setting.unit = std::move(unit);
+    return setting;
+}
+
+void add(Rows& rows, SettingGroup group, Rows more) {
+    for (Setting& setting : more) {
+        setting.group = group;
+        rows.push_back(std::move(setting));
+    }
+}
+
+Rows sceneRows() {
+    return {
+        inShot(path("scene", "SCENE", "FILE", MEMBER(scene),
+                    "glTF file (.gltf, .glb); without one, the built-in school of fish"),
+               "/scene"),
+        inShot(whole("fishCount", "--fish", 1, 10'000, MEMBER(fishCount), "Number of fish in the built-in school"),
+               "/fish/count"),
+        inShot(whole("trianglesPerFish", "--fish-triangles", 200, 10'000'000, MEMBER(trianglesPerFish),
+                     "Triangles a fish, about"),
+               "/fish/triangles"),
+        withUnit(inShot(number("time", "--time", "S", -1e9, 1e9, MEMBER(time),
+                               "Seconds into the animation; before and after it, its ends"),
+                        "/animation/start"),
+                 "s"),
+        inShot(text("clip", "--clip", "NAME|N", MEMBER(clip),
+                    "Which of the file's animations plays: its name or number (see 'defocus info'); without it, the "
+                    "first"),
+               "/animation/clip"),
+        inShot(truth("loop", "--loop", MEMBER(loop), "Repeat the animation instead of holding its ends"),
+               "/animation/loop"),
+        inShot(seconds(other(
+                   "shutter", "--shutter", "S", setShutter,
+                   [](const Request& request) -> std::optional<std::string> {
+                       return fmt::format("{}", request.shutter.seconds);
+                   },
+                   "Seconds that the shutter stays open, as 0.02 or 1/48 (half of a frame of 24 a second): what the "
+                   "animation moves meanwhile is blurred; without it, one moment")),
+               "/shutter/seconds"),
+        inShot(
+            choice<ShutterPosition>(
+                "shutterPosition", "--shutter-position",
+                {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
+                MEMBER(shutter.position), "Where --time lies in the exposure"),
+            "/shutter/position"),
+        inShot(other("motionSegments", "--motion-segments", "N|exact", setSegments, segmentsText,
+                     "Straight lines that a vertex's way is cut into while the shutter is open (1 to 64), or 'exact' "
+                     "for a pose of its own for each sample"),
+               "/shutter/segments"),
+        inShot(path("environment", "--environment", "FILE", MEMBER(environment),
+                    "Equirectangular image that lies behind the scene and lights it (.hdr or .exr)"),
+               "/environment"),
+        inShot(
+            other("background", "--background", "WHAT", setBackground, backgroundText,
+                  "'environment' (the default), 'none' for a transparent image, or R,G,B (linear) for one colour all "
+                  "around"),
+            "/background"),
+    };
+}
+
+Rows cameraRows() {
+    return {
+        inShot(text("camera", "--camera", "NAME", MEMBER(camera),
+                    "Name of a camera of the file, or 'auto' for one that frames the scene; without it, the first"),
+               "/camera/name"),
+        withUnit(point("cameraPosition", "--camera-position", MEMBER(cameraPosition),
+                       "Moves the camera there (m); lights stay as for the camera"),
+                 "m"),
+        withUnit(point("cameraTarget", "--camera-target", MEMBER(cameraTarget),
+                       "Turns the camera towards this point, upright"),
+                 "m"),
+        point("cameraUp", "--camera-up", MEMBER(cameraUp), "What is up in the image, as a direction"),
+        withUnit(inShot(other(
+                            "size", "--size", "WxH", setSize,
+                            [](const Request& request) -> std::optional<std::string> {
+                                return fmt::format("{}x{}", request.width, request.height);
+                            },
+                            "Image size in pixels"),
+                        "/size"),
+                 "px"),
+    };
+}
+
+Rows focusRows() {
+    return {
+        text("focusNode", "--focus-node", "NAME", MEMBER(focusNode),
+             "Focus on the centre of this node (its mesh's box, or its origin)"),
+        other("focusPixel", "--focus-pixel", "X,Y", setFocusPixel, focusPixelText,
+              "Focus on the surface seen at this pixel (0,0 is the top left one)"),
+        other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
+              "Tilt the focus plane so that it goes through what three pixels show"),
+        truth("focusAuto", "--focus-auto", MEMBER(focusAuto),
+              "Focus on the median depth of what the image's middle shows"),
+    };
+}
+
+Rows lensRows() {
+    Rows rows;
+    for (const LensField& field : lensFields()) {
+        rows.push_back(lensSetting(field));
+        if (rows.back().name == "focusDistance") std::ranges::move(focusRows(), std::back_inserter(rows));
+    }
+    rows.push_back(path("apertureImage", "--aperture-image", "FILE", MEMBER(lens.apertureImage),
+                        "Image of the aperture, in place of blades and rings: light passes where it is bright; its "
+                        "longer side spans the lens"));
+    Setting nodeBlur = other(
+        "nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur,
+        [](const Request& request) -> std::optional<std::string> {
+            return request.nodeBlur.empty() ? std::nullopt
+                                            : std::optional(fmt::format("{}", fmt::join(nodeBlurTexts(request), ",")));
+        },
+        "Scale the blur of a node and all below it; 0 keeps it sharp. Can be given several times");
+    nodeBlur.repeated = true;
+    nodeBlur.texts = nodeBlurTexts;
+    rows.push_back(std::move(nodeBlur));
+    return rows;
+}
+
+Rows sampleRows() {
+    std::vector<std::pair<std::string, Sequence>> sequences;
+    for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence), sequence);
+    std::vector<std::pair<std::string, LodMode>> modes;
+    for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off})
+        modes.emplace_back(lodModeName(mode), mode);
+    return {
+        inShot(whole("samples", "--samples", 1, mostSamples, MEMBER(settings.sampleCount), "Lens samples"), "/samples"),
+        inShot(choice<Sequence>("sequence", "--sequence", sequences, MEMBER(settings.sequence),
+                                "Where the samples lie on the lens and in the pixel; the paper has halton"),
+               "/sequence"),
+        inShot(whole("seed", "--seed", 0, std::numeric_limits<std::uint32_t>::max(), MEMBER(settings.seed),
+                     "Picks another set of sample points"),
+               "/seed"),
+        inShot(
+            choice<LodMode>("lod", "--lod", modes, MEMBER(settings.lod),
+                            "Coarser meshes for blurred objects: samples split between two levels, the same with one "
+                            "sample split over its pixels, one level, or full detail"),
+            "/lod"),
+        inShot(number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(settings.thresholds.blur),
+                      "Target in pixels per pixel of blur; without it, by the number of samples"),
+               "/blurThreshold"),
+        withUnit(inShot(number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(settings.thresholds.size),
+                               "Least target in pixels; without it, by the number of samples"),
+                        "/sizeThreshold"),
+                 "px"),
+        path("cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
+             "Where simplified meshes are kept; without it, $XDG_CACHE_HOME/defocus or ~/.cache/defocus"),
+        truth("noCache", "--no-cache", MEMBER(noCache), "Simplify the meshes anew and store nothing"),
+    };
+}
+
+Rows methodRows() {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    return {
+        inShot(other(
+                   "method", "--method", "NAME", setMethod,
+                   [](const Request& request) { return std::optional(chosenMethod(request).text()); },
+                   fmt::format("How the image is made: {}; also NAME:SETTING=VALUE,… with the method's settings",
+                               fmt::join(names, ", "))),
+               "/method"),
+        inShot(choice<LayerFormat>("layerFormat", "--layer-format",
+                                   {{"automatic", LayerFormat::automatic},
+                                    {"rgb9e5", LayerFormat::rgb9e5},
+                                    {"rgba16f", LayerFormat::rgba16f},
+                                    {"rgba32f", LayerFormat::rgba32f},
+                                    {"rgba8", LayerFormat::rgba8}},
+                                   MEMBER(layerFormat), "Pixels of a sample's layer; rgba32f for references"),
+               "/layerFormat"),
+    };
+}
+
+Rows displayRows() {
+    return {
+        inShot(choice<ToneMap>("toneMap", "--tonemap",
+                               {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
+                               MEMBER(toneMap), "Film curve of .png and .jpg"),
+               "/toneMap"),
+        withUnit(inShot(number("exposure", "--exposure", "EV", -60, 60, MEMBER(exposure),
+                               "Of .png and .jpg; without it, what --exposure-time, --iso and the f-number make, else "
+                               "0"),
+                        "/exposure"),
+                 "EV"),
+    };
+}
+
+// What only those need who measure or mend the program.
+Rows developerRows() {
+    return {
+        inShot(choice<LodMetric>("lodMetric", "--lod-metric", {{"size", LodMetric::size}, {"error", LodMetric::error}},
+                                 MEMBER(settings.metric),
+                                 "Levels are chosen by the projected size of their edges or of their error"),
+               "/lodMetric"),
+        choice<bool>("lodCoc", "--lod-coc", {{"smallest", false}, {"centre", true}}, MEMBER(settings.lodCocAtCentre),
+                     "The blur that an object may count on: the smallest over its box, or the one at its centre"),
+        withUnit(number("cocTolerance", "--coc-tolerance", "PX", 1e-3, 1e3, MEMBER(settings.cocTolerance),
+                        "By how much the blur inside a triangle may differ from what its corners give; larger ones are "
+                        "divided"),
+                 "px"),
+        truth("keepAll", "--keep-all", MEMBER(settings.keepAll),
+              "Leave out nothing, not even what cannot be seen (same image, slower)"),
+        whole("wave", "--wave", 0, 64, MEMBER(wave), "Samples drawn at once; 0: as memory allows (same image)"),
+    };
+}
+
+#undef MEMBER
+
+Rows allRows() {
+    Rows rows;
+    add(rows, SettingGroup::scene, sceneRows());
+    add(rows, SettingGroup::camera, cameraRows());
+    add(rows, SettingGroup::lens, lensRows());
+    add(rows, SettingGroup::samples, sampleRows());
+    add(rows, SettingGroup::method, methodRows());
+    add(rows, SettingGroup::display, displayRows());
+    add(rows, SettingGroup::developer, developerRows());
+    return rows;
+}
+
+}  // namespace
+
+std::span<const Setting> settings() {
+    static const Rows rows = allRows();
+    return rows;
+}
+
+}  // namespace defocus
