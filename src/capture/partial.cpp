@@ -62,7 +62,7 @@ Value attribute(const Metadata& metadata, const char* name, const std::string& f
 
 std::uint32_t sampleAttribute(const Metadata& metadata, const char* name, const std::string& file) {
     const int value = attribute<int>(metadata, name, file);
-    if (value < 0 || value > 65'536) fail("{}: '{}' is {}", file, name, value);
+    if (value < 0 || value > static_cast<int>(mostSamples)) fail("{}: '{}' is {}", file, name, value);
     return static_cast<std::uint32_t>(value);
 }
 
@@ -113,8 +113,8 @@ SampleRange parseSampleRange(std::string_view text) {
     const auto number = [&](std::string_view part) {
         std::uint32_t value = 0;
         const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (fault != std::errc() || end != part.data() + part.size() || value > 65'536)
-            fail("'{}' is not FIRST:END, samples from 0 to 65536, such as 64:128", text);
+        if (fault != std::errc() || end != part.data() + part.size() || value > mostSamples)
+            fail("'{}' is not FIRST:END, samples from 0 to {}, such as 64:128", text, mostSamples);
         return value;
     };
     const std::size_t colon = std::min(text.find(':'), text.size());

@@ -75,7 +75,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     SpeedupOptions& options = arguments->speedup;
     command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
         ->delimiter(',')
-        ->check(CLI::Range(1, 65'536))
+        ->check(CLI::Range(1u, mostSamples))
         ->type_name("N,N,…")
         ->default_str("16,32,64,128,256,512")
         ->group(group);
@@ -98,7 +98,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
         ->add_option("--reference-samples", options.referenceSamples,
                      "Lens samples of the converged reference that each lens is compared with; without it, eight times "
                      "the most that are measured with the lens; 0: no reference")
-        ->check(CLI::Range(0, 65'536))
+        ->check(CLI::Range(0u, mostSamples))
         ->type_name("N")
         ->group(group);
     CLI::Option* output =

@@ -261,7 +261,7 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
         [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
     addList(command, "--counts", "N,N,…", options.sampleCounts, "8,16,32,64,128,256", "Numbers of lens samples",
-            [](const std::string& part) { return static_cast<std::uint32_t>(parseWhole(part, 1, 65'536)); });
+            [](const std::string& part) { return static_cast<std::uint32_t>(parseWhole(part, 1, mostSamples)); });
     addList(command, "--lod", "off,nearest,fractional,continuous", options.lods, "off,fractional",
             "Levels of detail, of methods that draw levels", [](const std::string& part) {
                 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional, LodMode::continuous};
@@ -281,7 +281,7 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                     "unlit where this program has ray tracers")
         ->group(group);
     addWhole(command, "--runs", options.runs, 1, 1000, "Frames of each; the median counts")->group(group);
-    addWhole(command, "--reference-samples", arguments.referenceSamples, 2, 65'536,
+    addWhole(command, "--reference-samples", arguments.referenceSamples, 2, mostSamples,
              "Lens samples of the reference, which is kept beside the results and used again")
         ->group(group);
 }
