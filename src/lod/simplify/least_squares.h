@@ -3,7 +3,7 @@
 //   Σ share·|Σ weight·x − target|² + pull·Σ weightOf·|x − prior|²
 // by conjugate gradients with Jacobi's preconditioner (Hestenes and Stiefel 1952). The normal equations are kept as one
 // matrix a triangle, so that an iteration costs what the triangles do, however many points there are. Eigen's
-// ConjugateGradient takes 4.6 times as long on a grid of 22,500 vertices, most of it to assemble its sparse matrix.
+// ConjugateGradient takes several times as long, most of it to assemble its sparse matrix.
 
 #include <algorithm>
 #include <array>
