@@ -1,6 +1,6 @@
 // XXH3 (Collet) is compiled in rather than linked: it is faster than the mixing that it replaced, for short keys and
 // long data alike, and than its own shared library for long data.
-
+#define XXH_INLINE_ALL
 #include "core/hash.h"
 
 #include <xxhash.h>
