@@ -42,7 +42,9 @@
 
 #include "core/error.h"
 #include "gl/context.h"
+#include "image/boxes.h"
 #include "image/metrics.h"
+#include "lod/pyramid/conserved.h"
 #include "lod/pyramid/level_selection.h"
 #include "lod/pyramid/surface_distance.h"
 #include "lod/simplify/weld.h"
@@ -102,10 +104,10 @@ struct JoinedSurface {
 
 JoinedSurface joinedSurface(const Mesh& mesh) {
     JoinedSurface surface;
-    const Welded welded = weldPositions(mesh.vertices.positions);
-    for (const std::uint32_t v : welded.first) surface.positions.push_back(mesh.vertices.positions[v]);
+    const WeldedPositions welded = weldPositions(mesh.vertices.positions);
+    for (const MeshVertexNumber v : welded.first) surface.positions.push_back(mesh.vertices.positions[v.value]);
     for (const Primitive& primitive : mesh.primitives)
-        for (const std::uint32_t v : primitive.indices) surface.indices.push_back(welded.id[v]);
+        for (const std::uint32_t v : primitive.indices) surface.indices.push_back(welded.id[{v}].value);
     return surface;
 }
 
@@ -353,13 +355,13 @@ void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
 
 // Of the level's own faces, weighed by their areas, one at each position.
 std::vector<glm::vec3> averagedNormals(const Pyramid& pyramid, const PyramidLevel& level) {
-    const Welded places = weldPositions(level.positions);
+    const WeldedPositions places = weldPositions(level.positions);
     std::vector<std::uint32_t> indices = levelIndices(pyramid, level);
-    for (std::uint32_t& v : indices) v = places.first[places.id[v]];
+    for (std::uint32_t& v : indices) v = places.first[places.id[{v}]].value;
     const std::vector<glm::vec3> atPlaces = smoothNormals(level.positions, indices);
     std::vector<glm::vec3> normals;
     normals.reserve(level.positions.size());
-    for (const std::uint32_t place : places.id) normals.push_back(atPlaces[places.first[place]]);
+    for (const PositionNumber place : places.id) normals.push_back(atPlaces[places.first[place].value]);
     return normals;
 }
 
@@ -393,12 +395,89 @@ const Mesh& largestMesh(const Scene& scene) {
                              [](const Mesh& a, const Mesh& b) { return a.triangleCount() < b.triangleCount(); });
 }
 
+// What each level of each scene's largest mesh keeps of level 0, by its vertex colours: mean colour, matt light under
+// six lights towards 26 directions, and the covered area from 26 directions.
+void conservedRows(const std::string& name, const Mesh& mesh) {
+    constexpr std::size_t points = 60'000;
+    constexpr int resolution = 1024;
+    const Pyramid pyramid = buildPyramid(mesh);
+    const auto measured = [&](std::size_t l) {
+        return conservedBy(pyramid, l, vertexColours(pyramid, l), points, resolution);
+    };
+    const Conserved level0 = measured(0);
+    const double diagonal = glm::length(pyramid.bounds.size());
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        const ConservedDifference difference = differenceOf(measured(l), level0);
+        fmt::print("{:<24} {:>5} {:>9} {:>8.4f} {:>8.2f} {:>8.2f} {:>9.3f} {:>9.3f}\n", name, l,
+                   pyramid.levels[l].triangleCount, pyramid.levels[l].meanEdge / diagonal, 1e3 * difference.colour,
+                   1e3 * difference.light, 100 * difference.outline, 100 * difference.meanOutline);
+        std::fflush(stdout);
+    }
+}
+
+// Whole scenes, through their cameras: what is left of errors against the converged image after boxes of 32 x 32
+// pixels. "CoC px" is the blur of the scene's centre, "full detail" the error of as many samples without levels.
+void blurredRows(const std::string& name, const Scene& scene) {
+    constexpr int box = 32;
+    World world;
+    world.scene = borrowed(scene);
+    world.pose = poseAt(scene, 0);
+    View view;
+    view.width = 384;
+    view.height = 288;
+    const PlacedCamera placed = chooseCamera(scene, world.pose, "", 4.0 / 3.0);
+    world.lights = lightsOrDefault(scene, world.pose, placed);
+    world.environment = environmentOrDefault(scene);
+    view.worldFromCamera = placed.worldFromCamera;
+    view.nearPlane = placed.camera.znear;
+    view.lens.focalLength = focalLengthFromFov(4.0 / 3.0 * std::tan(placed.camera.yfov / 2), 36);
+    Bounds bounds;
+    world.pyramids = buildPyramids(scene.meshes);
+    for (const Object& object : world.pose.objects) {
+        const Bounds& own = world.pyramids[static_cast<std::size_t>(object.mesh)].bounds;
+        if (!own.empty()) bounds.extend(glm::dvec3(object.worldFromObject * glm::dvec4(own.centre(), 1)));
+    }
+    const double depth = glm::distance(glm::dvec3(placed.worldFromCamera[3]), bounds.centre());
+    view.lens.focusDistance = 1e6;
+    for (const double coc : {8.0, 24.0}) {
+        const double aperture = coc * depth * 2 * tanHalfHorizontalFov(view.lens) / view.width;
+        view.lens.fStop = view.lens.focalLength / (1000 * aperture);
+        const auto image = [&](std::uint32_t samples, LodMode mode) {
+            RenderSettings settings;
+            settings.sampleCount = samples;
+            settings.lod = mode;
+            const auto renderer = methodNamed("accumulation").make(world, {});
+            renderer->start(planFrame(world, view, settings));
+            while (renderer->advance()) {
+            }
+            return renderer->image();
+        };
+        const Image truth = image(1024, LodMode::off);
+        for (const std::uint32_t samples : {64u}) {
+            const Image full = image(samples, LodMode::off);
+            const Image levels = image(samples, LodMode::continuous);
+            const double fullError = boxDifference(truth, full, box);
+            const double levelsError = boxDifference(truth, levels, box);
+            fmt::print("{:<24} {:>7.1f} {:>7} {:>12.2e} {:>12.2e} {:>6.2f} {:>9.2f} {:>9.2f}\n", name, coc, samples,
+                       fullError, levelsError, levelsError / fullError, compareImages(truth, full).psnr,
+                       compareImages(truth, levels).psnr);
+            std::fflush(stdout);
+        }
+    }
+}
+
 int run(int argc, char** argv) {
     bool million = false;
+    bool blurred = false;
+    bool conserved = false;
     std::vector<std::filesystem::path> files;
     for (int i = 1; i < argc; ++i) {
         if (std::string(argv[i]) == "--million")
             million = true;
+        else if (std::string(argv[i]) == "--blurred")
+            blurred = true;
+        else if (std::string(argv[i]) == "--conserved")
+            conserved = true;
         else
             files.emplace_back(argv[i]);
     }
@@ -406,6 +485,19 @@ int run(int argc, char** argv) {
     scenes.emplace_back("fish", fishSchool({.fishCount = 1}));
     for (const auto& file : files) scenes.emplace_back(file.stem().string(), loadGltf(file));
 
+    if (blurred) {
+        const auto context = createHeadlessContext();
+        fmt::print("errors after boxes of 32 x 32\n{:<24} {:>7} {:>7} {:>12} {:>12} {:>6} {:>9} {:>9}\n", "scene",
+                   "CoC px", "samples", "full detail", "levels", "ratio", "PSNR full", "levels");
+        for (const auto& [name, scene] : scenes) blurredRows(name, scene);
+        return 0;
+    }
+    if (conserved) {
+        fmt::print("what levels keep of level 0\n{:<24} {:>5} {:>9} {:>8} {:>8} {:>8} {:>9} {:>9}\n", "mesh", "level",
+                   "triangles", "edge", "colour", "light", "outline %", "mean %");
+        for (const auto& [name, scene] : scenes) conservedRows(name, largestMesh(scene));
+        return 0;
+    }
     fmt::print("{:<20} {:>9} {:>6} {:>15} {:>15} {:>15} {:>8}\n", "seconds, one thread", "", "bytes", "pyramid",
                "meshoptimizer", "DecimaterT", "times as");
     fmt::print("{:<20} {:>9} {:>6} {:>8} {:>6} {:>8} {:>6} {:>8} {:>6} {:>8}\n", "mesh", "triangles", "each", "s",

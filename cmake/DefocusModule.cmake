@@ -19,6 +19,22 @@ if(DEFOCUS_SANITIZE)
     target_link_options(defocus_options INTERFACE -fsanitize=address,undefined)
 endif()
 
+# Whole builds read the headers that most sources include once. The first room makes them, the others share them: all
+# rooms are compiled with the same options. Builds of single sources do without, and so find an include that is missing.
+function(defocus_precompiled TARGET)
+    if(NOT CMAKE_UNITY_BUILD)
+        return()
+    endif()
+    if("${TARGET}" STREQUAL "defocus_core")
+        target_precompile_headers(${TARGET} PRIVATE <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory>
+                                  <numbers> <numeric> <optional> <set> <span> <string> <vector> <fmt/format.h>
+                                  <glm/geometric.hpp> <glm/gtc/matrix_transform.hpp> <nlohmann/json.hpp>)
+        target_include_directories(${TARGET} PRIVATE $<TARGET_PROPERTY:nlohmann_json::nlohmann_json,INTERFACE_INCLUDE_DIRECTORIES>)
+    else()
+        target_precompile_headers(${TARGET} REUSE_FROM defocus_core)
+    endif()
+endfunction()
+
 function(defocus_module NAME)
     cmake_parse_arguments(ARG "" "ONLY;WITHOUT;FOLDER" "LINK;PRIVATE_LINK" ${ARGN})
     if(NOT ARG_FOLDER)
@@ -38,5 +54,6 @@ function(defocus_module NAME)
     target_include_directories(defocus_${NAME} PUBLIC "${CMAKE_CURRENT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/include"
                                                       "${PROJECT_BINARY_DIR}/include")
     target_link_libraries(defocus_${NAME} PUBLIC ${ARG_LINK} PRIVATE defocus_options ${ARG_PRIVATE_LINK})
+    defocus_precompiled(defocus_${NAME})
     target_compile_features(defocus_${NAME} PUBLIC cxx_std_20)
 endfunction()

@@ -251,7 +251,22 @@ void defineRenderer(py::module_& package) {
         .def_readonly("triangles_drawn", &RenderStatistics::trianglesDrawn)
         .def_readonly("triangles_at_full_detail", &RenderStatistics::trianglesAtFullDetail)
         .def_readonly("gpu_bytes", &RenderStatistics::gpuBytes)
-        .def_readonly("device", &RenderStatistics::device);
+        .def_readonly("device", &RenderStatistics::device)
+        .def_property_readonly("stopped",
+                               [](const RenderStatistics& statistics) {
+                                   switch (statistics.stopped) {
+                                       case defocus::StopReason::targetError:
+                                           return "target error";
+                                       case defocus::StopReason::timeLimit:
+                                           return "time limit";
+                                       case defocus::StopReason::nothingBlurred:
+                                           return "nothing blurred";
+                                       case defocus::StopReason::sampleCount:
+                                           break;
+                                   }
+                                   return "samples";
+                               })
+        .def_readonly("estimated_error", &RenderStatistics::estimatedError);
     py::class_<SharedRenderer>(package, "Renderer")
         .def(py::init([](const OpenScene* scene, const defocus::Request& request, const Listener& progress) {
             const py::gil_scoped_release unlocked;

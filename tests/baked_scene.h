@@ -1,6 +1,6 @@
 #pragma once
 // A scene whose colours two renderers can't disagree about: every material unlit and opaque, textures dropped, Lambert
-// from one fixed direction baked into 8-bit vertex colours, which both interpolate linearly. What is left to compare is
+// from one fixed direction baked into vertex colours, which both interpolate linearly. What is left to compare is
 // geometry, visibility, projection and the lens.
 
 #include <algorithm>
@@ -30,11 +30,10 @@ inline void bakeLighting(Mesh& mesh) {
         }
         mesh.vertices.normals = smoothNormals(mesh.vertices.positions, indices);
     }
-    mesh.vertices.colors.resize(mesh.vertices.count(), glm::u8vec4(255));
+    mesh.vertices.colors.resize(mesh.vertices.count(), glm::vec4(1));
     for (std::size_t i = 0; i < mesh.vertices.count(); ++i) {
         const float lit = 0.2f + 0.8f * std::max(0.0f, glm::dot(mesh.vertices.normals[i], towardsLight));
-        const glm::vec3 color = lit * glm::vec3(mesh.vertices.colors[i]) + 0.5f;
-        mesh.vertices.colors[i] = glm::u8vec4(glm::vec4(color, 255.0f));
+        mesh.vertices.colors[i] = glm::vec4(lit * glm::vec3(mesh.vertices.colors[i]), 1.0f);
     }
 }
 

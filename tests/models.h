@@ -17,9 +17,9 @@ inline std::filesystem::path modelsDirectory() {
     return given != nullptr ? given : DEFOCUS_DEFAULT_MODELS_DIR;
 }
 
-// A name that begins with "meshes/" is one of the project's own.
+// A name that begins with "meshes/" or "tests/" is one of the project's own.
 inline std::filesystem::path modelPath(const std::filesystem::path& name) {
-    const bool own = !name.empty() && *name.begin() == "meshes";
+    const bool own = !name.empty() && (*name.begin() == "meshes" || *name.begin() == "tests");
     return (own ? std::filesystem::path(DEFOCUS_SOURCE_DIR) : modelsDirectory()) / name;
 }
 

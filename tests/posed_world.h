@@ -59,6 +59,8 @@ inline Mesh bakedLevel(const Mesh& mesh, const Pyramid& pyramid, std::uint32_t l
     std::copy(from.positions.begin(), from.positions.end(), flat.vertices.positions.begin());
     std::copy(from.normals.begin(), from.normals.end(), flat.vertices.normals.begin());
     std::copy(from.colors.begin(), from.colors.end(), flat.vertices.colors.begin());
+    std::copy(from.uv0.begin(), from.uv0.end(), flat.vertices.uv0.begin());
+    std::copy(from.uv1.begin(), from.uv1.end(), flat.vertices.uv1.begin());
     for (MorphTarget& target : flat.morphTargets)
         for (std::vector<glm::vec3>* kind : {&target.positions, &target.normals, &target.tangents}) {
             if (kind->empty()) continue;

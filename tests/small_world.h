@@ -35,7 +35,9 @@ inline Mesh bumpySphere(int slices, int stacks, int material) {
     for (int y = 0; y <= stacks; ++y)
         for (int x = 0; x < slices; ++x) {
             mesh.vertices.positions.push_back(point(std::numbers::pi * y / stacks, 2 * std::numbers::pi * x / slices));
-            mesh.vertices.colors.emplace_back(x * 255 / slices, y * 255 / stacks, (x / 4 + y / 4) % 2 * 255, 255);
+            mesh.vertices.colors.emplace_back(
+                glm::floor(255.0f * glm::vec3(x, y, 0) / glm::vec3(slices, stacks, 1)) / 255.0f, 1);
+            mesh.vertices.colors.back().b = (x / 4 + y / 4) % 2 == 0 ? 0.0f : 1.0f;
         }
     Primitive primitive{material, {}};
     const auto index = [&](int x, int y) { return static_cast<std::uint32_t>(y * slices + x % slices); };

@@ -12,23 +12,9 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t white = 0xffffffu;
-constexpr float byteToUnit = 1.0f / 255;
-static_assert(255 * byteToUnit == 1);
-
-std::uint32_t packedColor(const glm::u8vec4& color) {
-    return static_cast<std::uint32_t>(color.r) | static_cast<std::uint32_t>(color.g) << 8 |
-           static_cast<std::uint32_t>(color.b) << 16;
-}
-
-DEFOCUS_ALWAYS_INLINE float byteOf(std::uint32_t color, int shift) {
-    return static_cast<float>(static_cast<std::int32_t>(color >> shift & 255u));
-}
-
 // As differences from the first corner, equal colours stay what they are.
-DEFOCUS_ALWAYS_INLINE float mixedByte(std::uint32_t a, std::uint32_t b, std::uint32_t c, int shift, float u, float v) {
-    const float first = byteOf(a, shift);
-    return (first + u * (byteOf(b, shift) - first) + v * (byteOf(c, shift) - first)) * byteToUnit;
+DEFOCUS_ALWAYS_INLINE float mixed(float a, float b, float c, float u, float v) {
+    return a + u * (b - a) + v * (c - a);
 }
 
 DEFOCUS_VECTOR_CLONES void addLanes(Lanes<double>& sum, const FloatLanes& values) {
@@ -49,7 +35,7 @@ PacketShading::PacketShading(const World& world, const TracedScene& scene, const
         sky_.alpha = 1;
     }
     surfaces_.miss = scene.geometryCount();
-    surfaces_.cornerColors.assign(3, white);
+    surfaces_.cornerColors.assign(3, glm::vec3(1));
     for (std::uint32_t id = 0; id < scene.geometryCount(); ++id) addGeometry(scene.geometry(id));
     surfaces_.firstColor.push_back(0);
     surfaces_.colorsPerTriangle.push_back(0);
@@ -57,7 +43,7 @@ PacketShading::PacketShading(const World& world, const TracedScene& scene, const
 }
 
 void PacketShading::addGeometry(const TracedGeometry& geometry) {
-    const std::vector<glm::u8vec4>& colors = geometry.mesh->vertices.colors;
+    const std::vector<glm::vec4>& colors = geometry.mesh->vertices.colors;
     const Material& material = *geometry.material;
     surfaces_.firstColor.push_back(colors.empty() ? 0 : static_cast<std::int32_t>(surfaces_.cornerColors.size()));
     surfaces_.colorsPerTriangle.push_back(colors.empty() ? 0 : 3);
@@ -65,7 +51,7 @@ void PacketShading::addGeometry(const TracedGeometry& geometry) {
         const std::vector<std::uint32_t>& indices = geometry.primitive->indices;
         if (surfaces_.cornerColors.size() + indices.size() > std::numeric_limits<std::int32_t>::max())
             fail("method embree: more than {} M triangles can't be shaded", (1u << 31) / 3'000'000);
-        for (const std::uint32_t index : indices) surfaces_.cornerColors.push_back(packedColor(colors[index]));
+        for (const std::uint32_t index : indices) surfaces_.cornerColors.emplace_back(colors[index]);
     }
     surfaces_.red.push_back(material.baseColorFactor.r);
     surfaces_.green.push_back(material.baseColorFactor.g);
@@ -78,7 +64,7 @@ DEFOCUS_VECTOR_CLONES void PacketShading::baseColors(const Surfaces& surfaces, c
                                                      PacketColors& __restrict colors) {
     const std::int32_t* firstColor = surfaces.firstColor.data();
     const std::int32_t* colorsPerTriangle = surfaces.colorsPerTriangle.data();
-    const std::uint32_t* corners = surfaces.cornerColors.data();
+    const glm::vec3* corners = surfaces.cornerColors.data();
     const float* red = surfaces.red.data();
     const float* green = surfaces.green.data();
     const float* blue = surfaces.blue.data();
@@ -87,14 +73,14 @@ DEFOCUS_VECTOR_CLONES void PacketShading::baseColors(const Surfaces& surfaces, c
         const auto id = static_cast<std::int32_t>(std::min(packet.hit.geomID[i], miss));
         const auto triangle = static_cast<std::uint32_t>(colorsPerTriangle[id]) * packet.hit.primID[i];
         const std::int32_t first = firstColor[id] + static_cast<std::int32_t>(triangle);
-        const std::uint32_t a = corners[first];
-        const std::uint32_t b = corners[first + 1];
-        const std::uint32_t c = corners[first + 2];
+        const glm::vec3& a = corners[first];
+        const glm::vec3& b = corners[first + 1];
+        const glm::vec3& c = corners[first + 2];
         const float u = packet.hit.u[i];
         const float v = packet.hit.v[i];
-        colors.red[i] = red[id] * mixedByte(a, b, c, 0, u, v);
-        colors.green[i] = green[id] * mixedByte(a, b, c, 8, u, v);
-        colors.blue[i] = blue[id] * mixedByte(a, b, c, 16, u, v);
+        colors.red[i] = red[id] * mixed(a.r, b.r, c.r, u, v);
+        colors.green[i] = green[id] * mixed(a.g, b.g, c.g, u, v);
+        colors.blue[i] = blue[id] * mixed(a.b, b.b, c.b, u, v);
         colors.alpha[i] = 1;
     }
 }

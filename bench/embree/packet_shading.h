@@ -31,7 +31,7 @@ private:
         std::vector<std::int32_t> firstColor;         // in cornerColors
         std::vector<std::int32_t> colorsPerTriangle;  // 3, or 0: all triangles have the same
         std::vector<float> red, green, blue;          // baseColorFactor
-        std::vector<std::uint32_t> cornerColors;      // three a triangle, R | G << 8 | B << 16
+        std::vector<glm::vec3> cornerColors;          // three a triangle
     };
     // Radiance along a ray whose direction has the elevation `height` = sin: horizon + |height|·(zenith − horizon), or
     // nadir below the horizon.

@@ -88,7 +88,7 @@ glm::vec3 baseColor(const Scene& scene, const TracedGeometry& geometry, const Co
         for (glm::length_t i = 0; i < 3; ++i) {
             tint += corners.weights[i] * glm::vec3(vertices.colors[corners.vertices[static_cast<std::size_t>(i)]]);
         }
-        color *= tint / 255.0f;
+        color *= tint;
     }
     const std::vector<glm::vec2>& uvs = material.baseColor.uvSet == 1 ? vertices.uv1 : vertices.uv0;
     if (material.baseColor.used() && !uvs.empty()) color *= textureColor(scene, material.baseColor, corners.mix(uvs));

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct RenderStatistics {
     std::uint64_t trianglesAtFullDetail = 0;  // what full detail would have drawn
     std::uint64_t gpuBytes = 0;               // resources of the renderer at their peak
     std::string device;
+    StopReason stopped = StopReason::sampleCount;  // why there are no more samples
+    std::optional<double> estimatedError;          // with Request::stop: RMSE as StopSettings has it; none: one block
 };
 
 // What the nearest surface at each pixel is, through the pinhole at the pixel's centre: images of one channel.

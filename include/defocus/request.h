@@ -57,6 +57,7 @@ struct Request {
 
     // Samples and levels of detail.
     RenderSettings settings;
+    StopSettings stop;                  // instead of a number of samples
     std::filesystem::path cacheFolder;  // of pyramids; empty: $XDG_CACHE_HOME/defocus or ~/.cache/defocus
     bool noCache = false;               // simplify anew and store nothing
 

@@ -53,6 +53,28 @@ struct RenderSettings {
     bool keepAll = false;       // leave nothing out: the image must be the same
 };
 
+// When a frame has lens samples enough, where their number isn't chosen beforehand. With either of the first two,
+// blocks of 64 samples are added until one of them holds; RenderSettings::sampleCount then means nothing. Levels of
+// detail get finer with the number of samples that is expected.
+struct StopSettings {
+    // RMSE of the display-encoded image at EV 0, estimated from how the means of blocks differ; 1e-6 … 1.
+    std::optional<double> targetError;
+    // s since the frame was started, 0.001 … 1e6; at least one block is drawn, and no block is begun that would end
+    // later.
+    std::optional<double> timeLimit;
+    std::uint32_t sampleLimit = mostSamples;  // the most samples, 1 … mostSamples
+    // Does the number of samples follow from the picture or from time?
+    [[nodiscard]] bool given() const { return targetError || timeLimit; }
+};
+
+// Why a frame got no more samples.
+enum class StopReason {
+    sampleCount,     // it has all that were asked for
+    targetError,     // StopSettings
+    timeLimit,       // StopSettings
+    nothingBlurred,  // more would only smooth edges further: those that remain are RenderStatistics::samples
+};
+
 // Where the frame's time lies in the exposure.
 enum class ShutterPosition { start, centre, end };
 

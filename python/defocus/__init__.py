@@ -97,6 +97,8 @@ class Statistics(NamedTuple):
     triangles_at_full_detail: int
     gpu_bytes: int
     device: str
+    stopped: str  # why there are no more samples: "samples", "target error", "time limit" or "nothing blurred"
+    estimated_error: Optional[float]  # with target_error or time_limit: RMSE of the display-encoded image at EV 0
 
 
 def settings() -> List[Setting]:

@@ -66,6 +66,8 @@ class Keywords(TypedDict, total=False):
     aperture_image: Optional[Path]
     node_blur: Optional[Union[Mapping[str, float], str]]
     samples: Optional[int]
+    target_error: Optional[float]
+    time_limit: Optional[Union[float, str]]  # s
     sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]
     seed: Optional[int]
     lod: Optional[Literal["fractional", "continuous", "nearest", "off"]]
@@ -139,6 +141,8 @@ class Statistics(NamedTuple):
     triangles_at_full_detail: int
     gpu_bytes: int
     device: str
+    stopped: Literal["samples", "target error", "time limit", "nothing blurred"]
+    estimated_error: Optional[float]
 
 class Scene:
     def __init__(self, path: Path, *, progress: Optional[Progress] = None) -> None: ...

@@ -36,6 +36,26 @@ layout(location = 0) out vec4 layerOut;
 layout(location = 1) out vec4 cocScaleOut;
 #endif
 
+#ifdef LEVEL_COLOR_RANGE
+layout(location = 0) uniform vec4 leastColor;   // of the level's vertices
+layout(location = 1) uniform vec4 mostColor;
+#endif
+
+// Rasterisers round corners to a fraction of a pixel, so a triangle that is narrower than that can cover a pixel far outside its own
+// plane equations. What the corners have bounds what lies between them. Normals and directions need no bound, as only their way
+// counts, and texture coordinates that run as fast pick the smallest mipmap.
+vec4 surfaceColor() {
+#if defined(VERTEX_COLOR_RANGES)
+    vec4 most = floor(surface.colorRange / 256.0);
+    vec4 least = surface.colorRange - 256.0 * most;
+    return clamp(surface.color, material.baseColor * (least / 255.0), material.baseColor * (most / 255.0));
+#elif defined(LEVEL_COLOR_RANGE)
+    return clamp(surface.color, material.baseColor * leastColor, material.baseColor * mostColor);
+#else
+    return surface.color;
+#endif
+}
+
 #ifdef TEXTURED
 vec2 uvOf(int slot) {
 #ifndef UV_TRANSFORMS
@@ -50,8 +70,7 @@ vec2 uvOf(int slot) {
 #endif
 
 #ifndef UNLIT
-vec3 shadingNormal() {
-    vec3 normal = normalize(surface.normal);
+vec3 shadingNormal(vec3 normal) {
 #ifdef NORMAL_TEXTURE
     vec3 tangent = surface.tangent.xyz - normal * dot(normal, surface.tangent.xyz);
     float tangent2 = dot(tangent, tangent);
@@ -85,8 +104,12 @@ vec3 shaded(vec3 baseColor) {
     point.diffuse = baseColor * (1.0 - metallic);
     point.specular = mix(vec3(0.04), baseColor, metallic);
     point.roughness = roughness;
-    point.normal = shadingNormal();
+    vec3 normal = normalize(surface.normal);
+    point.normal = shadingNormal(normal);
     point.toEye = normalize(surface.toEye);
+    vec3 right = dFdx(normal);   // of the surface's: what a normal texture's mean is, its mipmaps say
+    vec3 up = dFdy(normal);
+    point.footprint = dot(right, right) + dot(up, up);
 #ifdef COARSE_LEVEL
     point.agreement = clamp(surface.agreement, 0.05, 1.0);   // a sliver may extrapolate
 #endif
@@ -113,7 +136,7 @@ void main() {
 #ifdef SCREEN_DOOR
     if (drawsCoarser() != SCREEN_DOOR) discard;
 #endif
-    vec4 baseColor = surface.color;
+    vec4 baseColor = surfaceColor();
 #ifdef BASE_COLOR_TEXTURE
     baseColor *= texture(baseColorTexture, uvOf(0));
 #endif

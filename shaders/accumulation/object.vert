@@ -31,6 +31,9 @@ layout(location = 13) in vec2 momentIn;         // an instance: a moment of the 
 #ifdef CHROMATIC
 layout(location = 14) in float bandShiftIn;     // an instance
 #endif
+#ifdef VERTEX_COLOR_RANGES
+layout(location = 15) in vec4 colorRangeIn;
+#endif
 #ifdef POSED
 #include "include/posing.glsl"
 #endif
@@ -87,6 +90,9 @@ void main() {
     STAGE_OUT.color = material.baseColor * colorIn;
 #else
     STAGE_OUT.color = material.baseColor;
+#endif
+#ifdef VERTEX_COLOR_RANGES
+    STAGE_OUT.colorRange = colorRangeIn;
 #endif
 #ifndef UNLIT
 #ifdef COARSE_LEVEL

@@ -1,4 +1,5 @@
-// The frame, the object and the material as uniform blocks; src/render/gpu_blocks.h holds the same structures for C++.
+// The frame, the object and the material as uniform blocks, for C++ in frame_uniforms.cpp, surface_pass.cpp and
+// gpu_scene.h.
 
 layout(std140, binding = 0) uniform FrameBlock {
     vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused

@@ -2,8 +2,15 @@
 // Microsurfaces) of the height-correlated Smith masking and Schlick's Fresnel; the environment's specular part by Karis's fit
 // (2014, Physically Based Shading on Mobile).
 //
+// One sample stands for a piece of the surface, and a normal of a coarse level for those of level 0: what either spreads is
+// added to the width of the lobe, and neither changes how much light the lobe holds.
+//
 // Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵, so the lights can be summed before F0 and the albedo are known: three sums,
 // and few operations a light (software rasterisers feel each one).
+
+layout(std140, binding = 6) uniform SampleBlock {
+    float placesVariance;   // px², along each axis, of the places that one sample of this block stands for
+} sampleBlock;
 
 struct SurfacePoint {
     vec3 diffuse;         // albedo of the diffuse part
@@ -11,6 +18,7 @@ struct SurfacePoint {
     float roughness;      // perceptual
     vec3 normal;          // unit, along the world's axes as all directions here
     vec3 toEye;           // unit
+    float footprint;      // Σ |∂n|² of the surface's own normal over a step of one pixel to the right and one up
 #ifdef COARSE_LEVEL
     float agreement;      // length |n| of the mean of the normals that `normal` stands for, in (0, 1]
 #endif
@@ -31,25 +39,51 @@ float meanCosine(float cosine, float agreement) {
     float spread = 0.31830988618 * (1.0 - agreement * agreement) * max(1.0 - cosine * cosine, 0.0);
     return 0.5 * (mean + sqrt(mean * mean + spread));
 }
-
-// The normals that one stands for widen the reflection: a lobe of width α over slopes of variance σ² ≈ (1 − |n|)/|n| along each axis
-// (Toksvig 2005, Mipmapping Normal Maps) is one of width √(α² + 2σ²).
-float widenedAlpha(float alpha, float agreement) {
-    return min(sqrt(alpha * alpha + 2.0 * (1.0 - agreement) / agreement), 1.0);
-}
 #endif
+
+// 2σ² for normals whose slopes have the variance σ² along each axis: the mean square of the angles by which they differ.
+// Within a pixel, as Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing) and with the bound of Tokuyoshi
+// and Kaplanyan 2019 (Improved Geometric Specular Antialiasing), with the places in a pixel that this sample stands for: the more samples
+// share the pixel, the fewer. It falls with the square of the pixel's size, and is 0 on flat surfaces.
+// Of a coarse level: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
+float slopeSpread(SurfacePoint point) {
+    float spread = min(point.footprint * sampleBlock.placesVariance, 0.18);
+#ifdef COARSE_LEVEL
+    spread += 2.0 * (1.0 - point.agreement) / point.agreement;
+#endif
+    return spread;
+}
+
+// Slopes that follow GGX of width α, each of them spread once more by a normal distribution of variance σ². Where the spread is the
+// wider of the two the sum is close to Beckmann's distribution, but far out, where that has nothing, it is what GGX was. With the
+// share 2σ² / (α² + 2σ²) of Beckmann's and the rest of GGX, both of width² α² + 2σ², it keeps all of GGX's tail, α²/(π tan⁴).
+struct Lobe {
+    float alpha;          // √(α² + 2σ²)
+    float beckmann;       // its share
+};
+
+Lobe lobeOf(SurfacePoint point, float spread) {
+    float width = point.roughness * point.roughness;
+    float alpha2 = clamp(width * width + spread, 1e-6, 1.0);
+    return Lobe(sqrt(alpha2), min(spread / alpha2, 1.0));
+}
 
 // One light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is known through its cosines
 // only: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
-void addLight(inout LightSums sums, SurfacePoint point, float nv, float alpha, vec3 toLight, vec3 illuminance) {
+void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec3 toLight, vec3 illuminance) {
     float cosine = dot(point.normal, toLight);
     float nl = max(cosine, 0.0);
     float sum2 = max(2.0 + 2.0 * dot(toLight, point.toEye), 1e-6);
     float cosines = max(nl + nv, 0.0);
-    float base = max(cosines * cosines * (alpha * alpha - 1.0) + sum2, alpha * alpha * sum2);  // (n·h)² ≤ 1
-    float lobe = alpha * sum2;
-    float masking = max(mix(2.0 * nl * nv, cosines, alpha), 1e-4);
-    float specular = nv > 0.0 ? 0.5 * lobe * lobe / (base * base * masking) : 0.0;  // an averted normal reflects nothing
+    float cosines2 = cosines * cosines;
+    float alpha2 = lobe.alpha * lobe.alpha;
+    float base = max(cosines2 * (alpha2 - 1.0) + sum2, alpha2 * sum2);  // (n·h)² ≤ 1
+    float masking = max(mix(2.0 * nl * nv, cosines, lobe.alpha), 1e-4);
+    float ggx = alpha2 / (base * base);
+    float away = max(cosines2, 1e-4);  // not along the surface
+    float beckmann = exp(-max(sum2 - away, 0.0) / (away * alpha2)) / (alpha2 * away * away);
+    float distribution = sum2 * sum2 * mix(ggx, beckmann, lobe.beckmann);
+    float specular = nv > 0.0 ? 0.5 * distribution / masking : 0.0;  // an averted normal reflects nothing
     float g = 1.0 - 0.5 * sqrt(sum2);
     float g2 = g * g;
     g = g2 * g2 * g;
@@ -90,38 +124,45 @@ vec3 mattNormal(SurfacePoint point) {
 #endif
 }
 
-// The environment's light on the point, `occlusion` of it.
-vec3 environmentLight(SurfacePoint point, float nv, float occlusion) {
+// The share of a white environment's light that the specular part throws back. The fit leaves [0, 1] for rough surfaces without
+// reflectance and at grazing angles.
+vec3 specularAlbedo(SurfacePoint point, float nv) {
+    vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
+    vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
+    return clamp(point.specular * fit.x + fit.y, 0.0, 1.0);
+}
+
+// The environment's light on the point, `occlusion` of it. What the specular part throws back never reaches the diffuse one.
+vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusion) {
 #if ENVIRONMENT == 0
     return vec3(0.0);
 #else
 #if ENVIRONMENT == 3
     vec3 diffuse = environmentDiffuse(mattNormal(point));
-    vec3 reflection = environmentRadiance(reflect(-point.toEye, point.normal), point.roughness * ENVIRONMENT_LEVELS);
+    float width = point.roughness * point.roughness;
+    float roughness = sqrt(sqrt(min(width * width + spread, 1.0)));
+    vec3 reflection = environmentRadiance(reflect(-point.toEye, point.normal), roughness * ENVIRONMENT_LEVELS);
 #elif ENVIRONMENT == 2
-    // Only heights count: that of the mirrored direction 2 (n·v) n − v too.
+    // Only heights count: that of the mirrored direction 2 (n·v) n − v too. Mirrored directions about one spread twice as far as the
+    // normals do, so that their mean height is 1 − 2·spread of its height; of the matt reflection it is 2/3.
     float mirroredHeight = 2.0 * nv * point.normal.y - point.toEye.y;
     vec3 diffuse = gradientDiffuse(mattNormal(point).y);
-    vec3 reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), point.roughness);
+    vec3 reflection = mix(gradientRadiance(mirroredHeight), gradientDiffuse(mirroredHeight), min(point.roughness + 6.0 * spread, 1.0));
 #else
     vec3 diffuse = lighting.environment[0].rgb;
     vec3 reflection = diffuse;
 #endif
-    vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
-    vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
-    return (point.diffuse * diffuse + (point.specular * fit.x + fit.y) * reflection) * (occlusion * ENVIRONMENT_LIGHTING);
+    vec3 specular = specularAlbedo(point, nv);
+    return (point.diffuse * (1.0 - specular) * diffuse + specular * reflection) * (occlusion * ENVIRONMENT_LIGHTING);
 #endif
 }
 
 // Radiance towards the eye, without emission. `position`, from the camera, matters to point and spot lights only.
 vec3 reflectedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be below 0: an interpolated normal can look away
-    float alpha = max(point.roughness * point.roughness, 1e-3);
-#ifdef COARSE_LEVEL
-    alpha = widenedAlpha(alpha, point.agreement);
-    point.roughness = sqrt(alpha);
-#endif
+    float spread = slopeSpread(point);
+    Lobe lobe = lobeOf(point, spread);
     LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
     for (int i = 0; i < LIGHT_COUNT; ++i) {
         vec3 toLight = -lighting.lights[i].directionType.xyz;
@@ -130,9 +171,9 @@ vec3 reflectedRadiance(SurfacePoint point, vec3 position, float occlusion) {
         if (lighting.lights[i].directionType.w != 0.0)
             illuminance = localLight(lighting.lights[i], frame.lightPositions[i], position, toLight);
 #endif
-        addLight(sums, point, nv, alpha, toLight, illuminance);
+        addLight(sums, point, nv, lobe, toLight, illuminance);
     }
     vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
     vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
-    return diffuse + specular + environmentLight(point, max(nv, 0.0), occlusion);
+    return diffuse + specular + environmentLight(point, max(nv, 0.0), spread, occlusion);
 }

@@ -1,6 +1,9 @@
 // What the vertex stage hands to the fragment stage; only what the material needs.
 
     vec4 color;
+#ifdef VERTEX_COLOR_RANGES
+    flat vec4 colorRange; // of the corners around; of a channel, 256 times the most plus the least, in 1/255
+#endif
 #ifndef UNLIT
     vec3 normal;          // along the world's axes, as all directions here
 #ifdef COARSE_LEVEL

@@ -6,6 +6,9 @@
 
 void writeSurface(vec3 weights) {
     SURFACE_OUT.color = SURFACE_WEIGHTED(color);
+#ifdef VERTEX_COLOR_RANGES
+    SURFACE_OUT.colorRange = SURFACE_CORNERS[0].colorRange;
+#endif
 #ifndef UNLIT
     SURFACE_OUT.normal = SURFACE_WEIGHTED(normal);
 #ifdef COARSE_LEVEL

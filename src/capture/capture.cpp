@@ -17,7 +17,7 @@
 #include "core/stopwatch.h"
 #include "lens/photographic_exposure.h"
 #include "plan/frame_plan.h"
-#include "render/frame_uniforms.h"
+#include "render/frame_run.h"
 
 namespace defocus {
 
@@ -58,15 +58,17 @@ struct FrameTimes {
 
 void appendTimes(const FilmOptions& options, const FilmFrame& film, const SequenceFrame& frame,
                  const RenderStats& stats, const FrameTimes& times) {
-    const nlohmann::ordered_json line = {{"frame", film.frame},
-                                         {"file", film.files.front().string()},
-                                         {"time", frame.time},
-                                         {"planMilliseconds", times.planMilliseconds},
-                                         {"renderMilliseconds", times.renderMilliseconds},
-                                         {"writeMilliseconds", times.writeMilliseconds},
-                                         {"trianglesDrawn", stats.trianglesDrawn},
-                                         {"samples", stats.samples},
-                                         {"device", stats.device}};
+    nlohmann::ordered_json line = {{"frame", film.frame},
+                                   {"file", film.files.front().string()},
+                                   {"time", frame.time},
+                                   {"planMilliseconds", times.planMilliseconds},
+                                   {"renderMilliseconds", times.renderMilliseconds},
+                                   {"writeMilliseconds", times.writeMilliseconds},
+                                   {"trianglesDrawn", stats.trianglesDrawn},
+                                   {"samples", stats.samples},
+                                   {"wave", stats.wave},
+                                   {"device", stats.device}};
+    if (stats.estimatedError) line["estimatedError"] = *stats.estimatedError;
     const std::string text = line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(options.timings.c_str(), "ab"), &std::fclose);
     if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0)
@@ -92,24 +94,28 @@ DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, cons
     world.pose = frame.pose;
     world.shutter = frame.shutter;
     world.lights = frame.lights;
-    const FramePlan plan = planFrame(world, frame.view, frame.settings);
     DrawnFrame drawn;
-    drawn.frame = std::move(frame);
-    drawn.times.planMilliseconds = millisecondsSince(start);
+    FramePlan plan;
 
     // The whole frame, or some of its samples.
     if (options.sampleRange) {
+        plan = planFrame(world, frame.view, frame.settings);
+        drawn.times.planMilliseconds = millisecondsSince(start);
         drawn.part = renderPart(renderer, plan, *options.sampleRange, [&] { step(0.5); });
         drawn.stats = renderer.stats();
         drawn.stats.samples = drawn.part.frameSamples;
     } else {
-        renderer.start(plan);
+        FrameRun run(world, renderer);
+        run.start(frame.view, frame.settings, options.stop);
+        drawn.times.planMilliseconds = run.planMilliseconds();
         do {
-            step(static_cast<double>(renderer.samples()) / renderer.sampleTotal());
-        } while (renderer.advance());
+            step(static_cast<double>(run.samples()) / run.sampleTotal());
+        } while (run.advance());
         drawn.image = renderer.image();
-        drawn.stats = renderer.stats();
+        drawn.stats = run.stats();
+        plan = run.plan();
     }
+    drawn.frame = std::move(frame);
     drawn.times.renderMilliseconds = millisecondsSince(start);
     drawn.metadata = metadata(drawn.frame, plan, drawn.stats);
     drawn.part.metadata = drawn.metadata;

@@ -51,16 +51,19 @@ void addPose(HashedText& hashed, const Pose& pose) {
     }
 }
 
-// Samples, levels and method, by their names; where the pyramids are kept and how many samples are drawn at once change
-// nothing.
+// Samples, levels and method, by their names; where the pyramids are kept, how many samples are drawn at once
+// and how long the film may take change nothing.
 void addSettings(HashedText& hashed, const Request& request) {
     for (const Setting& setting : settings()) {
         const bool counts = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
                             setting.group == SettingGroup::developer;
-        if (!counts || setting.kind == SettingKind::path || setting.name == "noCache" || setting.name == "wave")
+        if (!counts || setting.kind == SettingKind::path || setting.name == "noCache" || setting.name == "wave" ||
+            setting.name == "timeLimit")
             continue;
+        if (setting.name == "targetError" && !request.stop.targetError) continue;  // frames of before stay valid
         hashed.add(setting.name, setting.text(request).value_or(""));
     }
+    if (request.stop.targetError) hashed.add(request.stop.sampleLimit);
 }
 
 }  // namespace

@@ -11,7 +11,9 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -66,16 +68,16 @@ bool isInstalled(const std::string& program) {
     return false;
 }
 
-// ffmpeg with a pipe to its input; what it says goes to a file.
-class Encoder {
+// ffmpeg with a pipe to its input; its output and what it says go to files.
+class Ffmpeg {
 public:
-    Encoder(const std::vector<std::string>& arguments, const fs::path& messages) {
+    Ffmpeg(const std::vector<std::string>& arguments, const fs::path& output, const fs::path& messages) {
         int ends[2];
         if (::pipe2(ends, O_CLOEXEC) != 0) fail("ffmpeg cannot be started: no pipe");
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_TRUNC, 0);
         posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
         std::vector<std::string> words = arguments;
         std::vector<char*> pointers;
@@ -90,13 +92,13 @@ public:
             fail("ffmpeg cannot be started: {}", std::generic_category().message(fault));
         }
     }
-    ~Encoder() {
+    ~Ffmpeg() {
         if (process_ <= 0) return;
         ::kill(process_, SIGKILL);
         close();
     }
-    Encoder(const Encoder&) = delete;
-    Encoder& operator=(const Encoder&) = delete;
+    Ffmpeg(const Ffmpeg&) = delete;
+    Ffmpeg& operator=(const Ffmpeg&) = delete;
 
     // False once ffmpeg reads no more.
     bool write(const std::vector<std::uint8_t>& bytes) const {
@@ -112,16 +114,22 @@ public:
     // Waits for its end; true if all went well.
     bool close() {
         ::close(input_);
-        int status = 0;
-        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
         }
         process_ = -1;
-        return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
+    }
+    // After close(): how it ended, where it can't have said so itself; else empty.
+    [[nodiscard]] std::string signalText() const {
+        if (!WIFSIGNALED(status_)) return "";
+        const int signal = WTERMSIG(status_);
+        return fmt::format("was ended by signal {} ({})", signal, ::strsignal(signal));
     }
 
 private:
     pid_t process_ = -1;
     int input_ = -1;
+    int status_ = 0;
 };
 
 std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& first) {
@@ -143,11 +151,41 @@ std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& fir
     return bytes;
 }
 
-std::string lastLine(const fs::path& path) {
+std::string textOf(const fs::path& path) {
     const std::vector<std::byte> bytes = readFile(path);
-    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string lastLine(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     return text.substr(text.find_last_of("\r\n") + 1);
+}
+
+// Why ffmpeg failed, in its own words or, where it has none, in ours.
+std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
+    if (const std::string signal = ffmpeg.signalText(); !signal.empty()) return "ffmpeg " + signal;
+    const std::string said = lastLine(textOf(messages));
+    return said.empty() ? "ffmpeg failed and doesn't say why" : "ffmpeg says: " + said;
+}
+
+// Throws Error unless a film can be read and has all its frames. An encoder's word isn't enough: on a full disk ffmpeg
+// ends with success and leaves a film without its end.
+void checkFilm(const fs::path& film, std::size_t frames, const fs::path& name) {
+    PendingFile messages(name.string() + ".log");  // neither is kept
+    PendingFile counted(name.string() + ".count");
+    Ffmpeg ffmpeg({"ffmpeg", "-v", "error", "-nostdin", "-i", film.string(), "-map", "0:v:0", "-c", "copy", "-f",
+                   "null", "-progress", "pipe:1", "-"},
+                  counted.temporaryPath(), messages.temporaryPath());
+    if (!ffmpeg.close())
+        fail("{}: cannot be written (is the disk full?): the film can't be read again: {}", name.string(),
+             complaint(ffmpeg, messages.temporaryPath()));
+    const std::string progress = textOf(counted.temporaryPath());
+    constexpr std::string_view key = "frame=";
+    const std::size_t last = progress.rfind(key);
+    const std::size_t found =
+        last == std::string::npos ? 0 : std::strtoull(progress.c_str() + last + key.size(), nullptr, 10);
+    if (found != frames)
+        fail("{}: cannot be written (is the disk full?): the film has {} of {} frames", name.string(), found, frames);
 }
 
 }  // namespace
@@ -167,7 +205,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     if (frames.empty()) fail("{}: a film needs a frame", path.string());
     const Image first = readImage(frames.front().file);
     const fs::path log = path.string() + ".log";
-    removeUnfinished({path, log});
+    removeUnfinished({path, log, path.string() + ".count"});
     PendingFile film(path);
     PendingFile messages(log);  // never kept
 
@@ -184,7 +222,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
 
     // Frame by frame; when ffmpeg stops listening, its last words say why. It must not end us.
     const auto previous = std::signal(SIGPIPE, SIG_IGN);
-    Encoder ffmpeg(arguments, messages.temporaryPath());
+    Ffmpeg ffmpeg(arguments, "/dev/null", messages.temporaryPath());
     bool listening = true;
     for (std::size_t i = 0; i < frames.size() && listening; ++i) {
         report(progress, "film", i, frames.size());
@@ -193,7 +231,8 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     const bool finished = ffmpeg.close();
     std::signal(SIGPIPE, previous);
     if (!finished || !listening)
-        fail("{}: cannot be written: ffmpeg says: {}", path.string(), lastLine(messages.temporaryPath()));
+        fail("{}: cannot be written: {}", path.string(), complaint(ffmpeg, messages.temporaryPath()));
+    checkFilm(film.temporaryPath(), frames.size(), path);
     film.commit();
 }
 

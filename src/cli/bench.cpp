@@ -47,7 +47,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     options.renderer.wave = arguments.request.wave;
     options.renderer.shaderFolder = global.shaderDir;
     options.pyramidMilliseconds = frame.pyramidMilliseconds;
-    const BenchSubject subject = benchSubject(*context, frame, options.runs);
+    const BenchSubject subject = benchSubject(*context, global, frame, options.runs);
     fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
                subject.runs, subject.device, speedupHeader());
 
@@ -107,9 +107,11 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
             ->group("Output");
     addReport(*command, output, arguments->report);
     addAllowChanged(*command, arguments->allowChanged);
-    // What the bench goes through by itself; the time that pyramids take is part of the result.
+    // Not what the bench goes through by itself. The time that pyramids take is part of the result, and images are
+    // compared at EV 0.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"samples", "lod", "method", "cacheFolder", "noCache"}));
+                settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "cacheFolder",
+                                         "noCache", "exposureTime", "iso"}));
     addDeveloperSettings(*command, arguments->request);
     command->footer(
         "Examples:\n"
@@ -143,11 +145,11 @@ void refuseChangedSources(const std::filesystem::path& output, bool allowed, con
         output.string(), commit);
 }
 
-BenchSubject benchSubject(const GlContext& context) {
+BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global) {
     BenchSubject subject;
     subject.program = "defocus " + programVersion();
     subject.commit = programCommit();
-    subject.commands = {commandLine()};
+    subject.commands = {commandLine(global.words)};
     subject.machine = thisMachine();
     subject.device = context.device();
     subject.driver = context.driver();
@@ -155,8 +157,8 @@ BenchSubject benchSubject(const GlContext& context) {
     return subject;
 }
 
-BenchSubject benchSubject(const GlContext& context, const PreparedFrame& frame, int runs) {
-    BenchSubject subject = benchSubject(context);
+BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs) {
+    BenchSubject subject = benchSubject(context, global);
     subject.scene = frame.sceneName;
     subject.camera = frame.cameraName;
     subject.lens = frame.view.lens;

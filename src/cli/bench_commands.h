@@ -28,8 +28,8 @@ void refuseChangedSources(const std::filesystem::path& output, bool allowed,
 
 // This program, command and machine, the device of `context`, and what is measured: one frame, or what the bench makes
 // by itself.
-BenchSubject benchSubject(const GlContext& context);
-BenchSubject benchSubject(const GlContext& context, const PreparedFrame& frame, int runs);
+BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);
+BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 
 void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global);
 void addBenchDiffCommand(CLI::App& bench);

@@ -171,7 +171,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.renderer.shaderFolder = global.shaderDir;
     const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer};
     const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
-    const std::uint64_t hash = subjectHash(referenced, benchSubject(*context), options);
+    const std::uint64_t hash = subjectHash(referenced, benchSubject(*context, global), options);
     const std::vector<ConvergenceRun> done = earlierRuns(arguments, referenced, hash);
     const fs::path folder = resultsFolder(arguments);
     if (arguments.overwrite) writeFile(folder / "runs.csv", runsCsv({}, hash));
@@ -181,7 +181,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     const ReferenceImage reference = referenceImage(frame.world, frame.view, referenceOptions, folder, progress);
     writeImage(folder / "images" / "reference.png", reference.image);
     ConvergenceSubject subject;
-    subject.bench = benchSubject(*context, frame, options.runs);
+    subject.bench = benchSubject(*context, global, frame, options.runs);
     const std::uint32_t fewest = *std::ranges::min_element(options.sampleCounts);
     subject.crops = tellingCrops(frame.world, frame.view, reference, fewest, options.renderer);
 
@@ -316,10 +316,10 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<ConvergenceArguments>();
     CLI::App* command =
         bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
-    // What the bench goes through by itself.
+    // Not what the bench goes through by itself; and images are compared at EV 0.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups,
-                           {"samples", "lod", "blurThreshold", "sizeThreshold", "method", "cacheFolder", "noCache"}));
+                settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "blurThreshold", "sizeThreshold",
+                                         "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
     addDeveloperSettings(*command, arguments->request, {"lodMetric"});

@@ -53,9 +53,8 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
         if (!arguments.request.clip.empty()) options.clip = clipNamed(*frame.scene, arguments.request.clip);
     }
     options.renderer.layerFormat = arguments.request.layerFormat;
-    options.renderer.wave = arguments.request.wave;
     options.renderer.shaderFolder = global.shaderDir;
-    const BenchSubject subject = benchSubject(*context, frame, 0);
+    const BenchSubject subject = benchSubject(*context, global, frame, 0);
     fmt::print("{}, {} x {} px, {} of {} frames of each movement, on {}\n\n", subject.scene, subject.width,
                subject.height, options.frames, options.pathFrames, subject.device);
 
@@ -96,8 +95,10 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     CLI::App* command = bench.add_subcommand(
         "popping",
         "A focus pull, a dolly, a turntable and the scene's clip: what levels add to the change from frame to frame");
-    // What the bench goes through by itself.
-    addSettings(*command, arguments->request, settingsOf(frameGroups, {"samples", "lod", "method"}));
+    // Not what the bench goes through by itself; and images are compared at EV 0.
+    addSettings(
+        *command, arguments->request,
+        settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "exposureTime", "iso"}));
     const char* group = "Measurement";
     PoppingOptions& options = arguments->options;
     command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
@@ -119,7 +120,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
             ->group("Output");
     addReport(*command, output, arguments->report);
     addAllowChanged(*command, arguments->allowChanged);
-    addDeveloperSettings(*command, arguments->request);
+    addDeveloperSettings(*command, arguments->request, {"keepAll", "wave"});  // nothing that is measured depends on it
     command->footer(
         "Examples:\n"
         "  defocus bench popping --fish 6 --fish-triangles 20000 -o popping\n"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -33,6 +34,9 @@ struct ScalingArguments {
 };
 
 void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
+    if (arguments.options.large &&
+        std::ranges::find(arguments.options.axes, ScalingAxis::triangles) == arguments.options.axes.end())
+        throw UsageError("--large is for triangles, which are not among --axes");
     const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
     refuseChangedSources(folder, arguments.allowChanged);
     makeOutputFolder(folder, {"scaling.csv", "scaling.json"});
@@ -41,7 +45,7 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
     ScalingOptions options = arguments.options;
     options.cacheFolder = arguments.request.cacheFolder.empty() ? defaultCacheFolder() : arguments.request.cacheFolder;
     options.renderer.shaderFolder = global.shaderDir;
-    BenchSubject subject = benchSubject(*context);
+    BenchSubject subject = benchSubject(*context, global);
     subject.runs = options.runs;
     fmt::print("{} runs of each, on {}\n\n{}", subject.runs, subject.device, scalingHeader());
     std::fflush(stdout);

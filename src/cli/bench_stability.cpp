@@ -75,7 +75,7 @@ void runStability(const StabilityArguments& arguments, const GlobalOptions& glob
     fmt::print("{}, OpenGL {}\n\n", context->device(), context->driver());
     const std::vector<StabilityRow> rows = printedCases(progress);
     const std::vector<HonestyRow> honesty = printedHonesty(progress);
-    if (!output.empty()) writeFile(output, stabilityJson(rows, honesty, benchSubject(*context)));
+    if (!output.empty()) writeFile(output, stabilityJson(rows, honesty, benchSubject(*context, global)));
     drawReport(arguments.report, arguments.report);
     const auto failed = std::ranges::count_if(rows, &StabilityRow::failed);
     if (failed > 0) fail("{} of {} cases are beyond their limits", failed, rows.size());

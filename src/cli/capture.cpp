@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capture/frame_files.h"
@@ -22,6 +23,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
+#include "core/stopwatch.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "gl/context.h"
@@ -87,6 +89,8 @@ void checkArguments(const CaptureArguments& arguments) {
         checkVideo(arguments.shot.video);
     }
     if (!arguments.sampleRange) return;
+    if (arguments.request.stop.targetError)
+        throw UsageError("--sample-range needs a number of samples, which --target-error leaves open");
     checkSampleRange(*arguments.sampleRange, arguments.request.settings.sampleCount);
     if (arguments.shot.outputs.size() != 1 || fs::path(arguments.shot.outputs.front()).extension() != ".exr")
         fail("--sample-range writes the sums of samples to one EXR pattern, such as -o frames/####.exr");
@@ -99,6 +103,8 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     options.sampleRange = arguments.sampleRange;
     options.toneMap = arguments.request.toneMap;
     options.exposure = arguments.request.exposure;
+    options.stop = arguments.request.stop;
+    options.stop.timeLimit.reset();  // the run's: the same frame gets the same samples whenever it is rendered
     options.settings = settings;
     options.timings = timingsPath(shot.outputs.front(), arguments.shard.index, arguments.shard.count);
     options.resume = arguments.resume;
@@ -107,8 +113,11 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
 
 void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                const std::vector<FilmFrame>& film) {
-    fmt::print("{}, camera '{}', {}x{}, {} samples, {:g} frames a second\n", prepared.sceneName, prepared.cameraName,
-               base.view.width, base.view.height, base.settings.sampleCount, arguments.shot.frameRate);
+    const StopSettings& stop = arguments.request.stop;
+    const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
+                                                 : fmt::format("{} samples", base.settings.sampleCount);
+    fmt::print("{}, camera '{}', {}x{}, {}, {:g} frames a second\n", prepared.sceneName, prepared.cameraName,
+               base.view.width, base.view.height, samples, arguments.shot.frameRate);
     fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
                "triangles", "file");
     for (const FilmFrame& each : film) {
@@ -129,6 +138,7 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
         [&arguments, &prepared, method](const SequenceFrame& frame, const FramePlan& plan, const RenderStats& stats) {
             Request options = arguments.request;
             options.time = frame.time;
+            options.stop.timeLimit.reset();
             Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0});
             metadata.erase("defocus:seconds");
             metadata["capDate"] = std::string();  // else the library puts the time of writing there
@@ -162,9 +172,16 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     rendererOptions.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = use.method->make(prepared.world, rendererOptions);
     stopAfterThisFrame();
-    return renderFilm(
-        arguments.shot, base, prepared.world, *renderer, film, options, metadataOf(arguments, prepared, use.text()),
-        [] { return stopAsked != 0; }, progress);
+    // With a time limit at least one frame is rendered, so that run after run ends some day.
+    const Clock::time_point start = Clock::now();
+    bool first = true;
+    const auto stop = [&] {
+        const std::optional<double> limit = arguments.request.stop.timeLimit;
+        const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;
+        return stopAsked != 0 || late;
+    };
+    return renderFilm(arguments.shot, base, prepared.world, *renderer, film, options,
+                      metadataOf(arguments, prepared, use.text()), stop, progress);
 } catch (const Error& error) {
     fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
 }
@@ -176,6 +193,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
     checkArguments(arguments);
     const MethodUse use = chosenMethod(arguments.request);
+    if (arguments.request.stop.targetError) checkStop(arguments.request);
     Progress progress = terminalProgress(global);
     PreparedFrame prepared = placeFrame(arguments.request, progress);
     const SequenceBase base = sequenceBase(prepared, arguments.request);

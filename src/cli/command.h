@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/progress.h"
 #include "frame/prepared_frame.h"
@@ -16,7 +17,11 @@ struct GlobalOptions {
     bool quiet = false;               // no progress, no summary
     bool verbose = false;             // say what was chosen (device, caches, …)
     std::filesystem::path shaderDir;  // overrides the embedded shaders, for live editing
+    std::vector<std::string> words;   // the command line, the program first
 };
+
+// All commands with their options. `global` must outlive the program.
+void addCommands(CLI::App& program, GlobalOptions& global);
 
 // A bar on a terminal, plain lines otherwise, nothing with --quiet; always on stderr. Work that ends within a second
 // shows nothing.

@@ -16,7 +16,7 @@
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "lens/lens_fields.h"
-#include "lod/simplify/repairs.h"
+#include "lod/simplify/manifold.h"
 #include "scene/gltf/gltf.h"
 #include "scene/pose.h"
 
@@ -338,7 +338,12 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
               "Blur on the sensor that passes for sharp; without it, the sensor's diagonal over 1500 (0.03 mm for a "
               "sensor of 36 x 27 mm)")
         ->group(group);
-    addSettings(command, options.seen, settingsOf({SettingGroup::camera, SettingGroup::lens}, {"camera", "nodeBlur"}));
+    // What is said follows from the lens's diameter, not from the shape or the faults of its blur.
+    addSettings(
+        command, options.seen,
+        settingsOf({SettingGroup::camera, SettingGroup::lens},
+                   {"camera", "nodeBlur", "bladeCount", "bladeRotation", "bladeCurvature", "anamorphicRatio",
+                    "obstruction", "sphericalAberration", "catEye", "axialChromaticAberration", "apertureImage"}));
     addSettings(command, options.seen, {"time", "clip", "loop"});
     for (CLI::Option* option : command.get_options([&](const CLI::Option* each) {
              return each != camera && std::find(before.begin(), before.end(), each) == before.end();

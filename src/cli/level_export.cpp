@@ -29,11 +29,6 @@ std::string safeStem(const std::string& name) {
     return stem.empty() ? "mesh" : stem;
 }
 
-template <typename T>
-std::vector<T> prefix(const std::vector<T>& values, std::size_t count) {
-    return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), count))};
-}
-
 }  // namespace
 
 std::vector<std::string> fileStems(const Scene& scene) {
@@ -72,8 +67,8 @@ Mesh levelMesh(const Pyramid& pyramid, std::size_t l, const std::string& name) {
     mesh.vertices.positions = level.positions;
     mesh.vertices.normals = level.normals;
     mesh.vertices.colors = level.colors;
-    mesh.vertices.uv0 = prefix(pyramid.vertices.uv0, level.vertexCount);
-    mesh.vertices.uv1 = prefix(pyramid.vertices.uv1, level.vertexCount);
+    mesh.vertices.uv0 = level.uv0;
+    mesh.vertices.uv1 = level.uv1;
     for (const IndexRange& range : level.primitives) {
         const auto first = pyramid.indices.begin() + static_cast<std::ptrdiff_t>(range.first);
         mesh.primitives.push_back({-1, {first, first + static_cast<std::ptrdiff_t>(range.count)}});

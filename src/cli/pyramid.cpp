@@ -29,6 +29,7 @@
 #include "frame/prepared_frame.h"
 #include "gl/context.h"
 #include "image/image_io.h"
+#include "lod/pyramid/cache.h"
 #include "lod/pyramid/surface_distance.h"
 #include "scene/defaults.h"
 #include "scene/gltf/gltf.h"
@@ -46,6 +47,7 @@ struct PyramidArguments {
     std::string mesh;       // empty: all
     fs::path exportFolder;  // empty: no export
     fs::path turntable;     // empty: none
+    fs::path cacheFolder;   // empty: none is used
     std::size_t points = 16'384;
     bool noMeasure = false;
     bool json = false;
@@ -59,7 +61,7 @@ struct LevelReport {
 struct MeshReport {
     std::size_t mesh = 0;  // into Scene::meshes
     Pyramid pyramid;
-    double seconds = 0;  // of the build
+    std::optional<double> seconds;  // of the build; none where the cache had it
     std::vector<LevelReport> levels;
     fs::path turntable;  // empty: none was drawn
 };
@@ -85,21 +87,49 @@ std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name
 
 // ---- work ---------------------------------------------------------------------------------------
 
-void buildAll(const Scene& scene, std::vector<MeshReport>& reports, const Progress& progress) {
+void buildOne(const Mesh& mesh, std::size_t helpers, MeshReport& report) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    report.pyramid = buildPyramid(mesh, {}, helpers);
+    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// As cachedPyramids does it, mesh by mesh. Returns why one couldn't be stored; empty where nothing went wrong.
+std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, std::size_t helpers, MeshReport& report) {
+    if (folder.empty() || mesh.triangleCount() <= PyramidOptions{}.leastTriangles) {
+        buildOne(mesh, helpers, report);
+        return {};
+    }
+    if (std::optional<Pyramid> loaded = loadPyramid(mesh, folder)) {
+        report.pyramid = std::move(*loaded);
+        return {};
+    }
+    buildOne(mesh, helpers, report);
+    try {
+        storePyramid(report.pyramid, mesh, folder);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+// Returns why a pyramid couldn't be stored; empty where nothing went wrong.
+std::string buildAll(const Scene& scene, const fs::path& folder, std::vector<MeshReport>& reports,
+                     const Progress& progress) {
     std::mutex mutex;
     std::uint64_t done = 0;
+    std::string failure;
     parallelFor(reports.size(), [&](std::size_t i) {
-        using Clock = std::chrono::steady_clock;
-        const Clock::time_point start = Clock::now();
         const Mesh& mesh = scene.meshes[reports[i].mesh];
         const std::size_t helpers =
             reports.size() > 1 ? pyramidHelpers(mesh, scene.meshes) : pyramidHelpers(mesh, {&mesh, 1});
-        reports[i].pyramid = buildPyramid(mesh, {}, helpers);
-        reports[i].seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        std::string failed = buildOrLoad(mesh, folder, helpers, reports[i]);
         reports[i].levels.resize(reports[i].pyramid.levels.size());
         const std::scoped_lock lock(mutex);
+        if (failure.empty()) failure = std::move(failed);
         report(progress, "pyramids", ++done, reports.size());
     });
+    return failure;
 }
 
 Surface surfaceOf(const Pyramid& pyramid, std::size_t level) {
@@ -240,7 +270,7 @@ Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std
     for (const MeshReport& report : reports) {
         Json mesh = {{"name", scene.meshes[report.mesh].name},
                      {"index", report.mesh},
-                     {"buildSeconds", report.seconds},
+                     {"buildSeconds", report.seconds ? Json(*report.seconds) : Json()},
                      {"diagonal", glm::length(report.pyramid.bounds.size())},
                      {"repairedFaces", report.pyramid.repairedFaces},
                      {"end", endText(report.pyramid).name},
@@ -281,9 +311,9 @@ void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
         fmt::print("{}: {} triangle{}, box diagonal {:.4g}", shownName(scene, report.mesh),
                    grouped(pyramid.levels[0].triangleCount), pyramid.levels[0].triangleCount == 1 ? "" : "s",
                    glm::length(pyramid.bounds.size()));
-        fmt::print("; {} in {}",
+        fmt::print("; {} {}",
                    report.levels.size() == 1 ? "one level only" : fmt::format("{} levels", report.levels.size()),
-                   timeText(report.seconds));
+                   report.seconds ? "in " + timeText(*report.seconds) : "from the cache");
         if (pyramid.repairedFaces > 0)
             fmt::print("; {} face{} repaired", grouped(pyramid.repairedFaces), pyramid.repairedFaces == 1 ? "" : "s");
         fmt::print("\n");
@@ -293,6 +323,8 @@ void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
 }
 
 void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) {
+    if (!global.shaderDir.empty() && arguments.turntable.empty())
+        throw UsageError("--shader-dir: nothing is drawn without --turntable");
     const Progress progress = terminalProgress(global);
     const Scene scene = loadScene(arguments.request, progress);
     std::vector<MeshReport> reports = chooseMeshes(scene, arguments.mesh);
@@ -308,7 +340,8 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     }
 
     printWarnings(damageWarnings(scene), global);
-    buildAll(scene, reports, progress);
+    if (const std::string failure = buildAll(scene, arguments.cacheFolder, reports, progress); !failure.empty())
+        printWarnings({"a pyramid was not stored: " + failure}, global);
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;
     if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);
@@ -347,6 +380,11 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
                      "Render all levels from all sides onto one sheet (.png, .jpg or .exr); of several meshes a sheet "
                      "each, FILE-MESH.png")
         ->type_name("FILE");
+    command
+        ->add_option("--cache-dir", arguments->cacheFolder,
+                     "Take the levels from this folder where it has them, and keep them there; without it, they are "
+                     "built anew")
+        ->type_name("FOLDER");
     command->add_flag("--json", arguments->json,
                       "JSON for programs, with distances in both directions, instead of text");
     command->footer(

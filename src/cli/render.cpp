@@ -1,8 +1,11 @@
 // defocus render: a scene to images.
 
+#include "cli/render.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -12,7 +15,7 @@
 #include "capture/partial.h"
 #include "capture/settings_hash.h"
 #include "cli/command.h"
-#include "cli/render_options.h"
+#include "cli/option_text.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
@@ -24,13 +27,50 @@
 #include "lens/photographic_exposure.h"
 #include "render/aov/aov.h"
 #include "render/aov/work.h"
-#include "render/methods.h"
+#include "render/frame_run.h"
 
 namespace defocus {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+void parseAovs(const std::string& text, AovRequest& aovs) {
+    const std::vector<std::string> names = {"depth", "coc", "level", "work"};
+    const std::array<bool*, 4> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work};
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        *wanted[parseChoice(text.substr(begin, end - begin), names)] = true;
+        begin = end + 1;
+    }
+}
+
+void addOutputs(CLI::App& command, RenderArguments& arguments) {
+    const char* group = "Output";
+    arguments.outputs = {"out.exr"};
+    command
+        .add_option("-o,--output", arguments.outputs,
+                    "Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. Can be given "
+                    "several times")
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->default_str("out.exr")
+        ->group(group);
+    addParsed(command, "--aov", "depth,coc,level,work",
+              "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
+              "out.level.png (level of detail) and out.work.exr with out.work.png (triangles that touch each pixel, "
+              "summed over the lens samples of the accumulation, hidden ones too)",
+              [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
+        ->group(group);
+    addParsed(command, "--sample-range", "FIRST:END",
+              "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
+              [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
+        ->group(group);
+    command.add_option("--stats", arguments.stats, "Write times, triangles and memory as JSON")
+        ->type_name("FILE")
+        ->group(group);
+}
 
 // out.exr and "depth.exr" → out.depth.exr
 std::filesystem::path derivedPath(const std::filesystem::path& output, const std::string& ending) {
@@ -59,16 +99,19 @@ void checkOutputs(const RenderArguments& arguments) {
     for (const std::filesystem::path& path : aovPaths(arguments)) checkWritable(path);
     if (!arguments.stats.empty()) checkWritable(arguments.stats);
     if (!arguments.sampleRange) return;
+    if (arguments.request.stop.given())
+        throw UsageError("--sample-range needs a number of samples, which --target-error and --time-limit leave open");
     checkSampleRange(*arguments.sampleRange, arguments.request.settings.sampleCount);
     if (arguments.outputs.size() != 1 || arguments.outputs.front().extension() != ".exr" || arguments.aovs.any())
         fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
 }
 
-Image renderImage(Renderer& renderer, const FramePlan& plan, const Progress& progress) {
-    renderer.start(plan);
+Image renderImage(FrameRun& run, Renderer& renderer, const RenderArguments& arguments, const PreparedFrame& frame,
+                  const Progress& progress) {
+    run.start(frame.view, frame.settings, arguments.request.stop);
     do {
-        report(progress, "samples", renderer.samples(), renderer.sampleTotal());
-    } while (renderer.advance());
+        report(progress, "samples", run.samples(), run.sampleTotal());
+    } while (run.advance());
     return renderer.image();
 }
 
@@ -130,6 +173,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const Clock::time_point start = Clock::now();
     const MethodUse use = chosenMethod(arguments.request);
     const Method& method = *use.method;
+    checkStop(arguments.request);
     checkOutputs(arguments);
     Progress progress = terminalProgress(global);
     PreparedFrame frame = placeFrame(arguments.request, progress);
@@ -138,26 +182,31 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     addPyramids(frame, progress);
 
     // Plan and render.
-    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     RendererOptions options;
     options.layerFormat = arguments.request.layerFormat;
     options.wave = arguments.request.wave;
     options.shaderFolder = global.shaderDir;
     options.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
+    FrameRun run(frame.world, *renderer);
+    FramePlan plan;
     Image image;
     FramePart part;
-    if (arguments.sampleRange)
+    if (arguments.sampleRange) {
+        plan = planFrame(frame.world, frame.view, frame.settings);
         part = renderPart(*renderer, plan, *arguments.sampleRange,
                           [&] { report(progress, "samples", renderer->samples(), renderer->sampleTotal()); });
-    else
-        image = renderImage(*renderer, plan, progress);
+    } else {
+        image = renderImage(run, *renderer, arguments, frame, progress);
+        plan = run.plan();
+    }
+    const RenderStats stats = arguments.sampleRange ? renderer->stats() : run.stats();
     progress = {};
 
     // Write.
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     const bool software = context == nullptr || context->software();
-    const RenderReport report{arguments.request, use.text(), frame, plan, renderer->stats(), software, milliseconds};
+    const RenderReport report{arguments.request, use.text(), frame, plan, stats, software, milliseconds};
     const double exposure = arguments.request.exposure.value_or(photographicExposure(frame.view.lens));
     const Metadata metadata = renderMetadata(report);
     if (arguments.sampleRange)
@@ -176,6 +225,13 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
 
 }  // namespace
 
+void addRenderOptions(CLI::App& command, RenderArguments& arguments) {
+    addOutputs(command, arguments);
+    addSettings(command, arguments.request, settingsOf(pictureGroups));
+    addMethodSettings(command, arguments.request);
+    addDeveloperSettings(command, arguments.request);
+}
+
 void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = program.add_subcommand("render", "Render a glTF scene with the depth of field of a real lens");
@@ -185,6 +241,7 @@ void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
         "  defocus render -o fish.exr -o fish.png\n"
         "  defocus render scene.glb -o out.exr --fstop 1.4 --focus-distance 2.5 --samples 256\n"
         "  defocus render scene.glb -o out.png --tonemap agx --focus-pixel 512,384 --blades 7 --aov depth,coc\n"
+        "  defocus render scene.glb -o out.exr --target-error 0.003 --time-limit 600\n"
         "  defocus render scene.glb -o out.png --method circular --far-components 5");
     command->callback([arguments, &global] { runRender(*arguments, global); });
 }

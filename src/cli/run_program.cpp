@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -40,7 +41,7 @@ void addGlobalOptions(CLI::App& program, GlobalOptions& global) {
     program.add_flag("--verbose", global.verbose, "Say what was chosen: device, levels, times");
     program
         .add_option("--shader-dir", global.shaderDir,
-                    "Read shaders from this folder instead of those built in, for live editing")
+                    "Read shaders from this folder instead of those built in, for live editing; of commands that draw")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
 }
@@ -62,6 +63,15 @@ std::vector<std::string> optionsOf(const CLI::App& app) {
 const CLI::App& chosenCommand(const CLI::App& program) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     return chosen.empty() ? program : chosenCommand(*chosen.front());
+}
+
+// Throws UsageError for --shader-dir before a command that draws nothing, or nothing with shaders of a folder.
+void refuseUnusedShaders(const CLI::App& program, const GlobalOptions& global) {
+    constexpr std::array drawing = {"render",  "capture", "view",        "pyramid",
+                                    "speedup", "popping", "convergence", "scaling"};
+    const std::string& command = chosenCommand(program).get_name();
+    if (!global.shaderDir.empty() && std::ranges::find(drawing, command) == drawing.end())
+        throw UsageError(fmt::format("--shader-dir: '{}' reads no shaders from a folder", command));
 }
 
 std::string helpHint(const CLI::App& program) {
@@ -118,6 +128,7 @@ int run(int argc, char** argv) {
     CLI::App program("Depth of field of a real lens, by accumulation over lens samples with fractional level of detail",
                      "defocus");
     GlobalOptions global;
+    global.words.assign(argv, argv + argc);
     addCommands(program, global);
     try {
         program.parse(argc, argv);
@@ -149,6 +160,7 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     addBenchCommand(program, global);
     addCacheCommand(program);
     addSettingsCommand(program);
+    program.parse_complete_callback([&program, &global] { refuseUnusedShaders(program, global); });
     program.footer(
         "defocus COMMAND --help explains a command.\n\nExample:\n"
         "  defocus render scene.glb -o out.exr -o out.png --fstop 1.4 --focus-distance 2.5");

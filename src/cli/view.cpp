@@ -14,7 +14,7 @@ namespace defocus {
 namespace {
 
 void runView(const SessionOptions& options) {
-    static_cast<void>(chosenMethod(options.request));
+    checkStop(options.request);
     if (options.request.shutter.exactMotion)
         fail("--motion-segments exact: a window shows any number of samples; give a number, such as 16");
     if (!options.screenshot.empty()) {
@@ -44,7 +44,7 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
             "Keep the state of the view in this file, as JSON, several times a second: focus, samples, times …")
         ->type_name("FILE")
         ->group(group);
-    addSettings(*command, options->request, settingsOf(pictureGroups));
+    addSettings(*command, options->request, settingsOf(pictureGroups, {"timeLimit"}));
     addMethodSettings(*command, options->request);
     addDeveloperSettings(*command, options->request);
     command->footer(

@@ -1,7 +1,6 @@
 #include "frame/program_facts.h"
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <string_view>
 #include <vector>
@@ -11,13 +10,6 @@
 namespace defocus {
 
 namespace {
-
-std::vector<std::string> arguments() {
-    std::ifstream file("/proc/self/cmdline", std::ios::binary);
-    std::vector<std::string> words;
-    for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
-    return words;
-}
 
 std::string quoted(const std::string& word) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.,:=/+@%";
@@ -39,8 +31,7 @@ std::string programVersion() {
     return DEFOCUS_VERSION_STRING;
 }
 
-std::string commandLine() {
-    std::vector<std::string> words = arguments();
+std::string commandLine(std::vector<std::string> words) {
     if (words.empty()) return {};
     words.front() = std::filesystem::path(words.front()).filename().string();
     std::string line;

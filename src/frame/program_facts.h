@@ -2,6 +2,7 @@
 // What a result says about the program that made it.
 
 #include <string>
+#include <vector>
 
 namespace defocus {
 
@@ -12,8 +13,7 @@ std::string programVersion();
 // built in a git checkout.
 std::string programCommit();
 
-// The command line of this process as a shell would take it, the program by its name alone; empty where the system
-// doesn't tell.
-std::string commandLine();
+// A program's arguments as a shell would take them, the program by its name alone.
+std::string commandLine(std::vector<std::string> words);
 
 }  // namespace defocus

@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t mostSamples = 65'536;
 constexpr const char* referenceName = "reference.exr";
 constexpr const char* referenceHalfName = "reference-half.exr";
 

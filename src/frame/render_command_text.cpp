@@ -90,6 +90,11 @@ Request requestOf(const RenderCommandText& text) {
     return request;
 }
 
+// A number of samples would limit those that a target error or a time limit takes.
+bool saysSamples(const Request& request) {
+    return !request.stop.given() || request.stop.sampleLimit < StopSettings{}.sampleLimit;
+}
+
 }  // namespace
 
 std::string shellWord(const std::string& word) {
@@ -119,7 +124,7 @@ std::string renderCommand(const RenderCommandText& text) {
     command += fmt::format(" -o {}", pathWord(text.output));
     for (const Setting& setting : settings()) {
         if (setting.name == "scene") continue;
-        const bool always = setting.name == "size" || setting.name == "samples";
+        const bool always = setting.name == "size" || (setting.name == "samples" && saysSamples(request));
         if (always || changedText(setting, request)) addSetting(command, setting, request);
     }
     return command;

@@ -16,6 +16,7 @@
 #include "frame/settings.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
+#include "render/block_schedule.h"
 
 namespace defocus {
 
@@ -90,6 +91,8 @@ Metadata renderMetadata(const RenderReport& report) {
     addSettings(metadata, drawn);
     // What was drawn where a setting leaves it open.
     metadata["defocus:samples"] = static_cast<int>(report.stats.samples);
+    if (report.options.stop.given()) metadata["defocus:stopped"] = stopReasonText(report.stats.stopped);
+    if (report.stats.estimatedError) metadata["defocus:estimatedError"] = *report.stats.estimatedError;
     metadata["defocus:method"] = report.method;
     metadata["defocus:layerFormat"] = report.stats.layerFormat;
     metadata["defocus:blurThreshold"] = report.plan.thresholds.blur;
@@ -151,7 +154,15 @@ std::string statsJson(const RenderReport& report) {
         {"device", stats.device},
         {"driver", stats.driver},
     };
+    if (report.options.stop.given()) {
+        json["stopped"] = stopReasonText(stats.stopped);
+        json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
+    }
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string errorText(const RenderStats& stats) {
+    return stats.estimatedError ? fmt::format("error about {:.2g}", *stats.estimatedError) : "error not estimated";
 }
 
 std::string summary(const RenderReport& report) {
@@ -159,8 +170,11 @@ std::string summary(const RenderReport& report) {
     std::string triangles = inMillions(stats.trianglesDrawn) + " triangles";
     if (report.plan.trianglesAtFullDetail > stats.trianglesDrawn)
         triangles += fmt::format(" (full detail: {})", inMillions(report.plan.trianglesAtFullDetail));
-    return fmt::format("{}x{}, {} samples in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height,
-                       stats.samples, stats.renderMilliseconds / 1000, triangles, stats.device);
+    std::string samples = fmt::format("{} samples", stats.samples);
+    if (report.options.stop.given())
+        samples += fmt::format(" ({}; {})", errorText(stats), stopReasonText(stats.stopped));
+    return fmt::format("{}x{}, {} in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height, samples,
+                       stats.renderMilliseconds / 1000, triangles, stats.device);
 }
 
 }  // namespace defocus

@@ -27,6 +27,9 @@ Metadata renderMetadata(const RenderReport& report);
 // JSON; milliseconds and bytes as the keys say. peakBytes is the whole process's memory at its peak.
 std::string statsJson(const RenderReport& report);
 
+// "error about 0.0047", "error not estimated"
+std::string errorText(const RenderStats& stats);
+
 // "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …"
 std::string summary(const RenderReport& report);
 

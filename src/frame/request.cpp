@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "frame/settings.h"
 #include "lens/lens_fields.h"
+#include "render/frame_run.h"
 
 namespace defocus {
 
@@ -16,6 +17,10 @@ MethodUse chosenMethod(const Request& request) try {
     return use;
 } catch (const Error& error) {
     throw UsageError(error.what());
+}
+
+void checkStop(const Request& request) {
+    checkStop(request.stop, *chosenMethod(request).method, request.shutter);
 }
 
 namespace {
@@ -42,6 +47,10 @@ void checkRequest(const Request& request) {
         } catch (const Error& error) {
             throw UsageError(fmt::format("{}: {}", setting.name, error.what()));
         }
+    if (request.stop.sampleLimit < 1 || request.stop.sampleLimit > mostSamples)
+        throw UsageError(
+            fmt::format("sampleLimit: {} is not a whole number from 1 to {}", request.stop.sampleLimit, mostSamples));
+    checkStop(request);
     const int focuses = (request.lens.focusDistance ? 1 : 0) + (request.focusNode.empty() ? 0 : 1) +
                         (request.focusPixel ? 1 : 0) + (request.focusPoints ? 1 : 0) + (request.focusAuto ? 1 : 0);
     if (focuses > 1)

@@ -22,6 +22,9 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
 // The method with its settings. Throws UsageError for settings that it doesn't take.
 MethodUse chosenMethod(const Request& request);
 
+// checkStop of render/frame_run.h for the request's method and shutter.
+void checkStop(const Request& request);
+
 // Throws UsageError that names the setting for a value out of its range, however it came into the struct, and for more
 // than one focus.
 void checkRequest(const Request& request);

@@ -1,3 +1,4 @@
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -11,6 +12,7 @@
 #include "lens/photographic_exposure.h"
 #include "plan/plan_text.h"
 #include "render/aov/aov.h"
+#include "render/frame_run.h"
 
 namespace defocus {
 
@@ -48,7 +50,7 @@ public:
     void start(const Request& request, const Progress& progress);
     bool advance();
     [[nodiscard]] std::uint32_t samples() const { return renderer_ ? renderer_->samples() : 0; }
-    [[nodiscard]] std::uint32_t sampleTotal() const { return renderer_ ? renderer_->sampleTotal() : 0; }
+    [[nodiscard]] std::uint32_t sampleTotal() const { return run_ ? run_->sampleTotal() : 0; }
     [[nodiscard]] Image image();
     [[nodiscard]] RenderStatistics statistics() const;
     [[nodiscard]] Aovs aovs();
@@ -69,6 +71,7 @@ private:
     void checkStarted() const;
     void handOnPyramids(PreparedFrame& next, bool sameKind);
     void makeRenderer();
+    void dropRenderer();
 
     bool named_;  // the scene, by the request
     Request first_, request_;
@@ -77,9 +80,9 @@ private:
     std::vector<Pyramid> otherPyramids_;  // full detail where the frame has levels, and the other way round; or none
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;
-    FramePlan plan_;
     std::unique_ptr<GlContext> context_;
     std::unique_ptr<Renderer> renderer_;  // of the frame that was started; null: none was
+    std::optional<FrameRun> run_;         // with the renderer
 };
 
 // Faults first: values, scene, lens, device; only then the long work.
@@ -142,6 +145,12 @@ void SceneRenderer::State::makeRenderer() {
     options.wave = request_.wave;
     options.settings = use.settings;
     renderer_ = use.method->make(frame_.world, options);
+    run_.emplace(frame_.world, *renderer_);
+}
+
+void SceneRenderer::State::dropRenderer() {
+    run_.reset();
+    renderer_.reset();
 }
 
 void SceneRenderer::State::start(const Request& request, const Progress& progress) {
@@ -161,16 +170,15 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
     const InContext use(*context_);
 
     // From here on the frame is the request's.
-    if (!same) renderer_.reset();
+    if (!same) dropRenderer();
     handOnPyramids(next, samePyramids);
     frame_ = std::move(next);
     request_ = std::move(asked);
     try {
         if (!renderer_) makeRenderer();
-        plan_ = planFrame(frame_.world, frame_.view, frame_.settings);
-        renderer_->start(plan_);
+        run_->start(frame_.view, frame_.settings, request_.stop);
     } catch (...) {
-        renderer_.reset();
+        dropRenderer();
         throw;
     }
 }
@@ -178,7 +186,7 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
 bool SceneRenderer::State::advance() {
     checkStarted();
     const InContext use(*context_);
-    return renderer_->advance();
+    return run_->advance();
 }
 
 Image SceneRenderer::State::image() {
@@ -195,12 +203,14 @@ RenderStatistics SceneRenderer::State::statistics() const {
     statistics.device = context_->device();
     if (!renderer_) return statistics;
     const InContext use(*context_);
-    const RenderStats stats = renderer_->stats();
+    const RenderStats stats = run_->stats();
     statistics.samples = stats.samples;
     statistics.setupMilliseconds = stats.setupMilliseconds;
     statistics.renderMilliseconds = stats.renderMilliseconds;
     statistics.trianglesDrawn = stats.trianglesDrawn;
-    statistics.trianglesAtFullDetail = plan_.trianglesAtFullDetail;
+    statistics.trianglesAtFullDetail = run_->plan().trianglesAtFullDetail;
+    statistics.stopped = stats.stopped;
+    statistics.estimatedError = stats.estimatedError;
     statistics.gpuBytes = stats.peakBytes;
     return statistics;
 }
@@ -208,20 +218,20 @@ RenderStatistics SceneRenderer::State::statistics() const {
 Aovs SceneRenderer::State::aovs() {
     checkStarted();
     const InContext use(*context_);
-    AovImages images = renderAovs(frame_.world, plan_);
+    AovImages images = renderAovs(frame_.world, run_->plan());
     return {std::move(images.depth), std::move(images.coc), std::move(images.level)};
 }
 
 std::string SceneRenderer::State::planText() const {
     checkStarted();
-    return defocus::planJson(plan_);
+    return defocus::planJson(run_->plan());
 }
 
 void SceneRenderer::State::write(const std::filesystem::path& path, const ImageView& image) const {
     checkStarted();
     const InContext use(*context_);
-    const RenderReport report{request_,           chosenMethod(request_).text(), frame_, plan_,
-                              renderer_->stats(), context_->software(),          0};
+    const RenderReport report{request_,      chosenMethod(request_).text(), frame_, run_->plan(),
+                              run_->stats(), context_->software(),          0};
     const double exposure = request_.exposure.value_or(photographicExposure(frame_.view.lens));
     writeImage(path, image, renderMetadata(report), WriteOptions{request_.toneMap, exposure});
 }

@@ -131,6 +131,12 @@ void setMethod(Request& request, const std::string& text) {
     request.method = parseMethodUse(text).text();
 }
 
+// A number of samples that is given is also the most that a target error or a time limit may take.
+void setSamples(Request& request, const std::string& text) {
+    request.settings.sampleCount = static_cast<std::uint32_t>(parseWhole(text, 1, mostSamples));
+    request.stop.sampleLimit = request.settings.sampleCount;
+}
+
 // ---- the lens -------------------------------------------------------------------------------------------------------
 
 std::string unitOf(std::string_view metavar) {
@@ -319,8 +325,25 @@ Rows sampleRows() {
     std::vector<std::pair<std::string, LodMode>> modes;
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off})
         modes.emplace_back(lodModeName(mode), mode);
+    Setting samples = inShot(whole("samples", "--samples", 1, mostSamples, MEMBER(settings.sampleCount),
+                                   "Lens samples; with --target-error or --time-limit the most, else 65536"),
+                             "/samples");
+    samples.set = setSamples;
+    samples.clear = [](Request& request) {
+        request.settings.sampleCount = RenderSettings{}.sampleCount;
+        request.stop.sampleLimit = StopSettings{}.sampleLimit;
+    };
     return {
-        inShot(whole("samples", "--samples", 1, mostSamples, MEMBER(settings.sampleCount), "Lens samples"), "/samples"),
+        samples,
+        inShot(
+            number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(stop.targetError),
+                   "Add blocks of 64 samples until the image's error is estimated to be below R: root mean square, of "
+                   "the display-encoded image (0 to 1) at EV 0"),
+            "/targetError"),
+        withUnit(number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(stop.timeLimit),
+                        "Add blocks of 64 samples for S seconds, loading not counted; with --target-error, at most so "
+                        "long. In a film: begin no frame after S seconds"),
+                 "s"),
         inShot(choice<Sequence>("sequence", "--sequence", sequences, MEMBER(settings.sequence),
                                 "Where the samples lie on the lens and in the pixel; the paper has halton"),
                "/sequence"),

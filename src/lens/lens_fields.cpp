@@ -37,7 +37,8 @@ const LensField fields[] = {
     {"bladeCount", "--blades", "N", 0, 64, &Lens::bladeCount, &LensSettings::bladeCount,
      "Blades of the aperture: 3 to 64, or 0 for a disk"},
     {"bladeRotation", "--blade-rotation", "DEG", -1e6, 1e6, &Lens::bladeRotation, &LensSettings::bladeRotation,
-     "Turns the blades"},
+     "Turns the blades; at 0 a corner points to the right. Blender has the middle of an edge there: add 180/N for its "
+     "picture. Extras of files that Blender wrote are turned so as they are read"},
     {"bladeCurvature", "--blade-curvature", "R", 0, 1, &Lens::bladeCurvature, &LensSettings::bladeCurvature,
      "Bends the blades outwards, from 0 (straight) to 1 (a circle)"},
     {"anamorphicRatio", "--anamorphic-ratio", "R", 1e-2, 1e2, &Lens::anamorphicRatio, &LensSettings::anamorphicRatio,

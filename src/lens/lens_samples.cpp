@@ -1,10 +1,168 @@
+// van der Corput 1935 and Halton 1960 (radical inverse); Sobol' 1967; Joe and Kuo 2008, Constructing Sobol Sequences
+// with Better Two-Dimensional Projections; Owen 1995, Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences; Burley 2020,
+// Practical Hash-Based Owen Scrambling; Roberts 2018, The Unreasonable Effectiveness of Quasirandom Sequences.
+
 #include "lens/lens_samples.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
 
 namespace defocus {
 
 namespace {
+
+// Dimensions: lens r and s, pixel x and y, time, band.
+constexpr std::size_t dimensionCount = 6;
+using Coordinates = std::array<double, dimensionCount>;
+
+constexpr double beforeOne = 1.0 - 0x1p-32;
+
+double fraction(double value) {
+    return std::min(value - std::floor(value), beforeOne);
+}
+
+// The finaliser of MurmurHash3 (Appleby).
+std::uint32_t mixed(std::uint32_t hash) {
+    hash = (hash ^ (hash >> 16)) * 0x85ebca6bu;
+    hash = (hash ^ (hash >> 13)) * 0xc2b2ae35u;
+    return hash ^ (hash >> 16);
+}
+
+std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
+    return mixed(a * 0x9e3779b9u + mixed(b + 0x7f4a7c15u));
+}
+
+// A well mixed shift in [0, 1) for (seed, dimension); seed 0 shifts by nothing.
+double seedShift(std::uint32_t seed, std::size_t dimension) {
+    if (seed == 0) return 0;
+    return mixed(seed * 0x9e3779b9u + static_cast<std::uint32_t>(dimension) * 0x85ebca6bu) * 0x1p-32;
+}
+
+// ---- Halton ---------------------------------------------------------------------------------------------------------
+
+constexpr std::array<std::uint32_t, dimensionCount> bases = {2, 3, 5, 7, 11, 13};
+
+// Point index + 1, as point 0 is a corner; shifted so that index 0 lies in the middle.
+double shiftedHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
+    const std::uint32_t base = bases[dimension];
+    return fraction(radicalInverse(base, index + 1) - 1.0 / base + 0.5 + seedShift(seed, dimension));
+}
+
+// What `digit` becomes after digits that hash to `before`: a shuffle of all digits (Fisher and Yates).
+std::uint32_t permuted(std::uint32_t base, std::uint32_t digit, std::uint32_t before) {
+    std::array<std::uint32_t, bases.back()> digits{};
+    std::iota(digits.begin(), digits.begin() + base, 0u);
+    for (std::uint32_t i = base - 1; i > 0; --i) std::swap(digits[i], digits[hashOf(before, i) % (i + 1)]);
+    return digits[digit];
+}
+
+// Owen's scramble of the radical inverse. With seed 0 every digit is turned, too, so that those of index 0 become those
+// of 1/2: 0.1000… in base 2, 0.1111… in base 3, 0.2222… in base 5. This keeps what a shift on the torus would not: how
+// many points lie in each elementary interval.
+double scrambledHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
+    const std::uint32_t base = bases[dimension];
+    std::uint32_t before = hashOf(seed, static_cast<std::uint32_t>(dimension));
+    std::uint32_t beforeOfZero = before;
+    double weight = 1.0 / base;
+    double result = 0;
+    for (int place = 0; weight > 0x1p-34; ++place, index /= base, weight /= base) {
+        const auto digit = static_cast<std::uint32_t>(index % base);
+        std::uint32_t turn = 0;
+        if (seed == 0) {
+            const std::uint32_t middle = base > 2 ? base / 2 : place == 0 ? 1 : 0;
+            turn = middle + base - permuted(base, 0, beforeOfZero);
+        }
+        result += (permuted(base, digit, before) + turn) % base * weight;
+        before = hashOf(before, digit);
+        beforeOfZero = hashOf(beforeOfZero, 0);
+    }
+    return std::min(result, beforeOne);
+}
+
+// ---- Sobol ----------------------------------------------------------------------------------------------------------
+
+std::uint32_t reversedBits(std::uint32_t x) {
+    x = ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
+    x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
+    x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
+    x = ((x & 0x00ff00ffu) << 8) | ((x >> 8) & 0x00ff00ffu);
+    return (x << 16) | (x >> 16);
+}
+
+// Owen's scramble of a fraction in 32 bits: each bit is flipped by a hash of those above it, one by one, as the hashes
+// that do all bits at once leave traces.
+std::uint32_t owenScrambled(std::uint32_t x, std::uint32_t seed) {
+    std::uint32_t flips = 0;
+    std::uint32_t before = seed;
+    for (std::uint32_t bit = 1u << 31; bit != 0; bit >>= 1) {
+        before = hashOf(before, (x & bit << 1) != 0 ? 1 : 0);
+        if ((before & 0x10000u) != 0) flips |= bit;
+    }
+    return x ^ flips;
+}
+
+// A primitive polynomial over the integers modulo 2 and the first direction numbers, as Joe and Kuo list them.
+struct Direction {
+    std::uint32_t degree = 0;
+    std::uint32_t coefficients = 0;  // of the inner powers, highest first
+    std::array<std::uint32_t, 4> first{};
+};
+
+using Columns = std::array<std::uint32_t, 32>;  // of the generator matrix; the first bit is the highest
+
+constexpr Columns columnsOf(const Direction& direction) {
+    Columns columns{};
+    const std::uint32_t degree = direction.degree;
+    for (std::uint32_t i = 0; i < 32; ++i) {
+        if (i < degree) {
+            columns[i] = direction.first[i] << (31 - i);
+            continue;
+        }
+        columns[i] = columns[i - degree] ^ columns[i - degree] >> degree;
+        for (std::uint32_t k = 1; k < degree; ++k)
+            if ((direction.coefficients >> (degree - 1 - k) & 1u) != 0) columns[i] ^= columns[i - k];
+    }
+    return columns;
+}
+
+// Dimensions 2 to 6; the first is the index with its bits in reverse.
+constexpr std::array<Columns, dimensionCount - 1> sobolColumns = {
+    columnsOf({1, 0, {1}}), columnsOf({2, 1, {1, 3}}), columnsOf({3, 1, {1, 3, 1}}), columnsOf({3, 2, {1, 1, 1}}),
+    columnsOf({4, 1, {1, 1, 3, 3}})};
+
+std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
+    if (dimension == 0) return reversedBits(index);
+    std::uint32_t result = 0;
+    for (std::size_t i = 0; index != 0; ++i, index >>= 1)
+        if ((index & 1u) != 0) result ^= sobolColumns[dimension - 1][i];
+    return result;
+}
+
+// What seed 0 is scrambled with: of 3,000 scrambles the one whose first 8 to 256 points, and whose prefixes and
+// suffixes of 64, err least in the area of half planes of the lens.
+constexpr std::uint32_t chosenScramble = 935;
+
+// With seed 0 index 0, whose coordinates are all 0, becomes 1/2 by a further flip of the same bits of all points.
+double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t seed) {
+    const std::uint32_t stream = hashOf(seed == 0 ? chosenScramble : seed, 100 + static_cast<std::uint32_t>(dimension));
+    const std::uint32_t flips = seed == 0 ? owenScrambled(0, stream) ^ 1u << 31 : 0;
+    return (owenScrambled(sobol(index, dimension), stream) ^ flips) * 0x1p-32;
+}
+
+// ---- additive recurrences -------------------------------------------------------------------------------------------
+
+// The real root of x^(d + 1) = x + 1 gives the steps x⁻¹ … x⁻ᵈ of d dimensions: d = 2 for the lens, the last two of
+// d = 4 for the pixel, whose points must not follow the lens's; the golden ratio for time and √2 for the band.
+constexpr double plastic2 = 1.32471795724474602596;
+constexpr double plastic4 = 1.16730397826141868426;
+constexpr Coordinates r2Steps = {1 / plastic2,
+                                 1 / (plastic2 * plastic2),
+                                 1 / (plastic4 * plastic4 * plastic4),
+                                 1 / (plastic4 * plastic4 * plastic4 * plastic4),
+                                 0.61803398874989484820,
+                                 0.41421356237309504880};
 
 // Rounded to a float that is still below 1.
 float belowOne(double value) {
@@ -12,6 +170,40 @@ float belowOne(double value) {
 }
 
 }  // namespace
+
+std::string_view sequenceName(Sequence sequence) {
+    switch (sequence) {
+        case Sequence::halton:
+            return "halton";
+        case Sequence::scrambledHalton:
+            return "scrambled-halton";
+        case Sequence::sobol:
+            return "sobol";
+        case Sequence::r2:
+            return "r2";
+    }
+    return "";
+}
+
+SequencePoint sequencePoint(Sequence sequence, std::uint64_t index, std::uint32_t seed) {
+    Coordinates at{};
+    for (std::size_t i = 0; i < dimensionCount; ++i) {
+        if (sequence == Sequence::halton) at[i] = shiftedHalton(index, i, seed);
+        if (sequence == Sequence::scrambledHalton) at[i] = scrambledHalton(index, i, seed);
+        if (sequence == Sequence::sobol) at[i] = scrambledSobol(static_cast<std::uint32_t>(index), i, seed);
+        if (sequence == Sequence::r2)
+            at[i] = fraction(static_cast<double>(index) * r2Steps[i] + 0.5 + seedShift(seed, i));
+    }
+    return {{at[0], at[1]}, {at[2], at[3]}, at[4], at[5]};
+}
+
+double radicalInverse(std::uint32_t base, std::uint64_t index) {
+    const double inverseBase = 1.0 / base;
+    double weight = inverseBase;
+    double result = 0;
+    for (; index > 0; index /= base, weight *= inverseBase) result += static_cast<double>(index % base) * weight;
+    return std::min(result, beforeOne);
+}
 
 LensSample lensSample(const Aperture& aperture, Sequence sequence, std::uint64_t index, std::uint32_t seed) {
     const SequencePoint point = sequencePoint(sequence, index, seed);

@@ -9,7 +9,6 @@
 
 #include "defocus/settings.h"
 #include "lens/lens.h"
-#include "lens/sequences.h"
 #include "lod/pyramid/level_selection.h"
 #include "scene/defaults.h"
 #include "scene/pose.h"

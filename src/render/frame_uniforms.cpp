@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/mat4x4.hpp>
 #include <numbers>
 
 #include "core/error.h"
@@ -16,6 +17,30 @@ namespace {
 constexpr double unlimitedBlur = 1e9;  // widths of the image: finite, so that 0 times it is 0
 constexpr std::size_t mostConstantLights = 4;
 constexpr double goldenRatio = 0.618033988749894848;
+
+// The uniform blocks of shaders/include/frame.glsl and lighting.glsl, std140.
+constexpr int mostLights = 64;  // 64 lights of 48 bytes: a fifth of the 16 KiB every driver gives a block
+
+struct GpuLight {
+    glm::vec4 directionType;
+    glm::vec4 colorScale;
+    glm::vec4 cone;
+};
+
+struct GpuFrame {
+    glm::vec4 projection;
+    glm::vec4 coc;
+    glm::vec4 cocField;
+    glm::vec4 cocLimits;
+    glm::mat4 worldFromView;
+    std::array<glm::vec4, mostLights> lightPositions;
+};
+
+struct GpuLighting {
+    std::array<glm::vec4, 3> environment;
+    std::array<glm::vec4, 9> irradiance;
+    std::array<GpuLight, mostLights> lights;
+};
 
 GpuLight gpuLight(const PlacedLight& placed) {
     const Light& light = placed.light;
@@ -92,6 +117,17 @@ std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
     return fmt::format("vec4[]({}),vec4[]({}),LightData[]({})", vectors(block.environment), vectors(block.irradiance),
                        lights);
 }
+
+// Variance in px², along each axis, of the places in a pixel that one sample stands for, in block b of all samples: the
+// whole pixel's 1/12 in the first block, and its share after. It depends on the sample's number alone, so that blocks
+// add up to the image that is drawn at once, and vanishes as samples grow, so that highlights converge to what the
+// surface reflects.
+float placesVariance(std::uint32_t block) {
+    return 1 / (12 * (static_cast<float>(block) + 1));
+}
+
+// Values of a block start where any driver lets a buffer be bound: a vec4 in every 256 bytes.
+constexpr std::size_t blockStride = 256;
 
 bool barrelCuts(const FramePlan& plan) {
     return plan.usesLens && plan.view.lens.catEye > 0;
@@ -190,6 +226,12 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     }
     sampleShifts_ = Buffer::of(std::span<const glm::vec4>(shifts));
     uploadBands(plan, bandShifts);
+
+    std::vector<glm::vec4> places(shifts.size() / blockSamples * blockStride / sizeof(glm::vec4));
+    for (std::size_t i = 0; i < shifts.size(); i += blockSamples)
+        places[i / blockSamples * blockStride / sizeof(glm::vec4)].x =
+            placesVariance((plan.settings.firstSample + static_cast<std::uint32_t>(i)) / blockSamples);
+    places_ = Buffer::of(std::span<const glm::vec4>(places));
 }
 
 // A block's samples: colour weights and shifts of b, then points on the lens.
@@ -218,12 +260,18 @@ void FrameUniforms::bind(std::uint32_t firstSample) const {
     if (sampleBands_)
         glBindBufferRange(GL_UNIFORM_BUFFER, 4, sampleBands_.name(),
                           static_cast<GLintptr>(firstSample / blockSamples * blockBytes * 2), blockBytes * 2);
+    bindPlaces(firstSample);
     if (environmentMap_) environmentMap_.attach(5);
+}
+
+void FrameUniforms::bindPlaces(std::uint32_t firstSample) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, 6, places_.name(),
+                      static_cast<GLintptr>(firstSample / blockSamples * blockStride), sizeof(glm::vec4));
 }
 
 std::size_t FrameUniforms::bytes() const {
     return frameBlock_.bytes() + lightingBlock_.bytes() + samples_.bytes() + moments_.bytes() + sampleShifts_.bytes() +
-           bandShifts_.bytes() + sampleBands_.bytes() + environmentMap_.bytes();
+           places_.bytes() + bandShifts_.bytes() + sampleBands_.bytes() + environmentMap_.bytes();
 }
 
 }  // namespace defocus

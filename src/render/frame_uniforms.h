@@ -1,15 +1,23 @@
 #pragma once
 // What every pass of a frame reads: camera, lens, lights and environment as uniforms, the lens samples as instances.
 
+#include <array>
+#include <glm/vec4.hpp>
+
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "plan/frame_plan.h"
-#include "render/gpu_blocks.h"
 
 namespace defocus {
 
 inline constexpr std::uint32_t blockSamples = 64;  // samples a block of the sum
+
+// A lens sample as an instance reads it.
+struct GpuSample {
+    glm::vec4 lensAndJitter;  // u, k·v, jitter x, y in normalised device units
+    glm::vec4 eyeAndDither;   // lens point x, y in m, dither offset, layer
+};
 
 class FrameUniforms {
 public:
@@ -20,6 +28,8 @@ public:
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
     // Binds the uniform blocks (and the environment's map) for samples [firstSample, …) of one block of the sum.
     void bind(std::uint32_t firstSample) const;
+    // Binds only what places in a pixel a sample of that block stands for.
+    void bindPlaces(std::uint32_t firstSample) const;
     [[nodiscard]] const Buffer& samples() const { return samples_; }
     // vec2, one a lens sample: its SampleMoment. Empty where nothing moves.
     [[nodiscard]] const Buffer& moments() const { return moments_; }
@@ -40,6 +50,7 @@ private:
     Buffer lightingBlock_;  // empty where the shaders hold it as constants
     Buffer samples_;        // GpuSample, one a lens sample
     Buffer moments_;
+    Buffer places_;        // of each block: the variance of the places that a sample stands for
     Buffer sampleShifts_;  // vec4, one a lens sample: where the sky lies for it
     Buffer bandShifts_;
     Buffer sampleBands_;  // of shaders/accumulation/add_layers.frag's SampleBlock

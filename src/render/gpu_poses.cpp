@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace defocus {
 
@@ -24,25 +25,25 @@ void addRows(std::vector<float>& texels, const glm::dmat4& matrix) {
 
 }  // namespace
 
-GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuDeformation& deformation) {
+GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh& mesh) {
     GpuPoses result;
     if (!object.deformed && object.motion.empty()) return result;
     std::vector<const ObjectPose*> poses;
     for (const ObjectPose& pose : object.motion) poses.push_back(&pose);
     if (poses.empty()) poses.push_back(&object.pose);
-    const std::vector<std::size_t> targets = targetsUsed(poses, deformation);
+    const std::vector<std::size_t> targets = targetsUsed(poses, mesh.deformation);
     const std::size_t joints = object.pose.viewFromJoint.size();
     result.skinned = object.skinned;
     result.moving = !object.motion.empty();
     result.cameraMoves = result.moving && !plan.middleFromView.empty();
     result.layout = glm::ivec4(3 * joints + targets.size() + (result.cameraMoves ? 3 : 0), joints, targets.size(),
-                               deformation.vertexCount);
+                               mesh.deformation.vertexCount);
 
     std::vector<float> texels;
     texels.reserve(poses.size() * static_cast<std::size_t>(result.layout.x) * 4);
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const ObjectPose* pose = poses[i];
-        for (const glm::dmat4& matrix : pose->viewFromJoint) addRows(texels, matrix);
+        for (const glm::dmat4& matrix : pose->viewFromJoint) addRows(texels, glm::translate(matrix, mesh.origin));
         for (const std::size_t target : targets) {
             const auto weight = static_cast<float>(pose->morphWeights[target]);
             texels.insert(texels.end(), {std::isfinite(weight) ? weight : 0, static_cast<float>(target), 0, 0});

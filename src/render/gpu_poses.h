@@ -18,8 +18,8 @@ struct GpuPoses {
     bool cameraMoves = false;
 };
 
-// `plan` is the object's.
-GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuDeformation& deformation);
+// `plan` and `mesh` are the object's.
+GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh& mesh);
 
 // Adds what the vertex shader of an object in these poses needs.
 void poseDefines(ShaderDefines& defines, const GpuPoses& poses, const GpuMesh& mesh);

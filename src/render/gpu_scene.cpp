@@ -1,6 +1,9 @@
 #include "render/gpu_scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/gtc/packing.hpp>
 
 #include "core/error.h"
 
@@ -8,9 +11,23 @@ namespace defocus {
 
 namespace {
 
+// From how many times its own reach a mesh counts as far from its origin.
+constexpr double farFromOrigin = 4;
+
 template <typename T>
 Buffer prefixBuffer(const std::vector<T>& items, std::size_t count) {
     return items.empty() ? Buffer() : Buffer(count * sizeof(T), items.data());
+}
+
+// Level 0's colours lie in [0, 1], where fixed point holds what files of 8 and 16 bits have exactly. Those that a
+// coarser level fits may lie outside.
+GLenum colorTypeOf(std::size_t level) {
+    return level == 0 ? GL_UNSIGNED_SHORT : GL_HALF_FLOAT;
+}
+
+void appendColors(std::vector<glm::u16vec4>& result, const std::vector<glm::vec4>& colors, GLenum type) {
+    for (const glm::vec4& color : colors)
+        result.push_back(type == GL_HALF_FLOAT ? glm::packHalf(color) : glm::packUnorm<glm::uint16>(color));
 }
 
 GLenum wrapMode(Wrap wrap) {
@@ -30,7 +47,55 @@ GLenum minificationFilter(const Texture& texture) {
     return texture.minification == Filter::linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
 }
 
+constexpr float rangeRounding = 1e-3f;  // in 1/255: so much of a step outwards is none
+
+void measureColors(const std::vector<glm::vec4>& colors, GpuLevel& level) {
+    if (colors.empty()) return;
+    level.leastColor = level.mostColor = colors.front();
+    for (const glm::vec4& color : colors) {
+        level.leastColor = glm::min(level.leastColor, color);
+        level.mostColor = glm::max(level.mostColor, color);
+    }
+}
+
+void addRelative(std::vector<glm::vec3>& list, const std::vector<glm::vec3>& positions, const glm::dvec3& origin) {
+    for (const glm::vec3& position : positions) list.emplace_back(glm::dvec3(position) - origin);
+}
+
 }  // namespace
+
+glm::dvec3 meshOrigin(const Bounds& bounds) {
+    if (bounds.empty()) return glm::dvec3(0);
+    const glm::dvec3 middle = bounds.centre();
+    const glm::dvec3 size = bounds.size();
+    const double reach = 0.5 * std::max({size.x, size.y, size.z});
+    glm::dvec3 origin(0);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+        if (std::abs(middle[axis]) >= farFromOrigin * reach) origin[axis] = static_cast<float>(middle[axis]);
+    return origin;
+}
+
+std::vector<glm::u16vec4> cornerColorRanges(const std::vector<glm::vec4>& colors,
+                                            std::span<const std::uint32_t> indices) {
+    if (colors.empty()) return {};
+    std::vector<glm::vec4> least = colors;
+    std::vector<glm::vec4> most = colors;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const glm::vec4 &a = colors[indices[i]], &b = colors[indices[i + 1]], &c = colors[indices[i + 2]];
+        const glm::vec4 low = glm::min(glm::min(a, b), c);
+        const glm::vec4 high = glm::max(glm::max(a, b), c);
+        for (std::size_t k = i; k < i + 3; ++k) {
+            least[indices[k]] = glm::min(least[indices[k]], low);
+            most[indices[k]] = glm::max(most[indices[k]], high);
+        }
+    }
+    std::vector<glm::u16vec4> ranges;
+    ranges.reserve(colors.size());
+    for (std::size_t v = 0; v < colors.size(); ++v)
+        ranges.push_back(glm::u16vec4(glm::ceil(255.0f * most[v] - rangeRounding)) * std::uint16_t{256} +
+                         glm::u16vec4(glm::floor(255.0f * least[v] + rangeRounding)));
+    return ranges;
+}
 
 const Material& GpuScene::material(int index) const {
     static const Material gltfDefault;
@@ -60,12 +125,15 @@ void GpuScene::prepare(const FramePlan& plan) {
 void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     const Pyramid& pyramid = world_->pyramids[static_cast<std::size_t>(mesh)];
     GpuMesh result;
+    result.origin = meshOrigin(pyramid.bounds);
     result.levels.resize(pyramid.levels.size());
 
     // Level l uses a prefix of the vertices: the finest wanted level says how many are needed.
     std::size_t vertexCount = 0;
     std::vector<glm::vec3> positions, normals;
-    std::vector<glm::u8vec4> colors;
+    std::vector<glm::u16vec4> colors;
+    std::vector<glm::vec2> uv0, uv1;
+    std::vector<glm::u16vec4> colorRanges;
     std::vector<std::uint32_t> indices;
     for (std::size_t level = 0; level < levels.size(); ++level) {
         if (!levels[level]) continue;
@@ -74,22 +142,31 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
         vertexCount = std::max<std::size_t>(vertexCount, source.vertexCount);
         target.uploaded = true;
         target.vectorOffset = normals.size() * sizeof(glm::vec3);
-        positions.insert(positions.end(), source.positions.begin(), source.positions.end());
+        addRelative(positions, source.positions, result.origin);
         normals.insert(normals.end(), source.normals.begin(), source.normals.end());
-        target.colorOffset = colors.size() * sizeof(glm::u8vec4);
-        colors.insert(colors.end(), source.colors.begin(), source.colors.end());
+        target.colorOffset = colors.size() * sizeof(glm::u16vec4);
+        target.colorType = colorTypeOf(level);
+        appendColors(colors, source.colors, target.colorType);
+        target.uvOffset = std::max(uv0.size(), uv1.size()) * sizeof(glm::vec2);
+        uv0.insert(uv0.end(), source.uv0.begin(), source.uv0.end());
+        uv1.insert(uv1.end(), source.uv1.begin(), source.uv1.end());
         for (const IndexRange& range : source.primitives) {
             target.indexOffsets.push_back(indices.size() * sizeof(std::uint32_t));
             const auto first = pyramid.indices.begin() + range.first;
             indices.insert(indices.end(), first, first + range.count);
         }
+        if (level == 0)  // the first: `indices` holds its triangles alone
+            colorRanges = cornerColorRanges(source.colors, indices);
+        else
+            measureColors(source.colors, target);
     }
     const Vertices& vertices = pyramid.vertices;
     result.positions = prefixBuffer(positions, positions.size());
     result.normals = prefixBuffer(normals, normals.size());
     result.colors = prefixBuffer(colors, colors.size());
-    result.uv0 = prefixBuffer(vertices.uv0, vertexCount);
-    result.uv1 = prefixBuffer(vertices.uv1, vertexCount);
+    result.colorRanges = prefixBuffer(colorRanges, colorRanges.size());
+    result.uv0 = prefixBuffer(uv0, uv0.size());
+    result.uv1 = prefixBuffer(uv1, uv1.size());
     result.tangents = prefixBuffer(vertices.tangents, vertexCount);
     result.cocScales = prefixBuffer(vertices.cocScales, vertexCount);
     result.indices = prefixBuffer(indices, indices.size());
@@ -106,9 +183,9 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     attach(uv1Location, result.uv1, 2, sizeof(glm::vec2));
     attach(tangentLocation, result.tangents, 4, sizeof(glm::vec4));
     attach(cocScaleLocation, result.cocScales, 1, sizeof(float));
-    if (result.colors) {
-        array.attribute(colorLocation, 4, GL_UNSIGNED_BYTE, true);
-        array.bind(colorLocation, result.colors, 0, sizeof(glm::u8vec4));
+    if (result.colorRanges) {
+        array.attribute(colorRangeLocation, 4, GL_UNSIGNED_SHORT, false);
+        array.bind(colorRangeLocation, result.colorRanges, 0, sizeof(glm::u16vec4));
     }
     array.attribute(lensLocation, 4, GL_FLOAT, false, true);
     array.attribute(eyeLocation, 4, GL_FLOAT, false, true);
@@ -187,6 +264,18 @@ void GpuScene::prepareMaterial(int index) {
     slots.slots[4] = texture(m.emissive, true);
 }
 
+void bindLevel(GpuMesh& mesh, std::size_t level) {
+    const GpuLevel& source = mesh.levels[level];
+    VertexArray& array = mesh.vertexArray;
+    array.bind(positionLocation, mesh.positions, source.vectorOffset, sizeof(glm::vec3));
+    array.bind(normalLocation, mesh.normals, source.vectorOffset, sizeof(glm::vec3));
+    if (mesh.uv0) array.bind(uv0Location, mesh.uv0, source.uvOffset, sizeof(glm::vec2));
+    if (mesh.uv1) array.bind(uv1Location, mesh.uv1, source.uvOffset, sizeof(glm::vec2));
+    if (!mesh.colors) return;
+    array.attribute(colorLocation, 4, source.colorType, source.colorType == GL_UNSIGNED_SHORT);
+    array.bind(colorLocation, mesh.colors, source.colorOffset, sizeof(glm::u16vec4));
+}
+
 std::array<const TextureUse*, 5> textureUses(const Material& material) {
     return {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
             &material.emissive};
@@ -210,8 +299,8 @@ GpuMaterial GpuScene::materialBlock(const Material& material) {
 std::size_t GpuScene::bytes() const {
     std::size_t total = 0;
     for (const auto& [index, mesh] : meshes_)
-        for (const Buffer* buffer : {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.uv0, &mesh.uv1, &mesh.tangents,
-                                     &mesh.cocScales, &mesh.indices})
+        for (const Buffer* buffer : {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.colorRanges, &mesh.uv0,
+                                     &mesh.uv1, &mesh.tangents, &mesh.cocScales, &mesh.indices})
             total += buffer->bytes();
     for (const auto& [index, mesh] : meshes_)
         for (const Buffer* buffer : {&mesh.deformation.joints, &mesh.deformation.weights, &mesh.deformation.joints1,

@@ -3,24 +3,50 @@
 // meshes that are drawn. What no plan has asked for is never uploaded.
 
 #include <array>
+#include <glm/vec4.hpp>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "core/bounds.h"
 #include "gl/buffer.h"
 #include "gl/texel_buffer.h"
 #include "gl/texture.h"
 #include "plan/frame_plan.h"
-#include "render/gpu_blocks.h"
 
 namespace defocus {
+
+// Vertex attribute locations of shaders/accumulation/object.vert.
+enum AttributeLocation : unsigned {
+    positionLocation,
+    normalLocation,
+    colorLocation,
+    uv0Location,
+    uv1Location,
+    tangentLocation,
+    lensLocation,
+    eyeLocation,
+    cocScaleLocation,
+    jointsLocation,
+    weightsLocation,
+    joints1Location,
+    weights1Location,
+    momentLocation,
+    bandShiftLocation,
+    colorRangeLocation,  // the last of the 16 that every driver has
+};
 
 // A level's place in the mesh's buffers.
 struct GpuLevel {
     bool uploaded = false;
+    GLenum colorType = GL_UNSIGNED_SHORT;   // of the colours' four components: normalised shorts, or half floats
     std::size_t vectorOffset = 0;           // bytes into the positions and the normals buffer
     std::size_t colorOffset = 0;            // bytes into the colours buffer
+    std::size_t uvOffset = 0;               // bytes into the buffer of either set of texture coordinates
     std::vector<std::size_t> indexOffsets;  // bytes into the index buffer, one a primitive
+    glm::vec4 leastColor{0.0f};             // of the level's vertices, 1 is white
+    glm::vec4 mostColor{0.0f};
 };
 
 // What moves a mesh's vertices against each other; empty where the mesh doesn't have it.
@@ -34,11 +60,19 @@ struct GpuDeformation {
 };
 
 struct GpuMesh {
+    glm::dvec3 origin{0.0};  // object units; positions in the buffers are relative to it
     VertexArray vertexArray;
-    Buffer positions, normals, colors, uv0, uv1, tangents, cocScales, indices;
+    Buffer positions, normals, colors, colorRanges, uv0, uv1, tangents, cocScales, indices;
     GpuDeformation deformation;
     std::vector<GpuLevel> levels;
 };
+
+// Where the positions of a mesh are best measured from: 0 along an axis where the box lies near its own origin, else
+// its middle. Single precision then holds the shape of what lies far away, and p − origin loses nothing: the axes that
+// are moved have every p between half and twice the origin (Sterbenz 1974, Floating-Point Computation).
+glm::dvec3 meshOrigin(const Bounds& bounds);
+// Makes the vertex array read the level's vertices.
+void bindLevel(GpuMesh& mesh, std::size_t level);
 
 // A material's textures in the order of the shader's bindings.
 std::array<const TextureUse*, 5> textureUses(const Material& material);
@@ -46,6 +80,19 @@ std::array<const TextureUse*, 5> textureUses(const Material& material);
 // The same on the GPU; null where there is none.
 struct GpuMaterialTextures {
     const GlTexture* slots[5] = {};
+};
+
+// For each of `colors`, the range over all triangles that it is a corner of: of each channel, 256 times the most plus
+// the least, in 1/255 and rounded outwards. `indices`: triangles.
+std::vector<glm::u16vec4> cornerColorRanges(const std::vector<glm::vec4>& colors,
+                                            std::span<const std::uint32_t> indices);
+
+// A material's uniform block of shaders/include/frame.glsl, std140.
+struct GpuMaterial {
+    glm::vec4 baseColor;
+    glm::vec4 emissiveCutoff;
+    glm::vec4 surface;
+    std::array<glm::vec4, 10> uvRows;
 };
 
 class GpuScene {

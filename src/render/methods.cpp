@@ -15,6 +15,7 @@ std::vector<Method>& table() {
     static std::vector<Method> methods = {
         {.name = "accumulation",
          .description = "lens samples accumulated from a pyramid of levels (Jeong, Kim and Lee 2011)",
+         .sumsBlocks = true,
          .settings = {},
          .make = makeAccumulationRenderer},
         scheuermannMethod(),

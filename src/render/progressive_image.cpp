@@ -22,7 +22,10 @@ FramePlan withAllLevels(FramePlan plan) {
 }  // namespace
 
 ProgressiveImage::ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options)
-    : world_(&world), growingWave_(options.wave > 0 ? options.wave : 4), usesLensSamples_(use.method->usesLensSamples) {
+    : world_(&world),
+      growingWave_(options.wave > 0 ? options.wave : 4),
+      usesLensSamples_(use.method->usesLensSamples),
+      sumsBlocks_(use.method->sumsBlocks) {
     RendererOptions complete = options;
     complete.settings = use.settings;
     renderer_ = use.method->make(world, complete);
@@ -38,12 +41,17 @@ void ProgressiveImage::drawFrame(const View& view, const RenderSettings& setting
     glFinish();
 }
 
-void ProgressiveImage::begin(const View& view, const RenderSettings& settings, std::uint32_t most) {
+void ProgressiveImage::begin(const View& view, const RenderSettings& settings, std::uint32_t most,
+                             std::optional<double> targetError) {
     view_ = view;
     settings_ = settings;
     settings_.sampleCount = blockSamples;
     block_ = 0;
     blocks_ = std::max(1u, (most + blockSamples - 1) / blockSamples);
+    schedule_.reset();
+    if (targetError && sumsBlocks_)
+        schedule_.emplace(
+            settings, StopSettings{.targetError = targetError, .timeLimit = {}, .sampleLimit = blocks_ * blockSamples});
     planBlock();
     renderer_->setWave(growingWave_);
     renderer_->start(plan_);
@@ -51,6 +59,10 @@ void ProgressiveImage::begin(const View& view, const RenderSettings& settings, s
 }
 
 void ProgressiveImage::planBlock() {
+    if (schedule_) {
+        plan_ = withAllLevels(planFrame(*world_, view_, schedule_->nextBlock()));
+        return;
+    }
     RenderSettings settings = settings_;
     settings.firstSample += block_ * blockSamples;
     const LodThresholds thresholds =
@@ -59,14 +71,29 @@ void ProgressiveImage::planBlock() {
     plan_ = withAllLevels(planFrame(*world_, view_, settings));
 }
 
+// Does another block come?
+bool ProgressiveImage::endBlock() {
+    ++block_;
+    if (schedule_) return schedule_->endBlock(plan_, 0, [this] { return renderer_->image(); });
+    // A block that is left smaller holds all that can be seen: nothing is blurred, or the method needs no lens.
+    return block_ < blocks_ && usesLensSamples_ && plan_.samples.size() >= blockSamples;
+}
+
+bool ProgressiveImage::converged() const {
+    return schedule_ && schedule_->stopped() == StopReason::targetError;
+}
+
+std::optional<double> ProgressiveImage::estimatedError() const {
+    return schedule_ ? schedule_->estimatedError() : std::nullopt;
+}
+
 bool ProgressiveImage::grow(double milliseconds) {
     const Clock::time_point begin = Clock::now();
     const std::uint32_t before = samples();
     while (!finished_) {
         const Clock::time_point waveBegin = Clock::now();
         if (renderer_->samples() == renderer_->sampleTotal()) {
-            // A block that is left smaller holds all that can be seen: nothing is blurred, or the method needs no lens.
-            finished_ = ++block_ >= blocks_ || !usesLensSamples_ || plan_.samples.size() < blockSamples;
+            finished_ = !endBlock();
             if (finished_) break;
             planBlock();
             renderer_->continueWith(plan_);

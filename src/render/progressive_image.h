@@ -4,7 +4,9 @@
 // sum. Or, while things move, a frame at once from few samples.
 
 #include <memory>
+#include <optional>
 
+#include "render/block_schedule.h"
 #include "render/methods.h"
 
 namespace defocus {
@@ -21,12 +23,18 @@ public:
     // Begins an image that grow() then carries to `most` samples (rounded up to blocks). With `thresholdsFollow` the
     // level-of-detail thresholds are the defaults for the samples that are in the sum after each block, else those of
     // `settings`.
-    void begin(const View& view, const RenderSettings& settings, std::uint32_t most);
+    // With `targetError`, of methods that sum blocks, the image is finished once its estimated error is below it, and
+    // the levels follow the samples that are expected until then (render/block_schedule.h).
+    void begin(const View& view, const RenderSettings& settings, std::uint32_t most,
+               std::optional<double> targetError = {});
     // Draws waves for about `milliseconds`, at least one. False once the image is finished.
     bool grow(double milliseconds);
 
     [[nodiscard]] std::uint32_t samples() const { return renderer_->samples(); }
     [[nodiscard]] bool finished() const { return finished_; }
+    // With a target error: whether it is reached, and the estimate after the latest block that has one.
+    [[nodiscard]] bool converged() const;
+    [[nodiscard]] std::optional<double> estimatedError() const;
     [[nodiscard]] const FramePlan& plan() const { return plan_; }  // of the frame or the latest block
     [[nodiscard]] const GlTexture* texture() { return renderer_->imageTexture(); }
     [[nodiscard]] RenderStats stats() const { return renderer_->stats(); }
@@ -34,6 +42,7 @@ public:
 
 private:
     void planBlock();
+    bool endBlock();
 
     const World* world_;
     std::unique_ptr<Renderer> renderer_;
@@ -43,7 +52,9 @@ private:
     std::uint32_t growingWave_;
     std::uint32_t block_ = 0;
     std::uint32_t blocks_ = 0;
+    std::optional<BlockSchedule> schedule_;  // with a target error
     bool usesLensSamples_ = true;
+    bool sumsBlocks_ = false;
     bool finished_ = true;
     double millisecondsPerSample_ = 0;
 };

@@ -30,7 +30,9 @@ struct RenderStats {
     std::string layerFormat;      // of the layers, e.g. "rgb9e5", "rgba16f"
     std::string device;
     std::string driver;
-    std::vector<PassTime> passes;  // of methods that time them, in the order they run
+    StopReason stopped = StopReason::sampleCount;  // why there are no more samples
+    std::optional<double> estimatedError;          // RMSE as StopSettings has it, where it was estimated
+    std::vector<PassTime> passes;                  // of methods that time them, in the order they run
 };
 
 // The sum of the samples of one block (64, the frame's last one fewer), RGBA: the value and what its additions lost,
@@ -60,7 +62,8 @@ public:
     [[nodiscard]] virtual RenderStats stats() const = 0;
 
     // More samples of the same view: adds those of `plan` to the sum as further blocks. The samples of the plans before
-    // must all be in, in whole blocks of 64. Methods without lens samples begin anew.
+    // must all be in, in whole blocks of 64. Methods that don't sum blocks (Method::sumsBlocks) begin anew. Times and
+    // setupMilliseconds of stats() are then those of this plan, its triangles and samples those of the sum.
     virtual void continueWith(const FramePlan& plan) { start(plan); }
     // K from the next start() on; 0: as the options said. The image is the same.
     virtual void setWave(std::uint32_t /*samples*/) {}

@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <cstring>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace defocus {
 
 namespace {
+
+// An object's uniform block of shaders/include/frame.glsl, std140.
+struct GpuObject {
+    glm::mat4 viewFromObject;
+    glm::mat4 normalMatrix;
+    glm::vec4 values;
+    glm::ivec4 posing;
+};
 
 std::size_t aligned(std::size_t bytes) {
     GLint alignment = 256;
@@ -55,8 +64,9 @@ void SurfacePass::uploadObjects(const FramePlan& plan) {
     blocks.reserve(plan.objects.size());
     poses_.clear();
     for (const ObjectPlan& object : plan.objects) {
-        GpuPoses poses = gpuPoses(plan, object, scene_->mesh(object.mesh).deformation);
-        blocks.push_back({glm::mat4(object.viewFromObject),
+        const GpuMesh& mesh = scene_->mesh(object.mesh);
+        GpuPoses poses = gpuPoses(plan, object, mesh);
+        blocks.push_back({glm::mat4(glm::translate(object.viewFromObject, mesh.origin)),
                           glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
                           glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale),
                           poses.layout});
@@ -190,7 +200,10 @@ const Program& SurfacePass::program(const Draw& draw) {
     set(lit && material.emissiveFactor != glm::vec3(0), "EMISSIVE");
     set(lit && draw.level > 0, "COARSE_LEVEL");
     set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
-    set(static_cast<bool>(mesh.colors), "VERTEX_COLORS");
+    const bool colored = static_cast<bool>(mesh.colors);
+    set(colored, "VERTEX_COLORS");
+    set(colored && info_.shaded && draw.level == 0, "VERTEX_COLOR_RANGES");
+    set(colored && info_.shaded && draw.level > 0, "LEVEL_COLOR_RANGE");
     set(static_cast<bool>(mesh.cocScales), "VERTEX_COC_SCALES");
     set(refined, "REFINED");
     set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // other stages: a program of its own
@@ -224,8 +237,8 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     const std::uint32_t end = std::min(first + count, item.firstSample + item.sampleCount);
     if (begin >= end) return;
     GpuMesh& mesh = scene_->mesh(item.mesh);
-    const GpuLevel& level = mesh.levels[item.level];
     item.program->use();
+    frame_->bindPlaces(begin);
     glBindBufferRange(GL_UNIFORM_BUFFER, 1, objectBlocks_.name(), static_cast<GLintptr>(item.object * objectStride_),
                       sizeof(GpuObject));
     glBindBufferRange(GL_UNIFORM_BUFFER, 2, materialBlocks_.name(),
@@ -235,9 +248,11 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     const GpuMaterialTextures& textures = scene_->textures(item.material);
     for (GLuint i = 0; i < 5; ++i)
         if (textures.slots[i] != nullptr) textures.slots[i]->attach(i);
-    mesh.vertexArray.bind(positionLocation, mesh.positions, level.vectorOffset, sizeof(glm::vec3));
-    mesh.vertexArray.bind(normalLocation, mesh.normals, level.vectorOffset, sizeof(glm::vec3));
-    if (mesh.colors) mesh.vertexArray.bind(colorLocation, mesh.colors, level.colorOffset, sizeof(glm::u8vec4));
+    bindLevel(mesh, item.level);
+    if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && info_.shaded && item.level > 0) {
+        glUniform4fv(0, 1, &level.leastColor.x);
+        glUniform4fv(1, 1, &level.mostColor.x);
+    }
     glBindVertexArray(mesh.vertexArray.name());
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     const GLenum mode = item.refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;

@@ -20,7 +20,7 @@ struct Vertices {
     std::vector<glm::vec4> tangents;   // xyz unit length, w = ±1 handedness (glTF)
     std::vector<glm::vec2> uv0;
     std::vector<glm::vec2> uv1;
-    std::vector<glm::u8vec4> colors;    // linear, straight alpha, 255 is 1
+    std::vector<glm::vec4> colors;      // linear, straight alpha; those of a file lie in [0, 1]
     std::vector<glm::u16vec4> joints;   // indices into the skin's joints, influences one to four
     std::vector<glm::vec4> weights;     // of all influences; they sum to 1
     std::vector<float> cocScales;       // factor on the blur (attribute _COC_SCALE), ≥ 0

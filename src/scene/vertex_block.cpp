@@ -56,13 +56,16 @@ void fillTangents(std::vector<glm::vec4>& tangents, const std::vector<glm::vec3>
 
 }  // namespace
 
+Vertices gathered(const Vertices& vertices, std::span<const std::uint32_t> order) {
+    return {pick(vertices.positions, order), pick(vertices.normals, order), pick(vertices.tangents, order),
+            pick(vertices.uv0, order),       pick(vertices.uv1, order),     pick(vertices.colors, order),
+            pick(vertices.joints, order),    pick(vertices.weights, order), pick(vertices.cocScales, order),
+            pick(vertices.joints1, order),   pick(vertices.weights1, order)};
+}
+
 VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> order) {
-    const Vertices& from = block.vertices;
     VertexBlock result;
-    result.vertices = {pick(from.positions, order), pick(from.normals, order), pick(from.tangents, order),
-                       pick(from.uv0, order),       pick(from.uv1, order),     pick(from.colors, order),
-                       pick(from.joints, order),    pick(from.weights, order), pick(from.cocScales, order),
-                       pick(from.joints1, order),   pick(from.weights1, order)};
+    result.vertices = gathered(block.vertices, order);
     for (const MorphTarget& target : block.morphTargets)
         result.morphTargets.push_back(
             {pick(target.positions, order), pick(target.normals, order), pick(target.tangents, order)});
@@ -116,7 +119,7 @@ std::uint32_t append(Mesh& mesh, const VertexBlock& block) {
     if (!to.tangents.empty() && from.tangents.empty()) fillTangents(to.tangents, to.normals, count, added);
     join(to.uv0, count, from.uv0, added, glm::vec2(0));
     join(to.uv1, count, from.uv1, added, glm::vec2(0));
-    join(to.colors, count, from.colors, added, glm::u8vec4(255));
+    join(to.colors, count, from.colors, added, glm::vec4(1));
     join(to.joints, count, from.joints, added, glm::u16vec4(0));
     join(to.weights, count, from.weights, added, glm::vec4(1, 0, 0, 0));
     join(to.cocScales, count, from.cocScales, added, 1.0f);

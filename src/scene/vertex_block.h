@@ -14,7 +14,8 @@ struct VertexBlock {
     std::vector<MorphTarget> morphTargets;
 };
 
-// The vertices `order[0]`, `order[1]`, … of `block`; an index may come several times or never.
+// The vertices `order[0]`, `order[1]`, … of the others; an index may come several times or never.
+Vertices gathered(const Vertices& vertices, std::span<const std::uint32_t> order);
 VertexBlock gathered(const VertexBlock& block, std::span<const std::uint32_t> order);
 
 // Keeps the vertices that `indices` use, in the order of their first use, and renumbers.

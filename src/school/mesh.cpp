@@ -226,8 +226,9 @@ Layout layoutFor(const FishShape& shape, const std::vector<Fin>& fins, int trian
 
 void FishSurface::add(const glm::vec3& position, const glm::vec3& color) {
     positions.push_back(position);
-    const glm::vec3 scaled = glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f;
-    colors.emplace_back(glm::u8vec3(scaled), 255);
+    // In steps of 8 bits, as most files have them.
+    const glm::vec3 steps = glm::floor(glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f);
+    colors.emplace_back(steps / 255.0f, 1);
 }
 
 Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial) {

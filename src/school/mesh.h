@@ -25,7 +25,7 @@ Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial
 // The parts being assembled (body lengths, unbent), for fish_mesh.cpp and fish_fins.cpp.
 struct FishSurface {
     std::vector<glm::vec3> positions;
-    std::vector<glm::u8vec4> colors;
+    std::vector<glm::vec4> colors;
     std::vector<std::uint32_t> indices;
 
     void add(const glm::vec3& position, const glm::vec3& color);

@@ -48,6 +48,12 @@ float labelWidth(const HudContext& context, const std::string& text) {
     return ImGui::CalcTextSize(text.c_str()).x + 12 * context.scale;
 }
 
+// " converged, error about 0.0031"; empty without a target error.
+std::string errorLabel(const ViewPicture& picture) {
+    const std::optional<double> error = picture.estimatedError();
+    return error ? fmt::format("{} error about {:.2g}", picture.converged() ? " converged," : ",", *error) : "";
+}
+
 // Lens and samples at the bottom left: side by side, one above the other where the picture is narrow. Returns the
 // corner at their top right.
 ImVec2 drawStatus(const HudContext& context, const ViewState& state) {
@@ -61,7 +67,8 @@ ImVec2 drawStatus(const HudContext& context, const ViewState& state) {
     const View& view = context.picture->plan().view;
     const std::string samples =
         fmt::format("{} {}{}", context.picture->samples(), context.picture->samples() == 1 ? "sample" : "samples",
-                    context.picture->finished() ? " ✓" : "");
+                    context.picture->finished() ? " ✓" : "") +
+        errorLabel(*context.picture);
     const std::string whole =
         fmt::format("{}   {} × {}   {:.0f} ms", samples, view.width, view.height, context.frameMilliseconds);
     const float room = static_cast<float>(context.area.size.x) - 2 * gap;

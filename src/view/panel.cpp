@@ -1,4 +1,3 @@
-#include "view/setting_rows.h"
 #include "view/panel.h"
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "view/input.h"
 #include "view/lens_rows.h"
 #include "view/method_panel.h"
+#include "view/setting_rows.h"
 #include "view/surroundings_panel.h"
 
 namespace defocus {
@@ -237,6 +237,7 @@ void performanceSection(const PanelContext& context, ViewState& state) {
     int samples = static_cast<int>(state.mostSamples);
     if (ImGui::SliderInt("##most", &samples, 64, 16384, "%d", ImGuiSliderFlags_Logarithmic))
         state.mostSamples = static_cast<std::uint32_t>(samples + 63) / 64 * 64;
+    settingRow(state.options, "targetError", "0.003");
     if (context.picture != nullptr) {
         std::vector<BarPart> parts;
         for (const PassShare& pass : context.picture->passes()) parts.push_back({pass.name, pass.milliseconds});
@@ -264,7 +265,7 @@ void exportSection(const PanelContext& context, ViewState& state, ViewActions& a
     rowLabel("Samples");
     int samples = static_cast<int>(state.options.settings.sampleCount);
     if (ImGui::SliderInt("##samples", &samples, 1, 4096, "%d", ImGuiSliderFlags_Logarithmic))
-        state.options.settings.sampleCount =
+        state.options.stop.sampleLimit = state.options.settings.sampleCount =
             static_cast<std::uint32_t>(std::clamp(samples, 1, static_cast<int>(mostSamples)));
     if (context.exporting) {
         ImGui::ProgressBar(static_cast<float>(context.exportShare), {-ImGui::GetFontSize() * 5, 0});

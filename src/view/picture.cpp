@@ -33,7 +33,8 @@ std::vector<double> imageKey(const PictureRequest& request) {
                                static_cast<double>(settings.metric),
                                static_cast<double>(settings.lodCocAtCentre),
                                static_cast<double>(settings.keepAll),
-                               static_cast<double>(request.fixedQuality.has_value())};
+                               static_cast<double>(request.fixedQuality.has_value()),
+                               request.targetError.value_or(0)};
     for (const std::optional<double>& threshold : {settings.thresholds.blur, settings.thresholds.size})
         key.push_back(threshold.value_or(-1));
     for (glm::length_t column = 0; column < 4; ++column)
@@ -180,8 +181,10 @@ void ViewPicture::beginGrowing(const PictureRequest& request) {
     grows_ = true;
     passTotals_.clear();
     presentedSamples_ = firstShownSample - 1;
-    first_->begin(request.view, settingsOf(request.settings, request.first), request.mostSamples);
-    if (second_) second_->begin(request.view, settingsOf(request.settings, *request.second), request.mostSamples);
+    first_->begin(request.view, settingsOf(request.settings, request.first), request.mostSamples, request.targetError);
+    if (second_)
+        second_->begin(request.view, settingsOf(request.settings, *request.second), request.mostSamples,
+                       request.targetError);
     nextPsnr_ = Clock::now() + psnrEvery;
     aovsCurrent_ = workCurrent_ = workGrows_ = false;
 }

@@ -31,6 +31,7 @@ struct PictureRequest {
     std::optional<PictureSide> second;
     DisplaySettings display;
     std::uint32_t mostSamples = 4096;
+    std::optional<double> targetError;         // of a still image: it is finished once its error is below it
     std::optional<FrameQuality> fixedQuality;  // instead of the budget's, and no growing
     double restOfFrame = 0;                    // ms that the budget's frame takes beside the picture, as of late
 };
@@ -57,12 +58,18 @@ public:
     // Nothing is left to do until something changes.
     [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
     [[nodiscard]] std::uint32_t samples() const { return first_ ? first_->samples() : 0; }
+    // Of the first side, with a target error, once the view is still.
+    [[nodiscard]] bool converged() const { return growing_ && first_->converged(); }
+    [[nodiscard]] std::optional<double> estimatedError() const {
+        return growing_ ? first_->estimatedError() : std::nullopt;
+    }
     [[nodiscard]] std::uint32_t shownSamples() const { return shownSamples_; }  // in the texture
     [[nodiscard]] const FramePlan& plan() const { return first_->plan(); }
     [[nodiscard]] const FramePlan* secondPlan() const { return second_ ? &second_->plan() : nullptr; }
     [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // of the two sides, dB
     // Lens samples in the heat map of work; 0 before it is asked for.
     [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
+    [[nodiscard]] std::uint32_t wave() const { return first_ ? first_->stats().wave : 0; }  // samples drawn at once
     // Of the latest frame: passes by timer queries, set-up by the clock.
     [[nodiscard]] const std::vector<PassShare>& passes() const { return passes_; }
     // Times that things have changed since the scene was there.

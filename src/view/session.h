@@ -67,6 +67,7 @@ private:
     [[nodiscard]] PictureArea area() const;
     [[nodiscard]] glm::ivec2 pictureSize() const;
     [[nodiscard]] View currentView() const;
+    [[nodiscard]] std::string command() const;
     [[nodiscard]] View exportView() const;  // of the size that was asked for
     [[nodiscard]] WriteOptions writeOptions() const;
     [[nodiscard]] InputContext inputContext() const;

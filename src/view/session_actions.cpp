@@ -79,9 +79,7 @@ void ViewSession::tiltFocus() {
 // What leaves the window.
 void ViewSession::share(const ViewActions& actions) {
     if (actions.copyCommand) {
-        const View view = exportView();
-        window_.setClipboard(renderCommand(
-            {state_.options, *frame_, view, state_.camera.pivotDistance, writeOptions(), state_.exportPath}));
+        window_.setClipboard(command());
         say("The command is on the clipboard.");
     }
     if (actions.recordKey) {
@@ -100,6 +98,13 @@ void ViewSession::share(const ViewActions& actions) {
         say("The export was stopped; nothing was written.");
     }
     if (actions.exportStill && !export_) beginExport();
+}
+
+// What `render` would have to be asked for.
+std::string ViewSession::command() const {
+    const View view = exportView();
+    return renderCommand(
+        {state_.options, *frame_, view, state_.camera.pivotDistance, writeOptions(), state_.exportPath});
 }
 
 View ViewSession::exportView() const {
@@ -183,6 +188,7 @@ void ViewSession::writeStats() {
         {"typing", inputContext().typing},
         {"openPath", state_.openPath},
         {"samples", picture_ ? picture_->samples() : 0},
+        {"converged", picture_ && picture_->converged()},
         {"moving", picture_ && picture_->moving()},
         {"changes", picture_ ? picture_->changes() : 0},
         {"frameMilliseconds", frameMilliseconds_},
@@ -217,6 +223,8 @@ void ViewSession::writeStats() {
         {"poppingTest", state_.poppingSince.has_value()},
         {"shotKeys", state_.shotKeys.size()},
         {"exporting", export_.has_value()},
+        {"wave", picture_ ? picture_->wave() : 0},
+        {"command", frame_ ? command() : ""},  // what is copied by hand
         {"device", window_.device()},
     };
     writeFile(options_.stats, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");

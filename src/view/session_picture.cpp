@@ -19,6 +19,7 @@ PictureRequest ViewSession::request() const {
     result.display = state_.display;
     result.display.exposure = shownExposure(state_);
     result.mostSamples = state_.mostSamples;
+    result.targetError = state_.options.stop.targetError;
     result.restOfFrame = interfaceMilliseconds_;
     const MethodUse accumulation = parseMethodUse("accumulation");
     switch (state_.comparison) {
@@ -59,7 +60,7 @@ void ViewSession::makePicture() {
     RendererOptions options;
     options.layerFormat = state_.options.layerFormat;
     options.shaderFolder = shaderFolder_;
-    options.wave = window_.software() ? 1 : 8;
+    options.wave = state_.options.wave > 0 ? state_.options.wave : (window_.software() ? 1 : 8);
     picture_.emplace(frame_->world, options, window_.software());
 }
 

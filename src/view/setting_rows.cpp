@@ -19,7 +19,8 @@ namespace {
 std::optional<std::string> numberText(const Setting& setting, const std::string& text) {
     double value = parseNumber(text, {setting.least, setting.most});
     const std::string format = setting.unit.empty() ? "%.3g" : "%.3g " + setting.unit;
-    const float step = static_cast<float>(std::max(1e-3, 0.02 * value));
+    const double least = setting.least > 0 ? std::min(setting.least, 1e-3) : 1e-3;
+    const float step = static_cast<float>(std::max(least, 0.02 * value));
     if (!ImGui::DragScalar("##value", ImGuiDataType_Double, &value, step, &setting.least, &setting.most, format.c_str(),
                            ImGuiSliderFlags_AlwaysClamp))
         return {};

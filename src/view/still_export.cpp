@@ -9,32 +9,33 @@ StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request
     : frame_(&frame), request_(request), use_(chosenMethod(request.options)), begin_(std::chrono::steady_clock::now()) {
     checkImageExtension(request.output);
     checkWritable(request.output);
-    plan_ = planFrame(frame.world, request.view, request.options.settings);
+    checkStop(request.options);
     RendererOptions options;
     options.layerFormat = request.options.layerFormat;
     options.wave = request.options.wave > 0 ? request.options.wave : (request.software ? 2 : 8);
     options.shaderFolder = request.shaderFolder;
     options.settings = use_.settings;
     renderer_ = use_.method->make(frame.world, options);
-    renderer_->start(plan_);
+    run_.emplace(frame.world, *renderer_);
+    run_->start(request.view, request.options.settings, request.options.stop);
 }
 
 bool StillExport::step() {
-    if (renderer_->advance()) return true;
+    if (run_->advance()) return true;
     write();
     return false;
 }
 
 double StillExport::share() const {
-    return static_cast<double>(renderer_->samples()) / renderer_->sampleTotal();
+    return static_cast<double>(run_->samples()) / run_->sampleTotal();
 }
 
 void StillExport::write() {
     const Image image = renderer_->image();
     const double milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
-    const RenderReport report{request_.options,   use_.text(),       *frame_,     plan_,
-                              renderer_->stats(), request_.software, milliseconds};
+    const RenderReport report{request_.options, use_.text(),       *frame_,     run_->plan(),
+                              run_->stats(),    request_.software, milliseconds};
     writeImage(request_.output, image, renderMetadata(report), request_.write);
 }
 

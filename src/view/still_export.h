@@ -5,10 +5,11 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "frame/prepared_frame.h"
 #include "image/image_io.h"
-#include "render/methods.h"
+#include "render/frame_run.h"
 
 namespace defocus {
 
@@ -38,8 +39,8 @@ private:
     const PreparedFrame* frame_;
     StillRequest request_;
     MethodUse use_;
-    FramePlan plan_;
     std::unique_ptr<Renderer> renderer_;
+    std::optional<FrameRun> run_;
     std::chrono::steady_clock::time_point begin_;
 };
 

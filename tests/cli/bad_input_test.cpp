@@ -78,6 +78,11 @@ TEST_F(BadInput, valuesOutOfRange) {
     expectFault(2, "excludes", {"--exposure-time", "1", "--exposure", "2"});
     expectFault(2, "--wave", {"--wave", "65"});
     expectFault(2, "--seed", {"--seed", "4294967296"});
+    expectFault(2, "--target-error", {"--target-error", "0"});
+    expectFault(2, "--target-error", {"--target-error=-0.1"});
+    expectFault(2, "--target-error", {"--target-error", "2"});
+    expectFault(2, "--time-limit", {"--time-limit", "0"});
+    expectFault(2, "--time-limit", {"--time-limit=-5"});
     expectFault(2, "--background", {"--background", "1,2"});
     expectFault(2, "--background", {"--background", "1,-2,3"});
 }
@@ -89,14 +94,18 @@ TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "storage is one of", {"--method", "circular:storage=double"});
     expectFault(2, "no setting 'taps'", {"--method", "circular:taps=8"});
     expectFault(2, "SETTING=VALUE", {"--method", "circular:half"});
+    expectFault(2, "block by block, which a target error needs", {"--method", "circular", "--target-error", "0.01"});
+    expectFault(2, "block by block, which a time limit needs", {"--method", "scheuermann", "--time-limit", "1"});
+    expectFault(2, "exact motion", {"--target-error", "0.01", "--shutter", "1", "--motion-segments", "exact"});
+    expectFault(2, "--sample-range", {"--target-error", "0.01", "--sample-range", "0:64", "-o", "a.exr"});
     expectFault(1, "accumulation", {"--method", "circular", "--background", "none"});
     expectFault(1, "layer format", {"--method", "scheuermann", "--layer-format", "rgb9e5"});
 }
 
 TEST_F(BadInput, numbersThatAreNoneOrInfinite) {
-    for (const char* option :
-         {"--fstop", "--focal-length", "--horizontal-aperture", "--focus-distance", "--blade-rotation",
-          "--anamorphic-ratio", "--blur-scale", "--time", "--blur-threshold", "--size-threshold", "--exposure"})
+    for (const char* option : {"--fstop", "--focal-length", "--horizontal-aperture", "--focus-distance",
+                               "--blade-rotation", "--anamorphic-ratio", "--blur-scale", "--time", "--blur-threshold",
+                               "--size-threshold", "--exposure", "--target-error", "--time-limit"})
         expectFault(2, option, {std::string(option) + "=nan"});
     expectFault(2, "--focus-distance", {"--focus-distance=inf"});
     expectFault(2, "--exposure", {"--exposure=-inf"});
@@ -233,10 +242,13 @@ TEST_F(BadInput, environmentsWithTexelsThatAreNoNumbers) {
     Image image(4, 2, 3);
     *image.at(1, 1) = std::numeric_limits<float>::quiet_NaN();
     writeImage(folder() / "nan.exr", image);
-    EXPECT_EQ(run({"plan", "quads.gltf", "--environment", "nan.exr"}).exitCode, 0);  // black there
+    // Black there: another fault is found.
+    const Outcome black = run({"render", "quads.gltf", "--environment", "nan.exr", "--focus-node", "None"});
+    EXPECT_NE(black.err.find("None"), std::string::npos) << black.err;
+    EXPECT_EQ(black.err.find("nan.exr"), std::string::npos) << black.err;
     *image.at(1, 1) = std::numeric_limits<float>::infinity();
     writeImage(folder() / "infinite.exr", image);
-    const Outcome outcome = run({"plan", "quads.gltf", "--environment", "infinite.exr"});
+    const Outcome outcome = run({"render", "quads.gltf", "--environment", "infinite.exr"});
     expectOneLine(outcome, 1);
     EXPECT_NE(outcome.err.find("infinite.exr: holds infinity"), std::string::npos) << outcome.err;
 }

@@ -5,10 +5,8 @@
 #include <regex>
 #include <sstream>
 
-#include "cli/program.h"
+#include "cli/gl_program.h"
 #include "cli/two_quads.h"
-#include "core/error.h"
-#include "gl/context.h"
 
 namespace defocus {
 namespace {
@@ -16,15 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class BenchConvergence : public ProgramTest {
+class BenchConvergence : public GlProgramTest {
 protected:
     void SetUp() override {
-        ProgramTest::SetUp();
-        try {
-            createHeadlessContext();
-        } catch (const Error& error) {
-            GTEST_SKIP() << error.what();
-        }
+        GlProgramTest::SetUp();
         writeTwoQuads(folder() / "quads.gltf");
     }
 

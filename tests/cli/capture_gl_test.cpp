@@ -225,5 +225,87 @@ TEST_F(Capture, filmHasTheFramesAtTheirRate) {
     expectOneLine(capture({"--video", "film.mp4", "--shard", "0/2"}), 1);
 }
 
+// Frame by frame as many samples as its own error asks for: the same alone, in the sequence and on another shard.
+TEST_F(Capture, targetErrorGivesAFrameTheSameSamplesHoweverItIsRendered) {
+    const std::vector<std::string> asked = {"--target-error", "0.01", "--samples", "1024"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), asked.begin(), asked.end());
+        return capture(more).exitCode;
+    };
+    ASSERT_EQ(with({}), 0);
+    ASSERT_EQ(with({"--range", "5", "-o", "alone/####.exr", "--wave", "3"}), 0);
+    ASSERT_EQ(with({"--shard", "2/3", "-o", "shard/####.exr"}), 0);
+    for (const char* other : {"alone/0005.exr", "shard/0005.exr"})
+        EXPECT_TRUE(bytesOf(other) == bytesOf(name(5))) << other;
+    for (int frame = 0; frame < 8; ++frame) {
+        Metadata metadata;
+        readImage(folder() / name(frame), metadata);
+        const int samples = std::get<int>(metadata.at("defocus:samples"));
+        EXPECT_TRUE(samples == 1024 || std::get<double>(metadata.at("defocus:estimatedError")) <= 0.01) << frame;
+        EXPECT_GE(samples, 128) << frame;
+    }
+    const std::string before = bytesOf(name(3));
+    ASSERT_EQ(with({"--resume"}), 0);
+    EXPECT_TRUE(bytesOf(name(3)) == before);
+    expectOneLine(capture({"--target-error", "0.01", "--sample-range", "0:64", "-o", "a/####.exr"}), 2);
+}
+
+// The time limit is the run's: it ends between frames, one is rendered at least, and nothing is lost.
+TEST_F(Capture, timeLimitEndsTheRunBetweenFrames) {
+    ASSERT_EQ(capture({"-o", "whole/####.exr"}).exitCode, 0);
+    for (int run = 0; run < 7; ++run) {
+        const Outcome outcome = capture({"--time-limit", "0.001", "--resume"});
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find("stopped before frame " + std::to_string(run + 1)), std::string::npos)
+            << outcome.err;
+    }
+    EXPECT_EQ(capture({"--time-limit", "0.001", "--resume"}).exitCode, 0);
+    for (int frame = 0; frame < 8; ++frame)
+        EXPECT_TRUE(bytesOf(name(frame)) == bytesOf("whole/000" + std::to_string(frame) + ".exr")) << frame;
+}
+
+// Programs of a folder of ours come before the system's.
+class FakeFfmpeg {
+public:
+    FakeFfmpeg(const fs::path& folder, const std::string& script) : path_(std::getenv("PATH")) {
+        fs::create_directories(folder);
+        std::ofstream(folder / "ffmpeg") << "#!/bin/sh\nPATH='" << path_ << "'\n" << script;
+        fs::permissions(folder / "ffmpeg", fs::perms::owner_all);
+        ::setenv("PATH", (folder.string() + ":" + path_).c_str(), 1);
+    }
+    ~FakeFfmpeg() { ::setenv("PATH", path_.c_str(), 1); }
+    FakeFfmpeg(const FakeFfmpeg&) = delete;
+    FakeFfmpeg& operator=(const FakeFfmpeg&) = delete;
+
+private:
+    std::string path_;
+};
+
+// On a full disk ffmpeg ends with success, and its film has no end.
+TEST_F(Capture, filmWithoutItsEndNeverReplacesAGoodOne) {
+    if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
+    const FakeFfmpeg cut(folder() / "bin",
+                         "ffmpeg \"$@\" || exit 1\n"
+                         "for last; do :; done\n"
+                         "test \"$last\" = - || truncate -s $(($(stat -c %s \"$last\") / 2)) \"$last\"\n");
+    for (const char* name : {"film.mp4", "film.mkv"}) {
+        std::ofstream(folder() / name) << "a good film";
+        const Outcome outcome = capture({"--video", name, "--range", "1:6"});
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find("is the disk full?"), std::string::npos) << outcome.err;
+        EXPECT_EQ(textOf(folder() / name), "a good film");
+    }
+    for (const auto& entry : fs::directory_iterator(folder()))
+        EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path() << " is left";
+}
+
+TEST_F(Capture, signalThatEndsFfmpegIsNamed) {
+    const FakeFfmpeg killed(folder() / "bin", "kill -9 $$\n");
+    const Outcome outcome = capture({"--video", "film.mp4", "--range", "1:2"});
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("ended by signal 9 (Killed)"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder() / "film.mp4"));
+}
+
 }  // namespace
 }  // namespace defocus

@@ -5,27 +5,23 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <random>
-#include <thread>
 
 #include "cli/shots.h"
+#include "cli/traced_child.h"
 
 namespace defocus {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
 constexpr int frames = 24;
 
 class Survival : public Capture {
 protected:
-    // Starts the capture in a process of its own.
-    [[nodiscard]] pid_t start() const {
-        const pid_t child = ::fork();
-        if (child != 0) return child;
+    // Becomes the capture, in a process of its own.
+    void become() const {
         const int nothing = ::open("/dev/null", O_WRONLY);
         const int said = ::open((folder() / "said").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
         if (::chdir(folder().c_str()) != 0 || ::dup2(nothing, 1) < 0 || ::dup2(said, 2) < 0) ::_exit(99);
@@ -33,6 +29,14 @@ protected:
         ::execl(DEFOCUS_PROGRAM, DEFOCUS_PROGRAM, "capture", "shot.json", "--quiet", "--range", "0:23", "--resume",
                 static_cast<char*>(nullptr));
         ::_exit(98);
+    }
+    [[nodiscard]] pid_t start() const {
+        const pid_t child = ::fork();
+        if (child == 0) become();
+        return child;
+    }
+    [[nodiscard]] TracedChild startTraced() const {
+        return {[this] { become(); }, "frames"};
     }
 
     static int waitFor(pid_t child) {
@@ -51,26 +55,39 @@ protected:
         return there;
     }
 
-    // Returns when at least `count` frames are finished, at the latest after 30 s.
-    void waitForFrames(int count) const {
-        for (int i = 0; i < 15'000 && framesThere() < count; ++i) std::this_thread::sleep_for(2ms);
+    // Returns when at least `count` frames are finished, or the child has ended.
+    void waitForFrames(int count, pid_t child) const {
+        siginfo_t ended{};
+        while (framesThere() < count && ended.si_pid == 0)
+            ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+
+    void expectNothingHalf() const {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "frames"))
+            EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
     }
 };
 
-// Killed after some frames more than there were and a part of the next one, so that no machine is too fast or too slow
-// for it.
+#define DEFOCUS_TRACED_OR_SKIP(child) \
+    if (!(child).traced()) GTEST_SKIP() << "processes can't be traced here (ptrace)"
+
+// Killed before a write into one of the next frames, or before one gets its name.
 TEST_F(Survival, killedTwentyTimesAndResumed) {
     const Outcome whole = capture({"--range", "0:23", "-o", "whole/####.exr"});
     ASSERT_EQ(whole.exitCode, 0) << whole.err;
+    TracedChild undisturbed = startTraced();
+    DEFOCUS_TRACED_OR_SKIP(undisturbed);
+    ASSERT_EQ(undisturbed.end(), 0) << bytesOf("said");
+    const int calls = undisturbed.calls();
+    ASSERT_GE(calls, 2 * frames);
+    fs::remove_all(folder() / "frames");
+
     std::mt19937 random(7);
-    int killed = 0;
     int before = 0;
     for (int i = 0; i < 20; ++i) {
-        const pid_t child = start();
-        waitForFrames(before + std::uniform_int_distribution(0, 4)(random));
-        std::this_thread::sleep_for(std::chrono::microseconds(std::uniform_int_distribution(0, 20'000)(random)));
-        ::kill(child, SIGKILL);
-        killed += waitFor(child) == 128 + SIGKILL ? 1 : 0;
+        // More than half is still to be done.
+        TracedChild child = startTraced();
+        EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;
         for (int number = 0; number < frames; ++number) {
             if (!fs::exists(folder() / frame("frames", number))) continue;
             EXPECT_TRUE(bytesOf(frame("frames", number)) == bytesOf(frame("whole", number))) << number;
@@ -78,20 +95,18 @@ TEST_F(Survival, killedTwentyTimesAndResumed) {
         const int there = framesThere();
         EXPECT_GE(there, before) << "a finished frame was lost";
         before = there;
-        // Enough to be killed in: begin again when most is there.
-        if (there <= frames / 2) continue;
+        if (there < frames / 2) continue;
         fs::remove_all(folder() / "frames");
         before = 0;
     }
-    EXPECT_GE(killed, 10);
     ASSERT_EQ(waitFor(start()), 0) << bytesOf("said");
     for (int number = 0; number < frames; ++number)
         EXPECT_TRUE(bytesOf(frame("frames", number)) == bytesOf(frame("whole", number))) << number;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "frames"))
-        EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+    expectNothingHalf();
 }
 
-// Each has temporary files of its own, leaves those of the other alone, and renames whole frames of the same bits.
+// Each has temporary files of its own, leaves those of the other alone, and renames whole frames of the same bits. All
+// begin at once, or each when the one before has finished some frames.
 TEST_F(Survival, severalAtOnceOnTheSameFrames) {
     ASSERT_EQ(capture({"--range", "0:23", "-o", "whole/####.exr"}).exitCode, 0);
     for (int round = 0; round < 3; ++round) {
@@ -99,36 +114,20 @@ TEST_F(Survival, severalAtOnceOnTheSameFrames) {
         std::vector<pid_t> children;
         for (int i = 0; i < 4; ++i) {
             children.push_back(start());
-            std::this_thread::sleep_for(std::chrono::milliseconds(120 * round));
+            waitForFrames(2 * round * (i + 1), children.back());
         }
         for (const pid_t child : children) EXPECT_EQ(waitFor(child), 0) << bytesOf("said");
         for (int number = 0; number < frames; ++number)
             EXPECT_TRUE(bytesOf(frame("frames", number)) == bytesOf(frame("whole", number))) << number;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "frames"))
-            EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+        expectNothingHalf();
     }
 }
 
-// A machine that is done before the interruption reaches it draws more samples.
+// Interrupted while it writes the first frame.
 TEST_F(Survival, interruptedItEndsWithTheFrameAndSaysHowToGoOn) {
-    const auto codeOfInterrupted = [&](int samples) {
-        nlohmann::json document = shot();
-        document["samples"] = samples;
-        writeShot(document);
-        fs::remove_all(folder() / "frames");
-        const pid_t child = start();
-        waitForFrames(1);
-        ::kill(child, SIGINT);
-        return waitFor(child);
-    };
-    int samples = 8;
-    int code = codeOfInterrupted(samples);
-    while (code == 0 && samples < 32'768) {
-        ASSERT_EQ(framesThere(), frames);
-        samples *= 4;
-        code = codeOfInterrupted(samples);
-    }
-    ASSERT_EQ(code, 1) << bytesOf("said");
+    TracedChild child = startTraced();
+    DEFOCUS_TRACED_OR_SKIP(child);
+    ASSERT_EQ(child.end(1, SIGINT), 1) << bytesOf("said");
     const std::string said = bytesOf("said");
     EXPECT_NE(said.find("stopped before frame "), std::string::npos) << said;
     EXPECT_NE(said.find("--resume"), std::string::npos) << said;

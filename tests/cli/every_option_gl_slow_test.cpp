@@ -1,261 +1,183 @@
-// Every setting that a command offers acts: with it, the command says or draws something else. A setting that has no
-// case below fails the test, and so does one that changes nothing.
+// Every setting that a command offers acts: with it, the command says, draws or measures something else. A setting that
+// has no case fails the test, and so does one that changes nothing. every_own_option_gl_slow_test.cpp has the options
+// of the commands' own, tests/view those of the window.
 
-#include <map>
-#include <nlohmann/json.hpp>
-#include <set>
+#include <functional>
 
-#include "cli/program.h"
-#include "frame/settings.h"
-#include "image/image_io.h"
-#include "scene/gltf/builder.h"
+#include "cli/option_test.h"
 
 namespace defocus {
 namespace {
 
 using nlohmann::json;
-using Words = std::vector<std::string>;
+using Folder = std::filesystem::path;
 
-// What is given, and what must be given with it so that it can act.
-struct Case {
-    Words words;
-    Words with;
-    bool still = false;  // the school of fish; else a square that moves
+// A command, and what of it is seen.
+struct Watched {
+    CommandLine line;
+    std::function<std::string(const Folder& folder, const Outcome& outcome)> seen;
 };
 
-// A square that goes away from the camera to its right within 2 s, before a board; a second clip holds it, a second
-// camera stands closer.
-std::string movingSquare() {
-    GltfBuilder builder;
-    const int positions = builder.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
-    const int indices = builder.indices({0, 1, 2, 0, 2, 3});
-    builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}, {{"name", "Square"}});
-    builder.json["cameras"] = {
-        {{"name", "Far"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"znear", 0.1}}}},
-        {{"name", "Near"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
-    builder.add("nodes", {{"camera", 0}});
-    builder.add("nodes", {{"camera", 1}, {"translation", {0.2, 0, -0.5}}});
-    builder.add("nodes", {{"mesh", 0}, {"name", "Board"}, {"translation", {-1.5, 0.5, -9}}, {"scale", {2, 2, 1}}});
-    const int times = builder.floats({0, 2}, "SCALAR", 1);
-    const int away = builder.floats({0, 0, -3, 1.5, 0, -6}, "VEC3", 3);
-    const int still = builder.floats({0, 0, -3, 0, 0, -3}, "VEC3", 3);
-    const auto clip = [&](const char* name, int output) {
-        return json{{"name", name},
-                    {"samplers", {{{"input", times}, {"output", output}}}},
-                    {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}};
-    };
-    builder.json["animations"] = {clip("Away", away), clip("Still", still)};
-    return builder.glb();
+std::string said(const Folder&, const Outcome& outcome) {
+    return outcome.out;
 }
 
-// Settings of the lens take any value in their range; blur makes most of them seen.
-const std::map<std::string, Case>& cases() {
-    static const Words blurred = {"--fstop", "0.5"};
-    static const Words moving = {"--shutter", "1", "--time", "0.5"};
-    static const std::map<std::string, Case> table = {
-        {"scene", {{"square.glb"}, {}, true}},
-        {"fishCount", {{"--fish", "3"}, {}, true}},
-        {"trianglesPerFish", {{"--fish-triangles", "1500"}, {}, true}},
-        {"time", {{"--time", "1"}, {}}},
-        {"clip", {{"--clip", "Still"}, {"--time", "1"}}},
-        {"loop", {{"--loop"}, {"--time", "2.5"}}},
-        {"shutter", {{"--shutter", "0.5"}, {"--time", "1"}}},
-        {"shutterPosition", {{"--shutter-position", "start"}, moving}},
-        {"motionSegments", {{"--motion-segments", "exact"}, moving}},
-        {"environment", {{"--environment", "sky.hdr"}, {}}},
-        {"background", {{"--background", "none"}, {}}},
-        {"camera", {{"--camera", "Near"}, {}}},
-        {"cameraPosition", {{"--camera-position", "0.5,0,0"}, {}}},
-        {"cameraTarget", {{"--camera-target", "0.5,0,-3"}, {}}},
-        {"cameraUp", {{"--camera-up", "1,1,0"}, {}}},
-        {"size", {{"--size", "40x36"}, {}}},
-        {"focalLength", {{"--focal-length", "70"}, {}}},
-        {"fStop", {{"--fstop", "0.7"}, {}}},
-        {"focusDistance", {{"--focus-distance", "4"}, blurred}},
-        {"focusNode", {{"--focus-node", "Board"}, blurred}},
-        {"focusPixel", {{"--focus-pixel", "24,18"}, {"--fstop", "0.5", "--time", "1", "--camera", "Near"}}},
-        {"focusPoints", {{"--focus-points", "10,16,24,18,26,8"}, blurred}},
-        {"focusAuto", {{"--focus-auto"}, blurred}},
-        {"horizontalAperture", {{"--horizontal-aperture", "50"}, blurred}},
-        {"dofEnabled", {{"--no-dof"}, blurred}},
-        {"blurScale", {{"--blur-scale", "3"}, blurred}},
-        {"focusBreathing", {{"--focus-breathing"}, {"--focus-distance", "0.2"}}},
-        {"exposureTime", {{"--exposure-time", "1/20"}, {}}},
-        {"iso", {{"--iso", "800"}, {"--exposure-time", "1/20"}}},
-        {"bladeCount", {{"--blades", "3"}, blurred}},
-        {"bladeRotation", {{"--blade-rotation", "30"}, {"--fstop", "0.5", "--blades", "3"}}},
-        {"bladeCurvature", {{"--blade-curvature", "0.5"}, {"--fstop", "0.5", "--blades", "3"}}},
-        {"anamorphicRatio", {{"--anamorphic-ratio", "2"}, blurred}},
-        {"obstruction", {{"--obstruction", "0.5"}, blurred}},
-        {"sphericalAberration", {{"--spherical-aberration", "0.8"}, blurred}},
-        {"catEye", {{"--cat-eye", "0.8"}, blurred}},
-        {"axialChromaticAberration", {{"--axial-chromatic-aberration", "0.3"}, blurred}},
-        {"foregroundLimit", {{"--foreground-limit", "0"}, {"--fstop", "0.5", "--focus-distance", "8"}}},
-        {"backgroundLimit", {{"--background-limit", "0"}, {"--fstop", "0.5", "--focus-distance", "1"}}},
-        {"focusRangeFront", {{"--focus-range-front", "5"}, {"--fstop", "0.5", "--focus-distance", "8"}}},
-        {"focusRangeBehind", {{"--focus-range-behind", "5"}, {"--fstop", "0.5", "--focus-distance", "1"}}},
-        {"focusTilt", {{"--focus-tilt", "40"}, blurred}},
-        {"focusSwing", {{"--focus-swing", "40"}, blurred}},
-        {"fieldCurvature", {{"--field-curvature", "2"}, blurred}},
-        {"radialBlurGain", {{"--radial-blur-gain", "3"}, blurred}},
-        {"nodeBlur", {{"--node-blur", "Board=0"}, {"--fstop", "0.5", "--focus-distance", "1"}}},
-        {"apertureImage", {{"--aperture-image", "half.png"}, blurred}},
-        {"samples", {{"--samples", "9"}, {}}},
-        {"sequence", {{"--sequence", "r2"}, blurred}},
-        {"seed", {{"--seed", "5"}, blurred}},
-        {"lod", {{"--lod", "off"}, {"--fstop", "0.3"}, true}},
-        {"blurThreshold", {{"--blur-threshold", "3"}, {"--fstop", "0.3", "--size-threshold", "0"}, true}},
-        {"sizeThreshold", {{"--size-threshold", "9"}, {"--blur-threshold", "0"}, true}},
-        {"cacheFolder", {{"--cache-dir", "kept"}, {}, true}},
-        {"noCache", {{"--no-cache"}, {}, true}},
-        {"method", {{"--method", "circular"}, blurred}},
-        {"layerFormat", {{"--layer-format", "rgba8"}, {}}},
-        {"lodMetric", {{"--lod-metric", "error"}, {"--fstop", "0.3"}, true}},
-        {"lodCoc",
-         {{"--lod-coc", "centre"},
-          {"--fstop", "0.3", "--size-threshold", "0", "--blur-threshold", "30", "--focus-distance", "1.95"},
-          true}},
-        {"cocTolerance", {{"--coc-tolerance", "0.01"}, {"--fstop", "0.5", "--field-curvature", "2"}}},
-        {"keepAll", {{"--keep-all"}, {}, true}},
-        {"wave", {{"--wave", "1"}, {}, true}},
-        {"toneMap", {{"--tonemap", "agx"}, {}}},
-        {"exposure", {{"--exposure", "1"}, {}}},
-    };
-    return table;
+// Without the time that the levels took.
+std::string saidOfPyramids(const Folder&, const Outcome& outcome) {
+    return withoutTimes(json::parse(outcome.out)).dump();
 }
 
-class EveryOption : public ProgramTest {
-public:
-    // The settings among a command's options.
-    static std::vector<std::string> settingsOffered(const Words& command) {
-        CLI::App program;
-        GlobalOptions global;
-        addCommands(program, global);
-        CLI::App* found = &program;
-        for (const std::string& word : command) found = found->get_subcommand(word);
-        std::vector<std::string> names;
-        for (const Setting& setting : settings())
-            if (found->get_option_no_throw(setting.option) != nullptr) names.push_back(setting.name);
-        return names;
-    }
+std::string seenOfRender(const Folder& folder, const Outcome&) {
+    const json stats = jsonIn(folder / "stats.json");
+    std::string text = pixelsIn(folder / "a.exr") + pixelsIn(folder / "a.png");
+    for (const char* key : {"wave", "layerFormat", "trianglesFacingAway", "trianglesOutside", "samples"})
+        text += stats.at(key).dump() + " ";
+    return text;
+}
 
+std::string seenOfCapture(const Folder& folder, const Outcome&) {
+    const json times = jsonIn(folder / "timings.jsonl");
+    return pixelsIn(folder / "0.exr") + pixelsIn(folder / "0.png") + withoutTimes(times).dump();
+}
+
+std::string rowsOf(const Folder& folder, const char* file, const Words& lists) {
+    const json result = jsonIn(folder / "result" / file);
+    std::string text;
+    for (const std::string& list : lists) text += withoutTimes(result.at(list)).dump();
+    return text;
+}
+
+const std::vector<Watched>& watched() {
+    static const std::vector<Watched> commands = {
+        {{.name = "plan", .command = {"plan"}, .rest = {"--json"}}, said},
+        {{.name = "render",
+          .command = {"render"},
+          .rest = {"--samples", "4", "-o", "a.exr", "-o", "a.png", "--stats", "stats.json"}},
+         seenOfRender},
+        {{.name = "capture",
+          .command = {"capture"},
+          .ball = {"ball.json"},
+          .fish = {"fish.json"},
+          .rest = {"--samples", "4", "-o", "#.exr", "-o", "#.png"}},
+         seenOfCapture},
+        {{.name = "info", .command = {"info", "--camera=Near"}, .rest = {"--json"}}, said},
+        {{.name = "pyramid", .command = {"pyramid"}, .size = "", .rest = {"--no-measure", "--json"}}, saidOfPyramids},
+        {{.name = "bench speedup",
+          .command = {"bench", "speedup"},
+          .rest = {"--counts", "16", "--runs", "1", "--reference-samples", "2", "-o", "result", "--allow-changed"}},
+         [](const Folder& folder, const Outcome&) { return rowsOf(folder, "speedup.json", {"rows"}); }},
+        {{.name = "bench popping",
+          .command = {"bench", "popping"},
+          .rest = {"--counts", "4", "--frames", "2", "--path-frames", "12", "-o", "result", "--allow-changed"}},
+         [](const Folder& folder, const Outcome&) {
+             return rowsOf(folder, "popping.json", {"rows", "sampleSteps"});
+         }},
+        {{.name = "bench convergence",
+          .command = {"bench", "convergence"},
+          .rest = {"--methods", "accumulation", "--counts", "4", "--threshold-factors", "1", "--runs", "1", "--shading",
+                   "lit", "--reference-samples", "8", "-o", "result", "--overwrite", "--allow-changed"}},
+         [](const Folder& folder, const Outcome&) { return rowsOf(folder, "results.json", {"rows"}); }},
+    };
+    return commands;
+}
+
+class EveryOption : public OptionTest {
 protected:
-    void SetUp() override {
-        ProgramTest::SetUp();
-        GltfBuilder::save(folder() / "square.glb", movingSquare());
-        Image sky(8, 4, 3);
-        for (std::size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = static_cast<float>(i % 7) * 0.3f;
-        writeImage(folder() / "sky.exr", sky);
-        std::filesystem::rename(folder() / "sky.exr", folder() / "sky.hdr");  // told apart by content
-        Image half(8, 8, 1);
-        for (int y = 0; y < 8; ++y)
-            for (int x = 0; x < 4; ++x) *half.at(x, y) = 1;
-        writeImage(folder() / "half.png", half);
+    // A line is run once, however many options are compared with it.
+    const std::string& seenOf(const Watched& command, const Words& line) {
+        const auto known = seen_.find(line);
+        return known != seen_.end() ? known->second : seen_.emplace(line, seenAnew(command, line)).first->second;
     }
 
-    // The command line with and without the setting, on the case's scene.
-    static Words lineOf(const Words& command, const std::string& name, bool given, const Words& rest) {
-        const Case& tried = cases().at(name);
-        Words line = command;
-        const Words scene = tried.still ? Words{"--fish", "1", "--fish-triangles", "900"} : Words{"square.glb"};
-        const bool replacesScene = name == "scene" || name == "fishCount" || name == "trianglesPerFish";
-        const auto add = [&](const Words& words) { line.insert(line.end(), words.begin(), words.end()); };
-        if (name == "fishCount") add({"--fish-triangles", "900"});
-        if (name == "trianglesPerFish") add({"--fish", "1"});
-        if (!replacesScene) add(scene);
-        if (name == "scene" && !given) add(scene);
-        if (name == "fishCount" && !given) add({"--fish", "1"});
-        if (name == "trianglesPerFish" && !given) add({"--fish-triangles", "900"});
-        if (name != "size") add({"--size", "48x36"});
-        if (name == "size" && !given) add({"--size", "48x36"});
-        add(tried.with);
-        if (given) add(tried.words);
-        add(rest);
-        return line;
-    }
-
-    // With and without the setting, `rest` being what the command is given anyway: what `print` sees must differ.
-    void expectActs(const Words& command, const std::string& name, const Words& rest,
-                    const std::function<std::string()>& print) {
-        std::string seen[2];
-        for (const bool given : {false, true}) {
-            std::filesystem::remove_all(cacheFolder());
-            std::filesystem::remove_all(folder() / "kept");
-            Words tail = rest;
-            const auto samples = std::find(tail.begin(), tail.end(), "--samples");
-            if (name == "samples" && given && samples != tail.end()) tail.erase(samples, samples + 2);
-            last_ = run(lineOf(command, name, given, tail));
-            EXPECT_EQ(last_.exitCode, 0) << last_.err;
-            seen[given ? 1 : 0] = print();
-        }
-        EXPECT_TRUE(seen[0] != seen[1]) << name << " changes nothing";
-    }
-
-    [[nodiscard]] std::string cacheState() const {
-        return std::string(std::filesystem::exists(cacheFolder()) ? "cache " : "") +
+    std::string seenAnew(const Watched& command, const Words& line) const {
+        for (const char* made : {"kept", "result"}) std::filesystem::remove_all(folder() / made);
+        std::filesystem::remove_all(cacheFolder());
+        const Outcome outcome = run(line);
+        EXPECT_EQ(outcome.exitCode, 0) << shownLine(line) << "\n" << outcome.err;
+        if (outcome.exitCode != 0) return outcome.err;
+        return command.seen(folder(), outcome) + (std::filesystem::exists(cacheFolder()) ? "cache " : "") +
                (std::filesystem::exists(folder() / "kept") ? "kept " : "");
     }
 
-    Outcome last_;
+    void expectActs(const Watched& command, const std::string& name, const OptionCase& tried) {
+        const Words line = lineOfCase(command.line, name, tried, true);
+        const std::string& without = seenOf(command, lineOfCase(command.line, name, tried, false));
+        EXPECT_TRUE(without != seenOf(command, line)) << name << " changes nothing in " << shownLine(line);
+    }
+
+private:
+    std::map<Words, std::string> seen_;
 };
 
-std::vector<std::string> offered(const char* command) {
-    return EveryOption::settingsOffered({command});
+struct Asked {
+    const Watched* command;
+    SettingGroup group;
+};
+
+std::ostream& operator<<(std::ostream& out, const Asked& asked) {
+    return out << asked.command->line.name << ": " << groupTitle(asked.group);
 }
 
-TEST_F(EveryOption, hasItsCase) {
-    for (const char* command : {"plan", "render", "view", "capture"})
-        for (const std::string& name : offered(command)) EXPECT_TRUE(cases().contains(name)) << command << " " << name;
+std::vector<Asked> settingsAsked() {
+    std::vector<Asked> asked;
+    for (const Watched& command : watched())
+        for (int group = 0; group <= static_cast<int>(SettingGroup::developer); ++group)
+            if (!settingsOffered(command.line.name, static_cast<SettingGroup>(group)).empty())
+                asked.push_back({&command, static_cast<SettingGroup>(group)});
+    return asked;
 }
 
-class EveryOptionOfPlan : public EveryOption, public testing::WithParamInterface<std::string> {};
+class EverySetting : public EveryOption, public testing::WithParamInterface<Asked> {};
 
-TEST_P(EveryOptionOfPlan, acts) {
-    // An environment is read and its faults are told (BadInput), but light is no matter of a plan.
-    if (GetParam() == "environment") return;
-    expectActs({"plan"}, GetParam(), {"--json"}, [&] { return last_.out + cacheState(); });
+TEST_P(EverySetting, acts) {
+    const auto& [command, group] = GetParam();
+    for (const Setting* setting : settingsOffered(command->line.name, group)) {
+        // It ends a film between two frames (capture_gl_test.cpp); here is one frame.
+        if (setting->name == "timeLimit" && command->line.name == "capture") continue;
+        expectActs(*command, setting->name, settingCases().at(setting->name));
+    }
 }
 
-INSTANTIATE_TEST_SUITE_P(Settings, EveryOptionOfPlan, testing::ValuesIn(offered("plan")),
-                         [](const auto& each) { return each.param; });
+INSTANTIATE_TEST_SUITE_P(Of, EverySetting, testing::ValuesIn(settingsAsked()), [](const auto& each) {
+    return lettersOf(each.param.command->line.name) + "_" + lettersOf(groupTitle(each.param.group));
+});
 
-class EveryOptionOfRender : public EveryOption, public testing::WithParamInterface<std::string> {};
-
-TEST_P(EveryOptionOfRender, acts) {
-    const Words rest = {"--samples", "4", "-o", "a.exr", "-o", "a.png", "--stats", "stats.json"};
-    expectActs({"render"}, GetParam(), rest, [&] {
-        const Image image = readImage(folder() / "a.exr");
-        const json stats = json::parse(textOf(folder() / "stats.json"));
-        std::string text = cacheState() + std::to_string(image.width) + textOf(folder() / "a.png");
-        text.append(reinterpret_cast<const char*>(image.pixels.data()), image.pixels.size() * sizeof(float));
-        for (const char* key : {"wave", "layerFormat", "trianglesFacingAway", "trianglesOutside", "samples"})
-            text += stats.at(key).dump() + " ";
-        return text;
-    });
+std::vector<const Watched*> watchedThat(const std::function<bool(const Watched&)>& matches) {
+    std::vector<const Watched*> commands;
+    for (const Watched& command : watched())
+        if (matches(command)) commands.push_back(&command);
+    return commands;
 }
 
-INSTANTIATE_TEST_SUITE_P(Settings, EveryOptionOfRender, testing::ValuesIn(offered("render")),
-                         [](const auto& each) { return each.param; });
+class EveryMethodSetting : public EveryOption, public testing::WithParamInterface<const Watched*> {};
 
-// What the speed-up bench takes of the levels of detail shows in the triangles that it counts.
-TEST_F(EveryOption, ofLevelsActsInTheSpeedup) {
-    const auto triangles = [&](const Words& option) {
-        Words line = {"bench", "speedup", "--counts", "4", "--runs", "1", "--reference-samples", "0", "-o", "result"};
-        const Words scene = {"--fish",  "1",   "--fish-triangles", "3000", "--size", "64x48",
-                             "--fstop", "0.3", "--focus-distance", "1.2"};
-        line.insert(line.end(), scene.begin(), scene.end());
-        line.insert(line.end(), option.begin(), option.end());
-        last_ = run(line);
-        EXPECT_EQ(last_.exitCode, 0) << last_.err;
-        const json result = json::parse(textOf(folder() / "result" / "speedup.json"));
-        std::string text;
-        for (const json& row : result.at("rows")) text += row.at("triangles").dump() + " ";
-        return text;
-    };
-    const std::string bySize = triangles({"--blur-threshold", "0"});
-    EXPECT_NE(bySize, triangles({"--blur-threshold", "3"}));
-    EXPECT_NE(bySize, triangles({"--blur-threshold", "0", "--size-threshold", "1"}));
-    EXPECT_NE(bySize, triangles({"--blur-threshold", "0", "--lod-metric", "error"}));
+TEST_P(EveryMethodSetting, acts) {
+    for (const std::string& name : methodSettingsOffered(GetParam()->line.name))
+        expectActs(*GetParam(), name, methodSettingCases().at(name));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, EveryMethodSetting, testing::ValuesIn(watchedThat([](const Watched& command) {
+                             return !methodSettingsOffered(command.line.name).empty();
+                         })),
+                         [](const auto& each) { return lettersOf(each.param->line.name); });
+
+class EveryCommand : public EveryOption, public testing::WithParamInterface<const Watched*> {};
+
+// Else a difference would say nothing.
+TEST_P(EveryCommand, saysTheSameAgain) {
+    const Words line = lineOfCase(GetParam()->line, "", {}, false);
+    EXPECT_TRUE(seenAnew(*GetParam(), line) == seenAnew(*GetParam(), line)) << GetParam()->line.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, EveryCommand, testing::ValuesIn(watchedThat([](const Watched&) { return true; })),
+                         [](const auto& each) { return lettersOf(each.param->line.name); });
+
+// Only cache_test.cpp and the benches of scaling have nothing to compare: these say where they look.
+TEST_F(EveryOption, cacheFolderIsNamed) {
+    for (const Words& line : std::vector<Words>{{"cache", "list", "--cache-dir", "kept"},
+                                                {"cache", "clear", "--cache-dir", "kept"},
+                                                {"cache", "--cache-dir", "kept", "list"}})
+        EXPECT_NE(run(line).out.find("kept"), std::string::npos) << shownLine(line);
 }
 
 }  // namespace

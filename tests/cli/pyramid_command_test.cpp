@@ -11,6 +11,7 @@
 #include "core/file.h"
 #include "image/scratch_folder.h"
 #include "lod/invariants.h"
+#include "lod/pyramid/cache.h"
 #include "scene/gltf/gltf.h"
 #include "scene/gltf/write.h"
 #include "school/fish_school.h"
@@ -118,6 +119,22 @@ TEST(PyramidCommand, TextHasALineALevel) {
     EXPECT_NE(text.find(fmt::format("{} levels", expected.levels.size())), std::string::npos) << text;
     EXPECT_NE(text.find("measured distance"), std::string::npos) << text;
     EXPECT_NE(text.find(std::to_string(expected.levels.back().triangleCount)), std::string::npos) << text;
+}
+
+// What the cache has isn't built again, and says the same of the levels.
+TEST(PyramidCommand, KeepsLevelsInTheFolderThatItIsGiven) {
+    const ScratchFolder folder;
+    const std::string cache = (folder / "cache").string();
+    const std::vector<std::string> arguments = withFish({"--json", "--no-measure", "--cache-dir", cache});
+    nlohmann::json built = nlohmann::json::parse(pyramid(arguments))["meshes"][0];
+    EXPECT_EQ(cacheFiles(cache).size(), 1u);
+    EXPECT_GT(built["buildSeconds"], 0);
+    nlohmann::json loaded = nlohmann::json::parse(pyramid(arguments))["meshes"][0];
+    EXPECT_TRUE(loaded["buildSeconds"].is_null());
+    built.erase("buildSeconds");
+    loaded.erase("buildSeconds");
+    EXPECT_EQ(loaded, built);
+    EXPECT_NE(pyramid(withFish({"--no-measure", "--cache-dir", cache})).find("from the cache"), std::string::npos);
 }
 
 TEST(PyramidCommand, SaysWhyThereIsNoFurtherLevel) {

@@ -5,12 +5,10 @@
 #include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cli/program.h"
+#include "cli/gl_program.h"
 #include "cli/two_quads.h"
-#include "core/error.h"
 #include "defocus/renderer.h"
 #include "frame/settings.h"
-#include "gl/context.h"
 #include "image/image_io.h"
 
 namespace defocus {
@@ -19,15 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class Render : public ProgramTest {
+class Render : public GlProgramTest {
 protected:
     void SetUp() override {
-        ProgramTest::SetUp();
-        try {
-            createHeadlessContext();
-        } catch (const Error& error) {
-            GTEST_SKIP() << error.what();
-        }
+        GlProgramTest::SetUp();
         writeTwoQuads(folder() / "quads.gltf");
     }
 
@@ -79,6 +72,44 @@ TEST_F(Render, isWhatTheLibraryRenders) {
                 {"sequence", "halton"},
                 {"background", "none"}});
     expectSame({{"scene", "quads.gltf"}, {"size", "128x96"}, {"method", "circular:far-components=5"}, {"fStop", "1"}});
+}
+
+// How many samples, how far off and why no more: in the line, the metadata and --stats.
+TEST_F(Render, targetErrorSaysWhatBecameOfIt) {
+    const auto rendered = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"render", "quads.gltf", "--size", "128x96", "--fstop", "1", "-o", "a.exr",
+                                             "--stats", "stats.json"});
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        return outcome.err;
+    };
+    const auto facts = [&] { return json::parse(textOf(folder() / "stats.json")); };
+    Metadata metadata;
+
+    std::string line = rendered({"--target-error", "0.2"});
+    EXPECT_NE(line.find("128 samples (error about 0.0"), std::string::npos) << line;
+    EXPECT_NE(line.find("the estimated error is below the target)"), std::string::npos) << line;
+    readImage(folder() / "a.exr", metadata);
+    EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 128);
+    EXPECT_NEAR(std::get<double>(metadata.at("defocus:targetError")), 0.2, 1e-7);
+    EXPECT_NEAR(std::get<double>(metadata.at("defocus:estimatedError")), facts().at("estimatedError").get<double>(),
+                1e-7);
+    EXPECT_EQ(std::get<std::string>(metadata.at("defocus:stopped")), "the estimated error is below the target");
+    EXPECT_EQ(facts().at("samples"), 128);
+
+    line = rendered({"--target-error", "1e-6", "--samples", "200"});
+    EXPECT_NE(line.find("200 samples (error about"), std::string::npos) << line;
+    EXPECT_EQ(facts().at("stopped"), "all samples asked for are drawn");
+
+    line = rendered({"--time-limit", "0.001"});
+    EXPECT_NE(line.find("64 samples (error not estimated; time is up)"), std::string::npos) << line;
+    EXPECT_TRUE(facts().at("estimatedError").is_null());
+
+    line = rendered({"--samples", "64"});
+    readImage(folder() / "a.exr", metadata);
+    EXPECT_FALSE(metadata.contains("defocus:stopped"));
+    EXPECT_FALSE(facts().contains("stopped"));
 }
 
 TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {

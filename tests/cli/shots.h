@@ -5,22 +5,15 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/program.h"
+#include "cli/gl_program.h"
 #include "cli/two_quads.h"
-#include "core/error.h"
-#include "gl/context.h"
 
 namespace defocus {
 
-class Capture : public ProgramTest {
+class Capture : public GlProgramTest {
 protected:
     void SetUp() override {
-        ProgramTest::SetUp();
-        try {
-            createHeadlessContext();
-        } catch (const Error& error) {
-            GTEST_SKIP() << error.what();
-        }
+        GlProgramTest::SetUp();
         writeTwoQuads(folder() / "quads.gltf");
         writeShot(shot());
     }

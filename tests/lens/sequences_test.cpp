@@ -1,5 +1,3 @@
-#include "lens/sequences.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "lens/aperture.h"
+#include "lens/lens_samples.h"
 
 namespace defocus {
 namespace {

@@ -101,6 +101,8 @@ inline void expectPyramidInvariants(const Mesh& mesh, const Pyramid& pyramid) {
             ASSERT_GT(glm::length(normal), l == 0 ? 1 - 1e-3 : 0.1);
         }
         ASSERT_EQ(level.colors.size(), mesh.vertices.colors.empty() ? 0 : level.vertexCount);
+        ASSERT_EQ(level.uv0.size(), mesh.vertices.uv0.empty() ? 0 : level.vertexCount);
+        ASSERT_EQ(level.uv1.size(), mesh.vertices.uv1.empty() ? 0 : level.vertexCount);
         if (l == 0) continue;
         const PyramidLevel& finer = pyramid.levels[l - 1];
         EXPECT_LE(level.vertexCount, finer.vertexCount);

@@ -70,6 +70,20 @@ def test_a_renderer_renders_frame_after_frame(small):
         renderer.render()
 
 
+def test_a_target_error_leaves_the_number_of_samples_to_the_picture(small):
+    del small["samples"]
+    with defocus.Renderer(**small, f_stop=1.4) as renderer:
+        renderer.render()
+        assert renderer.statistics.stopped == "samples" and renderer.statistics.estimated_error is None
+        renderer.render(target_error=0.1)
+        assert renderer.statistics.samples == 128 and renderer.statistics.stopped == "target error"
+        assert 0 < renderer.statistics.estimated_error <= 0.1
+        renderer.render(time_limit=0.001)
+        assert renderer.statistics.samples == 64 and renderer.statistics.stopped == "time limit"
+    with pytest.raises(defocus.UsageError, match="target_error"):
+        defocus.render(**small, target_error=2)
+
+
 def test_none_opens_a_renderer_s_value_again(small):
     with defocus.Renderer(**small, f_stop=16) as renderer:
         assert numpy.array_equal(renderer.render(f_stop=None), defocus.render(**small))

@@ -257,7 +257,7 @@ TEST_F(MaterialTextures, coordinatesWrapAsTheTextureSays) {
 TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
     const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
     Mesh& mesh = small->scene.meshes[0];
-    mesh.vertices.colors.assign(4, {255, 51, 255, 255});
+    mesh.vertices.colors.assign(4, {1, 0.2f, 1, 1});
     finish(*small);
     const auto code = [](int column, int row) {
         const int i = 16 * row + column;
@@ -282,6 +282,41 @@ TEST_F(MaterialTextures, allCodesOfABaseColourAreDecoded) {
         ASSERT_TRUE(nearestCode(pixel[2], texel[2])) << texel[2] << ": " << pixel[2];
     }
     EXPECT_GT(std::ranges::count_if(seen, [](int times) { return times > 0; }), 80);  // of the part that is seen
+}
+
+// Linear colours of 16 bits: those of 8 would make nothing of the first.
+TEST_F(MaterialTextures, darkVertexColoursAreKept) {
+    const auto small = litWall(unlitMaterial(glm::vec4(1)));
+    small->scene.meshes[0].vertices.colors.assign(4, {118.0f / 65535, 0.0005f, 0.3f, 1});
+    finish(*small);
+    const Image image = wallImage(*small);
+    for (const WallPoint& point : wallPoints(*small))
+        expectRadiance(image, point, {118.0 / 65535, 0.0005, 0.3}, glm::dvec3(8e-6));
+}
+
+// A level may have colours beyond [0, 1].
+TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
+    const auto small = litWall(unlitMaterial({0.5f, 1, 1, 1}));
+    small->scene.meshes[0].vertices.colors.assign(4, glm::vec4(1));
+    finish(*small);
+    Pyramid& pyramid = small->world.pyramids[0];
+    pyramid.levels.resize(1);
+    PyramidLevel coarse = pyramid.levels[0];
+    coarse.colors.assign(4, {1.5f, 0.25f, -0.125f, 1});
+    pyramid.levels.push_back(coarse);
+    FramePlan plan = wallPlan(*small);
+    plan.objects[0].fine.level = 1;
+    plan.levelsUsed[0].assign(2, false);
+    plan.levelsUsed[0][1] = true;
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const auto renderer = methodNamed("accumulation").make(small->world, options);
+    renderer->start(plan);
+    while (renderer->advance()) {
+    }
+    const Image image = renderer->image();
+    for (const WallPoint& point : wallPoints(*small))
+        expectRadiance(image, point, {0.75, 0.25, -0.125}, glm::dvec3(1e-6));
 }
 
 // Between two texels the light is interpolated, not the codes. Weights have 8 bits at least.

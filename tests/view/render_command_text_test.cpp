@@ -11,7 +11,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "cli/render_options.h"
+#include "cli/render.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
 #include "view/camera_controls.h"

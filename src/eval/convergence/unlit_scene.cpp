@@ -43,10 +43,10 @@ void paintLight(Mesh& mesh) {
             indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
         vertices.normals = smoothNormals(vertices.positions, indices);
     }
-    vertices.colors.resize(vertices.count(), glm::u8vec4(255));
+    vertices.colors.resize(vertices.count(), glm::vec4(1));
     for (std::size_t i = 0; i < vertices.count(); ++i) {
         const float light = ambient + (1 - ambient) * std::max(0.0f, glm::dot(vertices.normals[i], towardsLight));
-        vertices.colors[i] = glm::u8vec4(glm::vec4(light * glm::vec3(vertices.colors[i]) + 0.5f, 255));
+        vertices.colors[i] = glm::vec4(light * glm::vec3(vertices.colors[i]), 1);
     }
 }
 

@@ -84,7 +84,8 @@ std::uint64_t pyramidBytes(const World& world) {
         bytes += pyramid.indices.size() * sizeof(std::uint32_t);
         for (const PyramidLevel& level : pyramid.levels)
             bytes += level.positions.size() * sizeof(glm::vec3) + level.normals.size() * sizeof(glm::vec3) +
-                     level.colors.size() * sizeof(glm::u8vec4);
+                     level.colors.size() * sizeof(glm::vec4) +
+                     (level.uv0.size() + level.uv1.size()) * sizeof(glm::vec2);
     }
     return bytes;
 }

@@ -40,6 +40,32 @@ double distanceError(double distance) {
     return std::hypot(far.mean.x - moments.mean.x, far.mean.y - moments.mean.y);
 }
 
+// A board whose vertices lie `distance` from its node's origin: how far its centre moves at most, px, while the camera
+// goes on by half millimetres.
+double ownDistanceError(double distance) {
+    const View view = boardView(192, 128);
+    BoardScene near(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
+    BoardScene far(view, {squareAt(view, 2, 9, glm::vec3(1), {31.3, 17.7})});
+    glm::dmat4& worldFromObject = far.world.pose.objects[0].worldFromObject;
+    // In units of the mesh, whose corners stay what they are up to 2²³.
+    const glm::vec3 offset(
+        glm::round(glm::vec3(distance / worldFromObject[0].x, -0.5 * distance / worldFromObject[1].y, 0)));
+    for (glm::vec3& position : far.scene.meshes[0].vertices.positions) position += offset;
+    far.world.pyramids = buildPyramids(far.scene.meshes);
+    worldFromObject = glm::translate(worldFromObject, -glm::dvec3(offset));
+    double largest = 0;
+    for (int step = 0; step < 4; ++step) {
+        for (BoardScene* boards : {&near, &far}) {
+            boards->settings.sampleCount = 64;
+            boards->view.worldFromCamera = glm::translate(glm::dmat4(1), glm::dvec3(5e-4 * step, 0, 0));
+        }
+        const Moments expected = momentsOf(rendered(near));
+        const Moments moments = momentsOf(rendered(far));
+        largest = std::max(largest, std::hypot(moments.mean.x - expected.mean.x, moments.mean.y - expected.mean.y));
+    }
+    return largest;
+}
+
 // A floor as one board that runs from behind the camera to 40 m, and the same floor from the near plane on.
 double cameraPlaneError() {
     const View view = boardView();
@@ -102,6 +128,9 @@ void addSpaceCases(std::vector<StabilityCase>& cases) {
     for (const double distance : {1e4, 1e7})
         add(fmt::format("scene and camera {:g} m from the origin", distance), "place, px", "the scene at the origin",
             0.1, [distance] { return distanceError(distance); });
+    for (const double distance : {17e3, 1e5})
+        add(fmt::format("a board {:g} m from its node's origin", distance), "place, px", "the board at its origin",
+            0.01, [distance] { return ownDistanceError(distance); });
     add("a floor through the camera plane (w to 0)", "largest difference", "cut at the near plane", 2e-3,
         cameraPlaneError);
     add("depths of 0.02 m, 1,990 km and 2,000 km", "largest error", "the nearest board", 1e-3, depthRatioError);

@@ -1,20 +1,255 @@
 #include "lod/pyramid/clusters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <span>
+#include <unordered_map>
+#include <utility>
 
 #include "core/bounds.h"
-#include "lod/pyramid/cluster_growth.h"
 
 namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t unnumbered = 0xffffffffu;
+// ---- growing: which triangles are a cluster
+
+constexpr float coneWeight = 0.75f;     // of likeness of normals against compactness
+constexpr float leastTurn = 1e-3f;      // what the price of a normal doesn't fall below
+constexpr std::size_t seedsAhead = 64;  // triangles beside earlier clusters that are looked at for a seed
+// Of a vertex, that one cluster looks at: more than it can take. Files may have millions at one.
+constexpr std::size_t mostAround = 1024;
+
+struct Facet {
+    glm::vec3 centre{0};
+    glm::vec3 normal{0};  // unit length; zero without area
+};
+
+using ClusterNumber = Number<struct ClusterKind>;
+
+// The clusters so far, and the one that grows.
+struct ClusterGrowth {
+    ClusterGrowth(const Numbered<TriangleCorner, LocalNumber>& all, std::size_t placeCount)
+        : corners(all), around(placeCount, all.size(), [&](TriangleCorner corner) { return all[corner]; }) {}
+
+    const Numbered<TriangleCorner, LocalNumber>& corners;
+    Buckets<LocalNumber, TriangleCorner> around;
+    std::unordered_map<LocalNumber, std::size_t> firstOpen;  // in `around`, where that holds more than mostAround
+    Numbered<TriangleNumber, Facet> facets;
+    float radius = 0;  // that a full cluster would have on a flat, even surface
+
+    Numbered<LocalNumber, std::uint32_t> open;         // corners of triangles that are in no cluster yet
+    Numbered<LocalNumber, ClusterNumber> lastCluster;  // that the place is in
+    Numbered<TriangleNumber, std::uint8_t> taken;
+
+    // The one that grows: sums over its triangles, …
+    std::uint32_t size = 0;
+    glm::vec3 centres{0};
+    glm::vec3 normals{0};
+    // … and the triangles that touch it. They may have been taken since.
+    std::vector<TriangleNumber> closed;    // all three corners are in it
+    std::vector<TriangleNumber> hanging;   // the last one open at a vertex: alone it would be dear to draw
+    std::vector<TriangleNumber> beside;    // two corners are in it
+    std::vector<TriangleNumber> touching;  // one is
+    std::vector<TriangleNumber> left;      // those of earlier clusters
+    TriangleNumber unseen{0};              // all triangles before it have been taken
+
+    GrownClusters result;
+
+    [[nodiscard]] std::array<LocalNumber, 3> cornersOf(TriangleNumber triangle) const {
+        return {corners[cornerAt(triangle, 0)], corners[cornerAt(triangle, 1)], corners[cornerAt(triangle, 2)]};
+    }
+};
+
+void measureFacets(ClusterGrowth& g, const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t most) {
+    const std::size_t count = g.corners.size() / 3;
+    g.facets.reserve(count);
+    double area = 0;
+    for (const auto t : numbersBelow<TriangleNumber>(count)) {
+        const auto corners = g.cornersOf(t);
+        const glm::vec3& a = positions[corners[0]];
+        const glm::vec3& b = positions[corners[1]];
+        const glm::vec3& c = positions[corners[2]];
+        const glm::vec3 cross = glm::cross(b - a, c - a);
+        const float doubleArea = glm::length(cross);
+        g.facets.push_back({(a + b + c) / 3.0f, doubleArea > 0 ? cross / doubleArea : glm::vec3(0)});
+        area += 0.5 * double{doubleArea};
+    }
+    g.radius = static_cast<float>(0.5 * std::sqrt(area / static_cast<double>(count) * most));
+}
+
+// Corners at the vertex: all, or where there are a great many, so many of open triangles. Those of taken ones go to the
+// front once.
+std::span<const TriangleCorner> someAround(ClusterGrowth& g, LocalNumber v) {
+    const std::span<TriangleCorner> all = g.around[v];
+    if (all.size() <= mostAround) return all;
+    std::size_t& first = g.firstOpen[v];
+    std::size_t end = first;
+    for (; end < all.size() && end - first < mostAround; ++end)
+        if (g.taken[faceOf(all[end])] != 0) std::swap(all[first++], all[end]);
+    return all.subspan(first, end - first);
+}
+
+// The vertex is in the cluster: the triangles around it touch that, or more than they did.
+void addVertex(ClusterGrowth& g, LocalNumber v) {
+    const auto cluster = itemAt<ClusterNumber>(g.result.sizes.size());
+    if (g.lastCluster[v] == cluster) return;
+    g.lastCluster[v] = cluster;
+    for (const TriangleCorner around : someAround(g, v)) {
+        const TriangleNumber triangle = faceOf(around);
+        if (g.taken[triangle] != 0) continue;
+        int inside = 0;
+        bool hangs = false;
+        for (const LocalNumber corner : g.cornersOf(triangle)) {
+            inside += g.lastCluster[corner] == cluster ? 1 : 0;
+            hangs = hangs || g.open[corner] == 1;
+        }
+        if (inside == 3)
+            g.closed.push_back(triangle);
+        else if (hangs)
+            g.hanging.push_back(triangle);
+        else
+            (inside == 2 ? g.beside : g.touching).push_back(triangle);
+    }
+}
+
+void take(ClusterGrowth& g, TriangleNumber triangle) {
+    g.taken[triangle] = 1;
+    g.result.triangles.push_back(triangle);
+    ++g.size;
+    g.centres += g.facets[triangle].centre;
+    g.normals += g.facets[triangle].normal;
+    for (const LocalNumber v : g.cornersOf(triangle))
+        if (--g.open[v] == 1)
+            for (const TriangleCorner last : g.around[v])
+                if (g.taken[faceOf(last)] == 0) g.hanging.push_back(faceOf(last));
+    for (const LocalNumber v : g.cornersOf(triangle)) addVertex(g, v);
+}
+
+// Takes from the end of a list what doesn't face away from the cluster, as the back of a thin sheet does; invalid if
+// there is none.
+TriangleNumber lastFacing(ClusterGrowth& g, std::vector<TriangleNumber>& list) {
+    while (!list.empty()) {
+        const TriangleNumber triangle = list.back();
+        list.pop_back();
+        if (g.taken[triangle] != 0) continue;
+        if (!(glm::dot(g.facets[triangle].normal, g.normals) < 0)) return triangle;
+        g.beside.push_back(triangle);
+    }
+    return {};
+}
+
+void keepOpen(const ClusterGrowth& g, std::vector<TriangleNumber>& list) {
+    std::erase_if(list, [&](TriangleNumber triangle) { return g.taken[triangle] != 0; });
+}
+
+// That of the list which lies nearest and faces most as the cluster does.
+TriangleNumber mostAlike(const ClusterGrowth& g, const std::vector<TriangleNumber>& list) {
+    const glm::vec3 centre = g.centres / static_cast<float>(g.size);
+    const float length = glm::length(g.normals);
+    const glm::vec3 normal = length > 0 ? coneWeight / length * g.normals : glm::vec3(0);
+    const float perLength = (1 - coneWeight) / g.radius;
+    TriangleNumber best;
+    float least = std::numeric_limits<float>::infinity();
+    for (const TriangleNumber triangle : list) {
+        const Facet& facet = g.facets[triangle];
+        const float turn = std::max(leastTurn, 1 - glm::dot(facet.normal, normal));
+        const float price = (1 + perLength * glm::distance(facet.centre, centre)) * turn;
+        if (!(price < least) && best.isValid()) continue;
+        least = price;
+        best = triangle;
+    }
+    return best;
+}
+
+TriangleNumber nextInside(ClusterGrowth& g) {
+    if (const TriangleNumber triangle = lastFacing(g, g.closed); triangle.isValid()) return triangle;
+    if (const TriangleNumber triangle = lastFacing(g, g.hanging); triangle.isValid()) return triangle;
+    keepOpen(g, g.beside);
+    if (!g.beside.empty()) return mostAlike(g, g.beside);
+    keepOpen(g, g.touching);
+    return mostAlike(g, g.touching);
+}
+
+// What touches the full cluster and has the fewest open neighbours: later it might be left alone.
+TriangleNumber seedBeside(const ClusterGrowth& g) {
+    TriangleNumber best;
+    std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
+    for (const auto* const list : {&g.hanging, &g.closed, &g.beside, &g.touching})
+        for (const TriangleNumber triangle : *list) {
+            if (g.taken[triangle] != 0) continue;
+            const auto v = g.cornersOf(triangle);
+            const std::uint32_t openings = g.open[v[0]] + g.open[v[1]] + g.open[v[2]];
+            if (openings >= fewest) continue;
+            fewest = openings;
+            best = triangle;
+        }
+    return best;
+}
+
+// The nearest to `place` of those that touched the clusters before, the last first; else the next in order.
+TriangleNumber seedElsewhere(ClusterGrowth& g, const glm::vec3& place) {
+    while (!g.left.empty() && g.taken[g.left.back()] != 0) g.left.pop_back();
+    TriangleNumber best;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t i = 0; i < std::min(seedsAhead, g.left.size()); ++i) {
+        const TriangleNumber triangle = g.left[g.left.size() - 1 - i];
+        if (g.taken[triangle] != 0) continue;
+        const float distance = glm::distance(g.facets[triangle].centre, place);
+        if (!(distance < least) && best.isValid()) continue;
+        least = distance;
+        best = triangle;
+    }
+    if (best.isValid()) return best;
+    while (g.taken[g.unseen] != 0) ++g.unseen.value;
+    return g.unseen;
+}
+
+// Of what touches the cluster only as much stays known as is looked at: at one vertex there may be any number.
+void close(ClusterGrowth& g) {
+    for (auto* const list : {&g.touching, &g.beside, &g.hanging, &g.closed}) {
+        keepOpen(g, *list);
+        const auto kept = static_cast<std::ptrdiff_t>(std::min(seedsAhead, list->size()));
+        g.left.insert(g.left.end(), list->end() - kept, list->end());
+        list->clear();
+    }
+    g.result.sizes.push_back(g.size);
+    g.size = 0;
+    g.centres = g.normals = glm::vec3(0);
+}
+
+}  // namespace
+
+GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
+                           const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t most) {
+    ClusterGrowth g(corners, positions.size());
+    measureFacets(g, positions, most);
+    g.open.resize(positions.size());
+    for (const LocalNumber v : corners) ++g.open[v];
+    g.lastCluster.resize(positions.size());
+    const std::size_t count = corners.size() / 3;
+    g.taken.resize(count);
+    g.result.triangles.reserve(count);
+    while (g.result.triangles.size() < count) {
+        const bool full = g.size == most;
+        TriangleNumber next = full ? seedBeside(g) : nextInside(g);
+        const glm::vec3 place = g.size > 0 ? g.centres / static_cast<float>(g.size) : glm::vec3(0);
+        if (full || (!next.isValid() && g.size >= most / 2)) close(g);
+        if (!next.isValid()) next = seedElsewhere(g, place);
+        take(g, next);
+    }
+    if (g.size > 0) close(g);
+    return std::move(g.result);
+}
+
+// ---- what a cluster is drawn by
+
+namespace {
+
 // What single precision may lose of a stored value, relative to the size of what it was computed from.
 constexpr double valueRounding = 1e-6;
 
@@ -25,23 +260,26 @@ glm::vec3 finitePosition(const glm::vec3& position) {
 
 // A primitive's triangles with places numbered from 0: its cost shall not depend on the whole mesh.
 struct LocalTriangles {
-    std::vector<std::uint32_t> corners;  // their places
-    std::vector<glm::vec3> positions;    // of places
+    Numbered<TriangleCorner, LocalNumber> corners;
+    Numbered<LocalNumber, glm::vec3> positions;
 };
 
-LocalTriangles localTriangles(std::span<const std::uint32_t> indices, const std::vector<glm::vec3>& positions,
-                              std::span<const std::uint32_t> places, std::vector<std::uint32_t>& localOf) {
+// `localOf` knows no place before and after.
+template <typename Vertex>
+LocalTriangles localTriangles(std::span<const Vertex> indices, std::span<const glm::vec3> positions,
+                              const Numbered<Vertex, PositionNumber>& places,
+                              Numbered<PositionNumber, LocalNumber>& localOf) {
     LocalTriangles local;
     local.corners.reserve(indices.size());
-    for (const std::uint32_t v : indices) {
-        std::uint32_t& number = localOf[places[v]];
-        if (number == unnumbered) {
-            number = static_cast<std::uint32_t>(local.positions.size());
-            local.positions.push_back(finitePosition(positions[v]));
+    for (const Vertex v : indices) {
+        LocalNumber& number = localOf[places[v]];
+        if (!number.isValid()) {
+            number = local.positions.next();
+            local.positions.push_back(finitePosition(positions[indexOf(v)]));
         }
         local.corners.push_back(number);
     }
-    for (const std::uint32_t v : indices) localOf[places[v]] = unnumbered;
+    for (const Vertex v : indices) localOf[places[v]] = {};
     return local;
 }
 
@@ -55,15 +293,16 @@ struct ClusterTriangle {
     }
 };
 
-Cluster measured(std::span<const std::uint32_t> indices, const std::vector<glm::vec3>& positions) {
+template <typename Vertex>
+Cluster measured(std::span<const Vertex> indices, std::span<const glm::vec3> positions) {
     std::vector<ClusterTriangle> triangles(indices.size() / 3);
-    glm::vec3 least = finitePosition(positions[indices.front()]);
+    glm::vec3 least = finitePosition(positions[indexOf(indices.front())]);
     glm::vec3 most = least;
     glm::dvec3 sum(0);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         ClusterTriangle& triangle = triangles[t];
         for (std::size_t k = 0; k < 3; ++k) {
-            const glm::vec3 p = finitePosition(positions[indices[3 * t + k]]);
+            const glm::vec3 p = finitePosition(positions[indexOf(indices[3 * t + k])]);
             least = glm::min(least, p);
             most = glm::max(most, p);
             triangle.p[k] = glm::dvec3(p);
@@ -102,14 +341,15 @@ Cluster measured(std::span<const std::uint32_t> indices, const std::vector<glm::
 }
 
 // Orders the triangles of a primitive, the first of whose indices is the level's `first`.
-void clusterPrimitive(std::span<std::uint32_t> indices, const std::vector<glm::vec3>& positions,
-                      const LocalTriangles& local, std::uint32_t first, std::vector<Cluster>& result) {
+template <typename Vertex>
+void clusterPrimitive(std::span<Vertex> indices, std::span<const glm::vec3> positions, const LocalTriangles& local,
+                      std::uint32_t first, std::vector<Cluster>& result) {
     const GrownClusters grown = growClusters(local.corners, local.positions, mostClusterTriangles);
-    const std::vector<std::uint32_t> unordered(indices.begin(), indices.end());
+    const std::vector<Vertex> unordered(indices.begin(), indices.end());
     for (std::size_t t = 0; t < grown.triangles.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k) indices[3 * t + k] = unordered[3 * std::size_t{grown.triangles[t]} + k];
+        for (std::size_t k = 0; k < 3; ++k) indices[3 * t + k] = unordered[3 * indexOf(grown.triangles[t]) + k];
     for (const std::uint32_t size : grown.sizes) {
-        result.push_back(measured(indices.first(3 * std::size_t{size}), positions));
+        result.push_back(measured<Vertex>(indices.first(3 * std::size_t{size}), positions));
         result.back().indices = {first, 3 * size};
         indices = indices.subspan(3 * std::size_t{size});
         first += 3 * size;
@@ -118,19 +358,26 @@ void clusterPrimitive(std::span<std::uint32_t> indices, const std::vector<glm::v
 
 }  // namespace
 
-std::vector<Cluster> clusterTriangles(TriangleSet& level, const std::vector<glm::vec3>& positions,
-                                      std::span<const std::uint32_t> places, std::size_t placeCount) {
+template <typename Vertex>
+std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,
+                                      const Numbered<Vertex, PositionNumber>& places, std::size_t placeCount) {
     std::vector<Cluster> result;
     result.reserve(level.indices.size() / (3 * mostClusterTriangles) + level.primitiveIndexCounts.size());
-    std::vector<std::uint32_t> localOf(placeCount, unnumbered);
+    Numbered<PositionNumber, LocalNumber> localOf(placeCount);
     std::uint32_t first = 0;
     for (const std::uint32_t count : level.primitiveIndexCounts) {
         if (count == 0) continue;
-        const std::span<std::uint32_t> indices = std::span(level.indices).subspan(first, count);
-        clusterPrimitive(indices, positions, localTriangles(indices, positions, places, localOf), first, result);
+        const std::span<Vertex> indices = std::span(level.indices).subspan(first, count);
+        clusterPrimitive(indices, positions, localTriangles<Vertex>(indices, positions, places, localOf), first,
+                         result);
         first += count;
     }
     return result;
 }
+
+template std::vector<Cluster> clusterTriangles(TriangleSet<MeshVertexNumber>&, std::span<const glm::vec3>,
+                                               const Numbered<MeshVertexNumber, PositionNumber>&, std::size_t);
+template std::vector<Cluster> clusterTriangles(TriangleSet<LevelVertexNumber>&, std::span<const glm::vec3>,
+                                               const Numbered<LevelVertexNumber, PositionNumber>&, std::size_t);
 
 }  // namespace defocus

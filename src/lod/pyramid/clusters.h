@@ -1,38 +1,35 @@
 #pragma once
-// Clusters: runs of a level's triangles that lie near each other and face about the same way, so that a frame can leave
-// out a whole run at once when no lens sample shows any of it (plan/visibility.h).
+// Makes clusters (see Cluster). They grow from triangle to triangle: each takes in what touches it, adds no vertices if
+// possible and lies and faces most as it does, until it is full: choices of the kind that meshoptimizer's meshlets are
+// made by. Neither shape nor order of the triangles matters to what may be one.
 
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
-#include "lod/simplify/level_order.h"
+#include "lod/pyramid/pyramid.h"
+#include "lod/simplify/triangle_set.h"
 
 namespace defocus {
 
-struct IndexRange {
-    std::uint32_t first = 0;  // into Pyramid::indices
-    std::uint32_t count = 0;  // a multiple of 3
+using LocalNumber = Number<struct LocalKind>;  // of the places that one primitive uses
+
+struct GrownClusters {
+    std::vector<TriangleNumber> triangles;  // all, cluster after cluster, mostly neighbours one after the other
+    std::vector<std::uint32_t> sizes;       // triangles of each cluster
 };
 
-// Object units, as the level has its vertices. Rounded so that all of it holds for the triangles' exact planes.
-struct Cluster {
-    IndexRange indices;       // within one primitive
-    glm::vec3 centre{0};      // of a ball around the vertices
-    float radius = 0;         // of the ball
-    glm::vec3 axis{0, 0, 1};  // unit length, about which the triangles' unit normals n lie
-    float leastCosine = -1;   // of the angle between an n and the axis
-    float planes = 0;         // n·(p − centre) is at least this, p on the plane of n's triangle
-    float leastAltitude = 0;  // of the triangles; those of which corners coincide draw nothing and don't count
-};
-
-inline constexpr std::uint32_t mostClusterTriangles = 64;
+// The positions of the corners, in object units, may be anything. No cluster has more than `most` (1 or more)
+// triangles. Deterministic.
+GrownClusters growClusters(const Numbered<TriangleCorner, LocalNumber>& corners,
+                           const Numbered<LocalNumber, glm::vec3>& positions, std::uint32_t most);
 
 // Reorders the triangles within each primitive into clusters, mostly neighbours one after the other, and within each
-// from neighbour to neighbour. `positions` are by the level's vertex numbers, and so are `places`, below `placeCount`:
+// from neighbour to neighbour. `positions` and `places` have an entry a vertex; the places are below `placeCount`, and
 // vertices at one place have one position. The clusters' ranges count from the level's first index and follow each
 // other over all of it. Deterministic.
-std::vector<Cluster> clusterTriangles(TriangleSet& level, const std::vector<glm::vec3>& positions,
-                                      std::span<const std::uint32_t> places, std::size_t placeCount);
+template <typename Vertex>
+std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,
+                                      const Numbered<Vertex, PositionNumber>& places, std::size_t placeCount);
 
 }  // namespace defocus

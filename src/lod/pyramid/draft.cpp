@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "lod/simplify/gathered.h"
+#include "scene/vertex_block.h"
 
 namespace defocus {
 

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "core/hash.h"
-#include "lod/simplify/gathered.h"
+#include "scene/vertex_block.h"
 
 namespace defocus {
 
@@ -86,7 +86,7 @@ std::size_t encodedSize(const Pyramid& pyramid, const Mesh& mesh) {
     for (const PyramidLevel& level : pyramid.levels)
         size += sizeof(PyramidFileLevel) + level.clusters.size() * sizeof(Cluster) +
                 mesh.primitives.size() * sizeof(IndexRange) +
-                level.vertexCount * (2 * sizeof(glm::vec3) + sizeof(glm::u8vec4));
+                level.vertexCount * (2 * sizeof(glm::vec3) + sizeof(glm::vec4) + 2 * sizeof(glm::vec2));
     return size;
 }
 
@@ -204,11 +204,16 @@ bool readStreams(Reader& reader, Pyramid& pyramid) {
     own.positions = prefix(pyramid.vertices.positions, own.vertexCount);
     own.normals = prefix(pyramid.vertices.normals, own.vertexCount);
     own.colors = prefix(pyramid.vertices.colors, own.vertexCount);
+    own.uv0 = prefix(pyramid.vertices.uv0, own.vertexCount);
+    own.uv1 = prefix(pyramid.vertices.uv1, own.vertexCount);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
         PyramidLevel& level = pyramid.levels[l];
-        const std::size_t colorCount = pyramid.vertices.colors.empty() ? 0 : level.vertexCount;
+        const auto readLike = [&](auto& values, const auto& mesh) {
+            return reader.read(values, mesh.empty() ? 0 : level.vertexCount);
+        };
         if (!reader.read(level.positions, level.vertexCount) || !reader.read(level.normals, level.vertexCount) ||
-            !reader.read(level.colors, colorCount))
+            !readLike(level.colors, pyramid.vertices.colors) || !readLike(level.uv0, pyramid.vertices.uv0) ||
+            !readLike(level.uv1, pyramid.vertices.uv1))
             return false;
     }
     return true;
@@ -239,7 +244,7 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
     std::vector<PyramidFileLevel> records;
     std::vector<IndexRange> ranges;
     std::vector<Cluster> allClusters;
-    for (const auto& [primitives, vertexCount, triangleCount, clusters, positions, normals, colors, meanEdge,
+    for (const auto& [primitives, vertexCount, triangleCount, clusters, positions, normals, colors, uv0, uv1, meanEdge,
                       longestEdge, error] : pyramid.levels) {
         records.push_back(
             {vertexCount, triangleCount, static_cast<std::uint32_t>(clusters.size()), 0, meanEdge, longestEdge, error});
@@ -256,6 +261,8 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
         append(bytes, pyramid.levels[l].positions);
         append(bytes, pyramid.levels[l].normals);
         append(bytes, pyramid.levels[l].colors);
+        append(bytes, pyramid.levels[l].uv0);
+        append(bytes, pyramid.levels[l].uv1);
     }
 
     // The header, with the checksum of all after it.

@@ -1,9 +1,10 @@
 #pragma once
 // A pyramid as the bytes of a cache file, and back. The file holds what the mesh can't give: which of the mesh's
-// vertices the pyramid has in which order, the indices, and each level's own positions, normals and colours.
+// vertices the pyramid has in which order, the indices, and each level's own positions, normals, colours and texture
+// coordinates.
 //
 //   header | level records | index ranges, levels × primitives | clusters, level after level | source | indices
-//          | normals, where the mesh has none | of each level from 1 on: positions, normals, colours
+//          | normals, where the mesh has none | of each level from 1 on: positions, normals, colours, uv0, uv1
 //
 // Bytes are as this machine has them in memory; a file of another byte order has another magic.
 
@@ -31,7 +32,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
     // It changes with the format alone. What buildPyramid makes of a mesh is in the key: see pyramidKey.
-    static constexpr std::uint32_t expectedVersion = 3;
+    static constexpr std::uint32_t expectedVersion = 4;
 
     std::uint64_t magic = expectedMagic;
     std::uint64_t checksum = 0;  // hashBytes of all that follows this field

@@ -1,9 +1,6 @@
 #include "lod/pyramid/pyramid.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,14 +13,13 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "lod/pyramid/clusters.h"
 #include "lod/pyramid/surface_distance.h"
-#include "lod/simplify/gathered.h"
+#include "lod/pyramid/vertex_order.h"
 #include "lod/simplify/level_fit.h"
-#include "lod/simplify/level_growth.h"
-#include "lod/simplify/level_order.h"
 #include "lod/simplify/simplify.h"
-#include "lod/simplify/smoothing_groups.h"
 #include "lod/simplify/weld.h"
+#include "scene/vertex_block.h"
 
 namespace defocus {
 
@@ -39,34 +35,39 @@ constexpr std::size_t leastErrorPoints = 256;
 constexpr std::size_t mostErrorPoints = 1024;
 constexpr double errorPercentile = 0.99;
 constexpr std::size_t mostPossibleLevels = 128;  // each leaves three quarters of at most 2³² triangles
-constexpr double mostSpread = 2;                 // of numbers, in square roots of the vertices' count
-constexpr std::uint32_t unfitted = 0xffffffffu;
 
-TriangleSet allTriangles(const Mesh& mesh, const std::vector<std::uint32_t>& vertexIds) {
-    TriangleSet level;
+TriangleSet<MeshVertexNumber> allTriangles(const Mesh& mesh, const Numbered<FileVertexNumber, MeshVertexNumber>& ids) {
+    TriangleSet<MeshVertexNumber> level;
     level.indices.reserve(3 * mesh.triangleCount());
     for (const Primitive& primitive : mesh.primitives) {
         const std::size_t count = primitive.indices.size() / 3 * 3;
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t v = primitive.indices[i];
-            if (v >= vertexIds.size())
-                fail("mesh \"{}\": index {} is beyond its {} vertices", mesh.name, v, vertexIds.size());
-            level.indices.push_back(vertexIds[v]);
+            if (v >= ids.size()) fail("mesh \"{}\": index {} is beyond its {} vertices", mesh.name, v, ids.size());
+            level.indices.push_back(ids[{v}]);
         }
         level.primitiveIndexCounts.push_back(static_cast<std::uint32_t>(count));
     }
     return level;
 }
 
-bool isIdentity(const std::vector<std::uint32_t>& numbers, std::size_t count) {
-    if (numbers.size() != count) return false;
-    for (std::size_t v = 0; v < count; ++v)
-        if (numbers[v] != v) return false;
+template <typename Numbers>
+std::vector<std::uint32_t> plain(const Numbers& numbers) {
+    std::vector<std::uint32_t> values;
+    values.reserve(numbers.size());
+    for (const auto number : numbers) values.push_back(number.value);
+    return values;
+}
+
+bool isIdentity(const Numbered<MeshVertexNumber, FileVertexNumber>& first, std::size_t count) {
+    if (first.size() != count) return false;
+    for (const MeshVertexNumber v : first.numbers())
+        if (first[v].value != v.value) return false;
     return true;
 }
 
 // Mean and greatest length of all faces' edges.
-void measureEdges(PyramidLevel& level, const std::vector<std::uint32_t>& indices) {
+void measureEdges(PyramidLevel& level, std::span<const std::uint32_t> indices) {
     double sum = 0;
     double longest = 0;
     for (std::size_t i = 0; i < indices.size(); i += 3)
@@ -81,20 +82,20 @@ void measureEdges(PyramidLevel& level, const std::vector<std::uint32_t>& indices
     level.longestEdge = std::isfinite(longest) ? longest : 0;
 }
 
-// Appends a level's ranges and indices; `triangles` are in final vertex numbers.
-PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet& triangles, std::vector<Cluster> clusters,
-                         std::uint32_t vertexCount) {
+// Appends a level's ranges and indices.
+PyramidLevel appendLevel(Pyramid& pyramid, const TriangleSet<MeshVertexNumber>& triangles,
+                         std::vector<Cluster> clusters, const SurvivalOrder& order) {
     PyramidLevel level;
     level.clusters = std::move(clusters);
-    level.vertexCount = vertexCount;
-    level.triangleCount = static_cast<std::uint32_t>(triangles.indices.size() / 3);
+    level.vertexCount = order.vertexCounts[pyramid.levels.size()];
+    level.triangleCount = static_cast<std::uint32_t>(triangles.count());
     auto first = static_cast<std::uint32_t>(pyramid.indices.size());
     for (Cluster& cluster : level.clusters) cluster.indices.first += first;
     for (const std::uint32_t count : triangles.primitiveIndexCounts) {
         level.primitives.push_back({first, count});
         first += count;
     }
-    pyramid.indices.insert(pyramid.indices.end(), triangles.indices.begin(), triangles.indices.end());
+    for (const MeshVertexNumber v : triangles.indices) pyramid.indices.push_back(order.numbers[v].value);
     return level;
 }
 
@@ -124,52 +125,12 @@ void separateSizes(std::vector<PyramidLevel>& levels, double diagonal) {
     }
 }
 
-// Whether triangles that follow each other, and their corners, have numbers far apart, so that caches are of little
-// help: on a grid in rows they are √n apart.
-bool isScattered(const TriangleSet& triangles, std::size_t vertexCount) {
-    const std::vector<std::uint32_t>& v = triangles.indices;
-    const auto apart = [](std::uint32_t a, std::uint32_t b) { return a < b ? b - a : a - b; };
-    std::uint64_t sum = 0;
-    for (std::size_t i = 3; i < v.size(); ++i) sum += apart(v[i], v[i - 3]);
-    for (std::size_t i = 0; i < v.size(); i += 3) sum += apart(v[i], v[i + 1]);
-    return static_cast<double>(sum) >
-           mostSpread * std::sqrt(static_cast<double>(vertexCount)) * static_cast<double>(v.size());
-}
-
-// Numbers vertices, and then orders the triangles of each primitive, so that what is near in space is so in memory.
-void sortSpatially(Welded& unique, const std::vector<glm::vec3>& positions) {
-    if (unique.first.empty()) return;
-    std::vector<glm::vec3> places = gathered(positions, unique.first);
-    for (glm::vec3& place : places)
-        if (!isFinite(place)) place = glm::vec3(0);
-    std::vector<std::uint32_t> order(places.size());
-    meshopt_spatialSortRemap(order.data(), &places[0].x, places.size(), sizeof(glm::vec3));
-    for (std::uint32_t& id : unique.id) id = order[id];
-    std::vector<std::uint32_t> first(places.size());
-    for (std::size_t v = 0; v < order.size(); ++v) first[order[v]] = unique.first[v];
-    unique.first = std::move(first);
-}
-
-void sortSpatially(TriangleSet& triangles) {
-    std::size_t first = 0;
-    std::vector<std::array<std::uint32_t, 4>> sorted;  // the triangle, after the place that it is sorted by
-    for (const std::uint32_t count : triangles.primitiveIndexCounts) {
-        std::uint32_t* const indices = triangles.indices.data() + first;
-        sorted.clear();
-        for (std::size_t i = 0; i < count; i += 3)
-            sorted.push_back(
-                {std::min({indices[i], indices[i + 1], indices[i + 2]}), indices[i], indices[i + 1], indices[i + 2]});
-        std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a[0] < b[0]; });
-        for (std::size_t t = 0; t < sorted.size(); ++t) std::copy_n(sorted[t].begin() + 1, 3, indices + 3 * t);
-        first += count;
-    }
-}
-
 // A level until its vertices are in their final order.
 struct FittedLevel {
-    TriangleSet triangles;            // first in numbers of its own vertices, then in those of `numbers`
-    std::vector<std::uint32_t> numbers;  // of its vertices, see SimplifiedLevel
-    LevelFit fit;                        // of the same
+    TriangleSet<LevelVertexNumber> own;                     // until they are clustered
+    TriangleSet<MeshVertexNumber> triangles;                // from then on
+    Numbered<LevelVertexNumber, MeshVertexNumber> numbers;  // see SimplifiedLevel
+    LevelFit fit;
     std::vector<Cluster> clusters;
     std::vector<Ball> removed;  // see SimplifiedLevel
     double error = 0;
@@ -178,9 +139,9 @@ struct FittedLevel {
 FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     FittedLevel result;
     result.fit = fitLevel(source, level.mesh, std::move(level.anchors));
-    growComponents(result.fit.positions, level, source.bounds);
+    conserve(source, level.mesh, result.fit);
     result.removed = std::move(level.removed);
-    result.triangles = std::move(level.mesh.triangles);
+    result.own = std::move(level.mesh.triangles);
     result.numbers = std::move(level.numbers);
     return result;
 }
@@ -195,35 +156,40 @@ double removedError(const std::vector<Ball>& removed, const Surface& level) {
 
 // How far the level is from the mesh.
 void measure(FittedLevel& level, const Surface& mesh, double diagonal) {
-    const Surface surface = prepareSurface(level.fit.positions, level.triangles.indices);
+    const Surface surface = prepareSurface(level.fit.positions, level.own);
     level.error =
         std::max(levelError(mesh, surface, diagonal), std::min(removedError(level.removed, surface), diagonal));
     level.removed = {};
 }
 
 // Orders the level's triangles by clusters; `positions` are the mesh's, twins included.
-void cluster(FittedLevel& level, const Welded& positions) {
-    const std::vector<std::uint32_t> places = gathered(positions.id, level.numbers);
-    level.clusters = clusterTriangles(level.triangles, level.fit.positions, places, positions.first.size());
-    for (std::uint32_t& v : level.triangles.indices) v = level.numbers[v];
+void cluster(FittedLevel& level, const WeldedPositions& positions) {
+    Numbered<LevelVertexNumber, PositionNumber> places;
+    places.reserve(level.numbers.size());
+    for (const MeshVertexNumber v : level.numbers) places.push_back(positions.id[v]);
+    level.clusters = clusterTriangles(level.own, level.fit.positions, places, positions.first.size());
+    level.triangles.primitiveIndexCounts = std::move(level.own.primitiveIndexCounts);
+    level.triangles.indices.reserve(level.own.indices.size());
+    for (const LevelVertexNumber v : level.own.indices) level.triangles.indices.push_back(level.numbers[v]);
+    level.own = {};
 }
 
 // Values of the first `count` vertices in the order of `sources`: the level's where it has any, else the mesh's.
 template <typename T>
-std::vector<T> inOrder(const std::vector<T>& own, const std::vector<T>& fitted,
-                       const std::vector<std::uint32_t>& fittedAt, const std::vector<std::uint32_t>& sources,
-                       std::size_t count) {
+std::vector<T> inOrder(const std::vector<T>& own, const Numbered<LevelVertexNumber, T>& fitted,
+                       const Numbered<PyramidVertexNumber, LevelVertexNumber>& fittedAt,
+                       const Numbered<PyramidVertexNumber, MeshVertexNumber>& sources, std::size_t count) {
     std::vector<T> result;
     if (own.empty()) return result;
     result.reserve(count);
-    for (std::size_t v = 0; v < count; ++v)
-        result.push_back(fittedAt[v] == unfitted ? own[sources[v]] : fitted[fittedAt[v]]);
+    for (const auto v : numbersBelow<PyramidVertexNumber>(count))
+        result.push_back(fittedAt[v].isValid() ? fitted[fittedAt[v]] : own[sources[v].value]);
     return result;
 }
 
 Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {
     // Join equal vertices; weld the positions of the rest.
-    Welded unique = weldVertices(mesh);
+    WeldedVertices unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
     levels[0].triangles = allTriangles(mesh, unique.id);
     if (isScattered(levels[0].triangles, unique.first.size())) {
@@ -234,23 +200,21 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     unique.id = {};
     Vertices joined;  // unless the mesh has them as they are
     const bool asTheyAre = !mesh.vertices.normals.empty() && isIdentity(unique.first, mesh.vertices.count());
-    if (!asTheyAre) joined = gathered(mesh.vertices, unique.first);
+    if (!asTheyAre) joined = gathered(mesh.vertices, plain(unique.first));
     if (!asTheyAre && joined.normals.empty())
-        joined.normals = smoothNormals(joined.positions, levels[0].triangles.indices);
+        joined.normals = smoothNormals(joined.positions, plain(levels[0].triangles.indices));
     const Vertices& vertices = asTheyAre ? mesh.vertices : joined;
-    Welded positions = weldPositions(vertices.positions);
+    WeldedPositions positions = weldPositions(vertices.positions);
 
     // Simplify, and fit every level while the next ones are made.
     Pyramid pyramid;
     Simplification simplification;
     double diagonal = 0;
     if (options.mostLevels > 1) {
-        const std::vector<std::uint32_t> smoothing = smoothingGroups(vertices.normals, positions.id);
+        const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
         std::optional<FitSource> source;  // once the first level is there: collapsing the whole mesh takes most memory
         std::once_flag prepared;
-        const auto prepare = [&] {
-            source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles.indices));
-        };
+        const auto prepare = [&] { source.emplace(prepareFit(vertices, positions, smoothing, levels[0].triangles)); };
         std::vector<FittedLevel> coarser(
             std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
         Tasks tasks(helpers);
@@ -271,11 +235,11 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
 
     // Twins are vertices like others from here on; no corner of level 0 uses them.
     const std::size_t ownCount = vertices.count();
-    for (const std::uint32_t v : simplification.twins) positions.id.push_back(positions.id[v]);
+    for (const MeshVertexNumber v : simplification.twins) positions.id.push_back(positions.id[v]);
 
     // Measure them, then cluster them; each gives back what it takes before the next begins.
     if (levels.size() > 1) {
-        const Surface surface = prepareSurface(vertices.positions, levels[0].triangles.indices);
+        const Surface surface = prepareSurface(vertices.positions, levels[0].triangles);
         Tasks tasks(helpers);
         for (std::size_t l = 1; l < levels.size(); ++l) tasks.add([&, l] { measure(levels[l], surface, diagonal); });
         tasks.wait();
@@ -291,33 +255,40 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     }
 
     // Order vertices by survival.
-    std::vector<TriangleSet> triangles;
+    std::vector<TriangleSet<MeshVertexNumber>> triangles;
     triangles.reserve(levels.size());
     for (FittedLevel& level : levels) triangles.push_back(std::move(level.triangles));
     const SurvivalOrder order = sortBySurvival(triangles, positions);
-    std::vector<std::uint32_t> sources;
+    Numbered<PyramidVertexNumber, MeshVertexNumber> sources;
     sources.reserve(order.vertices.size());
-    for (const std::uint32_t v : order.vertices)
-        sources.push_back(v < ownCount ? v : simplification.twins[v - ownCount]);
-    pyramid.vertices = gathered(vertices, sources);
-    pyramid.source = gathered(unique.first, sources);
+    for (const MeshVertexNumber v : order.vertices)
+        sources.push_back(indexOf(v) < ownCount ? v : simplification.twins[indexOf(v) - ownCount]);
+    pyramid.vertices = gathered(vertices, plain(sources));
+    pyramid.source.reserve(sources.size());
+    for (const MeshVertexNumber v : sources) pyramid.source.push_back(unique.first[v].value);
     pyramid.bounds = boundsOf(pyramid.vertices.positions);
 
     // Describe each level.
-    std::vector<std::uint32_t> fittedAt(ownCount + simplification.twins.size(), unfitted);
-    std::vector<std::uint32_t> inPrefix;
+    Numbered<MeshVertexNumber, LevelVertexNumber> fittedAt(ownCount + simplification.twins.size());
+    Numbered<PyramidVertexNumber, LevelVertexNumber> inPrefix;
+    std::size_t indexCount = 0;
+    for (const TriangleSet<MeshVertexNumber>& level : triangles) indexCount += level.indices.size();
+    pyramid.indices.reserve(indexCount);
     for (std::size_t l = 0; l < levels.size(); ++l) {
         FittedLevel& done = levels[l];
-        PyramidLevel level = appendLevel(pyramid, triangles[l], std::move(done.clusters), order.vertexCounts[l]);
+        PyramidLevel level = appendLevel(pyramid, triangles[l], std::move(done.clusters), order);
         level.error = done.error;
-        for (std::size_t v = 0; v < done.numbers.size(); ++v) fittedAt[done.numbers[v]] = static_cast<std::uint32_t>(v);
+        for (const LevelVertexNumber v : done.numbers.numbers()) fittedAt[done.numbers[v]] = v;
         inPrefix.clear();
-        for (std::size_t v = 0; v < level.vertexCount; ++v) inPrefix.push_back(fittedAt[order.vertices[v]]);
-        for (const std::uint32_t v : done.numbers) fittedAt[v] = unfitted;
+        for (const auto v : numbersBelow<PyramidVertexNumber>(level.vertexCount))
+            inPrefix.push_back(fittedAt[order.vertices[v]]);
+        for (const MeshVertexNumber v : done.numbers) fittedAt[v] = {};
         level.positions = inOrder(vertices.positions, done.fit.positions, inPrefix, sources, level.vertexCount);
         level.normals = inOrder(vertices.normals, done.fit.normals, inPrefix, sources, level.vertexCount);
         level.colors = inOrder(vertices.colors, done.fit.colors, inPrefix, sources, level.vertexCount);
-        measureEdges(level, triangles[l].indices);
+        level.uv0 = inOrder(vertices.uv0, done.fit.uv0, inPrefix, sources, level.vertexCount);
+        level.uv1 = inOrder(vertices.uv1, done.fit.uv1, inPrefix, sources, level.vertexCount);
+        measureEdges(level, std::span(pyramid.indices).last(triangles[l].indices.size()));
         pyramid.levels.push_back(std::move(level));
         done = {};
     }

@@ -2,21 +2,41 @@
 // Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
 //
 // All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
-// together), so level l uses the prefix [0, vertexCount[l]): texture coordinates, joints, weights and morph targets are
-// those of the surviving vertices. Positions, normals and colours are each level's own, fitted to level 0
+// together), so level l uses the prefix [0, vertexCount[l]): joints, weights, tangents and morph targets are those of the
+// surviving vertices. Positions, normals, colours and texture coordinates are each level's own, fitted to level 0
 // (level_fit.h).
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/progress.h"
-#include "lod/pyramid/clusters.h"
 #include "lod/simplify/pyramid_end.h"
 #include "scene/mesh.h"
 
 namespace defocus {
+
+struct IndexRange {
+    std::uint32_t first = 0;  // into Pyramid::indices
+    std::uint32_t count = 0;  // a multiple of 3
+};
+
+// A cluster is a run of a level's triangles that lie near each other and face about the same way, so that a frame can
+// leave out a whole run at once when no lens sample shows any of it (plan/visibility.h).
+// Object units, as the level has its vertices. Rounded so that all of it holds for the triangles' exact planes.
+struct Cluster {
+    IndexRange indices;       // within one primitive
+    glm::vec3 centre{0};      // of a ball around the vertices
+    float radius = 0;         // of the ball
+    glm::vec3 axis{0, 0, 1};  // unit length, about which the triangles' unit normals n lie
+    float leastCosine = -1;   // of the angle between an n and the axis
+    float planes = 0;         // n·(p − centre) is at least this, p on the plane of n's triangle
+    float leastAltitude = 0;  // of the triangles; those of which corners coincide draw nothing and don't count
+};
+
+inline constexpr std::uint32_t mostClusterTriangles = 64;
 
 struct PyramidLevel {
     std::vector<IndexRange> primitives;  // one a primitive of the mesh, in its order
@@ -28,7 +48,8 @@ struct PyramidLevel {
     // the less light a matt surface throws back.
     std::vector<glm::vec3> positions;  // vertexCount
     std::vector<glm::vec3> normals;    // vertexCount
-    std::vector<glm::u8vec4> colors;   // vertexCount; empty without colours
+    std::vector<glm::vec4> colors;     // vertexCount; empty without colours. A fitted one may lie outside [0, 1].
+    std::vector<glm::vec2> uv0, uv1;   // vertexCount; empty without texture coordinates
 
     // Object units. The mean of all faces' edge lengths (an edge counts once a face), raised where needed so that it
     // grows by 5 % a level or more and is at least 2·error: a level isn't as fine as its edges where its error outgrew

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/bounds.h"
 #include "lod/simplify/triangle_distance.h"
@@ -72,15 +73,13 @@ void sortByCode(LargeVector<std::uint64_t>& keys) {
     }
 }
 
-// The triangles that have a place and an area.
-LargeVector<Triangle> inMortonOrder(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
-    const auto triangle = [&](std::size_t t) {
-        return Triangle{positions[indices[3 * t]], positions[indices[3 * t + 1]], positions[indices[3 * t + 2]]};
-    };
+// Those of the `count` triangles that have a place and an area.
+template <typename TriangleAt>
+LargeVector<Triangle> inMortonOrder(std::size_t count, const TriangleAt& triangle) {
     LargeVector<std::uint64_t> keys;  // Morton codes above numbers
-    keys.reserve(indices.size() / 3);
+    keys.reserve(count);
     Box whole;
-    for (std::size_t i = 0; i < indices.size() / 3; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         const Triangle t = triangle(i);
         if (!isFinite(t[0]) || !isFinite(t[1]) || !isFinite(t[2]) || !(areaOf(t) > 0)) continue;
         whole = around(whole, boxOf(t));
@@ -231,11 +230,9 @@ Distances summary(std::vector<double> distances) {
     return result;
 }
 
-}  // namespace
-
-Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
+Surface surfaceOf(LargeVector<Triangle> triangles) {
     Surface surface;
-    surface.triangles = inMortonOrder(positions, indices);
+    surface.triangles = std::move(triangles);
     if (surface.empty()) return surface;
     double area = 0;
     surface.areas.reserve(surface.triangles.size());
@@ -243,6 +240,24 @@ Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std
     buildNodes(surface);
     return surface;
 }
+
+}  // namespace
+
+Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices) {
+    return surfaceOf(inMortonOrder(indices.size() / 3, [&](std::size_t t) {
+        return Triangle{positions[indices[3 * t]], positions[indices[3 * t + 1]], positions[indices[3 * t + 2]]};
+    }));
+}
+
+template <typename Vertex>
+Surface prepareSurface(std::span<const glm::vec3> positions, const TriangleSet<Vertex>& triangles) {
+    return surfaceOf(inMortonOrder(triangles.count(), [&](std::size_t t) {
+        const auto v = triangles.corners(itemAt<TriangleNumber>(t));
+        return Triangle{positions[indexOf(v[0])], positions[indexOf(v[1])], positions[indexOf(v[2])]};
+    }));
+}
+template Surface prepareSurface(std::span<const glm::vec3>, const TriangleSet<MeshVertexNumber>&);
+template Surface prepareSurface(std::span<const glm::vec3>, const TriangleSet<LevelVertexNumber>&);
 
 double distanceTo(const Surface& surface, const glm::dvec3& point) {
     return surface.empty() ? infinity : std::sqrt(nearestTriangle(surface, point, 0, 0).squaredDistance);

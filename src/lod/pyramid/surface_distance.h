@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/memory.h"
+#include "lod/simplify/triangle_set.h"
 
 namespace defocus {
 
@@ -42,6 +43,8 @@ struct Surface {
 
 // `indices` are three a triangle (a rest of one or two is passed over), all below positions.size().
 Surface prepareSurface(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
+template <typename Vertex>
+Surface prepareSurface(std::span<const glm::vec3> positions, const TriangleSet<Vertex>& triangles);
 
 // The distance from `point` (finite) to the closest point of the surface; infinite for an empty surface.
 double distanceTo(const Surface& surface, const glm::dvec3& point);

@@ -1,12 +1,308 @@
-// Applies collapses, and clears away what they leave.
+// What a collapse does to faces, wedges and quadrics; applying it, and clearing away what collapses leave.
+
+#include "lod/simplify/collapse.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 #include "core/memory.h"
 #include "lod/simplify/state.h"
 
 namespace defocus {
+
+namespace {
+
+constexpr double leastTurnCosine = 0.2588;  // 75°
+constexpr double sliverQuality = 0.02;      // twice the area / sum of squared edges; 0.29 for an equilateral triangle
+
+// How the face with the corners a, b and c takes a moving to `target`.
+Fit judgeMovedFace(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& target) {
+    const glm::dvec3 before = glm::cross(b - a, c - a);
+    const glm::dvec3 after = glm::cross(b - target, c - target);
+    const double squareBefore = glm::dot(before, before);
+    const double squareAfter = glm::dot(after, after);
+    const double along = glm::dot(before, after);
+    if (!(squareAfter > 0) || along < 0) return Fit::bad;
+    if (along * along < leastTurnCosine * leastTurnCosine * squareBefore * squareAfter) return Fit::bad;
+    const auto edges = [&](const glm::dvec3& p) {
+        return glm::dot(b - p, b - p) + glm::dot(c - p, c - p) + glm::dot(c - b, c - b);
+    };
+    // Quality is an area over squared edges; all sides squared, as roots are dear.
+    const double edgesAfter = edges(target);
+    if (!(squareAfter < sliverQuality * sliverQuality * edgesAfter * edgesAfter)) return Fit::good;
+    const double edgesBefore = edges(a);
+    return squareAfter * edgesBefore * edgesBefore < squareBefore * edgesAfter * edgesAfter ? Fit::poor : Fit::good;
+}
+
+// Texture space may be this much denser than on the mesh's average before a step through it counts as a jump over a
+// seam.
+constexpr double longestUvStep = 4;
+
+// One side of the edge that collapses: its face (or none) and the wedges of the vertex that goes and the one that
+// stays.
+struct EdgeSide {
+    FaceHandle face = FaceHandle();
+    WedgeNumber from;
+    WedgeNumber to;
+};
+
+struct Sides {
+    const SurfaceMesh& mesh;
+    VertexHandle survivor;
+    double longestStep = 0;  // in texture space, squared; more is a jump
+    EdgeSide both[2];
+
+    [[nodiscard]] bool jumps(WedgeNumber from, WedgeNumber to) const {
+        return mesh.wedges.uvDifference(from, to) > longestStep;
+    }
+};
+
+Sides sidesOf(const SurfaceMesh& mesh, HalfedgeHandle along) {
+    const HalfedgeHandle back = mesh.opposite_halfedge_handle(along);
+    const VertexHandle survivor = mesh.to_vertex_handle(along);
+    const glm::dvec3 step = mesh.step(mesh.to_vertex_handle(back), survivor);
+    Sides sides{mesh, survivor, longestUvStep * longestUvStep * glm::dot(step, step), {}};
+    if (!mesh.is_boundary(along))
+        sides.both[0] = {mesh.face_handle(along), mesh.wedge(along), mesh.wedge(mesh.next_halfedge_handle(along))};
+    if (!mesh.is_boundary(back))
+        sides.both[1] = {mesh.face_handle(back), mesh.wedge(mesh.next_halfedge_handle(back)), mesh.wedge(back)};
+    return sides;
+}
+
+// The wedge of the survivor that is most like `wedge`, among those that `admitted(face, wedge)` lets in; none if there
+// is none.
+template <typename Admitted>
+WedgeNumber nearestWedge(const Sides& sides, WedgeNumber wedge, const Admitted& admitted) {
+    WedgeNumber nearest;
+    double least = std::numeric_limits<double>::infinity();
+    forEachSpoke(sides.mesh, sides.survivor, [&](HalfedgeHandle corner) {
+        const FaceHandle face = sides.mesh.face_handle(corner);
+        const WedgeNumber candidate = sides.mesh.wedge(corner);
+        if (!face.is_valid() || candidate == nearest || !admitted(face, candidate)) return;
+        const double distance = sides.mesh.wedges.difference(wedge, candidate);
+        if (nearest.isValid() && !(distance < least)) return;
+        nearest = candidate;
+        least = distance;
+    });
+    return nearest;
+}
+
+struct Choice {
+    WedgeNumber wedge;
+    Fit fit = Fit::good;
+};
+
+Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primitive) {
+    const WedgeTable& wedges = sides.mesh.wedges;
+    const auto inPrimitive = [&](FaceHandle face, WedgeNumber) { return sides.mesh.primitive(face) == primitive; };
+
+    // The survivor's wedges across the edge in the corner's chart. `exact` is on the same side of every crease as well.
+    WedgeNumber across;
+    WedgeNumber exact;
+    bool torn = false;     // a seam lies across the edge at the survivor
+    bool creased = false;  // a crease does
+    for (const EdgeSide& side : sides.both) {
+        if (!side.face.is_valid() || sides.mesh.primitive(side.face) != primitive) continue;
+        if (!wedges.sameChart(side.from, wedge)) continue;
+        torn = torn || (across.isValid() && !wedges.sameChart(across, side.to));
+        across = side.to;
+        if (side.from != wedge) continue;
+        creased = creased || (exact.isValid() && exact != side.to);
+        exact = side.to;
+    }
+    if (across.isValid() && !torn) {
+        if (exact.isValid() && !creased) return {exact, Fit::good};
+        const auto inChart = [&](FaceHandle face, WedgeNumber candidate) {
+            return inPrimitive(face, candidate) && wedges.sameChart(candidate, across);
+        };
+        return {nearestWedge(sides, wedge, inChart), Fit::good};
+    }
+
+    // A seam ends here (it lies across the edge) or begins (the corner's chart isn't at the edge): take what is most
+    // similar, if it is near enough in texture.
+    const WedgeNumber nearest = nearestWedge(sides, wedge, inPrimitive);
+    if (nearest.isValid()) {
+        bool leaves = sides.jumps(wedge, nearest);
+        for (const EdgeSide& side : sides.both)
+            leaves = leaves || (torn && side.face.is_valid() && sides.jumps(wedge, side.to));
+        return {nearest, leaves ? Fit::poor : Fit::good};
+    }
+    return {nearestWedge(sides, wedge, [](FaceHandle, WedgeNumber) { return true; }), Fit::bad};
+}
+
+// Squared edge length that weighs as much as a squared distance: decides on flat ground, where it favours even
+// triangles.
+constexpr float edgeWeight = 1e-4f;
+
+}  // namespace
+
+const std::string& ShapeModule::name() const {
+    static const std::string text = "shape";
+    return text;
+}
+
+float ShapeModule::collapse_priority(const CollapseInfo& collapse) {
+    const bool allowed = keepsTopology(collapse.v0v1) && judge(collapse.v0v1) < Fit::bad;
+    return static_cast<float>(allowed ? LEGAL_COLLAPSE : ILLEGAL_COLLAPSE);
+}
+
+bool ShapeModule::keepsTopology(HalfedgeHandle along) {
+    SurfaceMesh& surface = mesh();
+    if (!surface.is_collapse_ok(along)) return false;
+    const VertexHandle from = surface.from_vertex_handle(along);
+    const VertexHandle to = surface.to_vertex_handle(along);
+    std::size_t edgesBetween = 0;
+    std::size_t valence = 0;
+    forEachSpoke(surface, from, [&](HalfedgeHandle spoke) {
+        ++valence;
+        if (surface.to_vertex_handle(spoke) == to) ++edgesBetween;
+    });
+    if (edgesBetween != 1) return false;
+    // A tetrahedron, or a tip like one's.
+    const bool inside = !surface.is_boundary(from) && !surface.is_boundary(to);
+    return !(inside && valence == 3 && surface.valence(to) == 3);
+}
+
+Fit ShapeModule::judge(HalfedgeHandle along) {
+    const SurfaceMesh& surface = mesh();
+    const HalfedgeHandle back = surface.opposite_halfedge_handle(along);
+    const VertexHandle from = surface.to_vertex_handle(back);
+    const bool leavesBorder = surface.is_boundary(from) && !surface.is_boundary(along) && !surface.is_boundary(back);
+    Fit worst = leavesBorder ? Fit::poor : Fit::good;
+    const glm::dvec3 a = surface.place(from);
+    const glm::dvec3 target = surface.place(surface.to_vertex_handle(along));
+    forEachSpoke(surface, from, [&](HalfedgeHandle spoke) {
+        const FaceHandle face = surface.face_handle(spoke);
+        __builtin_prefetch(&surface.data(surface.to_vertex_handle(spoke)));  // it is priced anew after a collapse
+        if (worst == Fit::bad || !face.is_valid()) return;
+        if (face == surface.face_handle(along) || face == surface.face_handle(back)) return;
+        const glm::dvec3 b = surface.place(surface.to_vertex_handle(spoke));
+        const glm::dvec3 c = surface.place(surface.to_vertex_handle(surface.next_halfedge_handle(spoke)));
+        worst = std::max(worst, judgeMovedFace(a, b, c, target));
+    });
+    return worst;
+}
+
+const std::string& WedgeModule::name() const {
+    static const std::string text = "wedges";
+    return text;
+}
+
+float WedgeModule::collapse_priority(const CollapseInfo& collapse) {
+    return static_cast<float>(judge(collapse.v0v1) < Fit::bad ? LEGAL_COLLAPSE : ILLEGAL_COLLAPSE);
+}
+
+void WedgeModule::preprocess_collapse(const CollapseInfo& collapse) {
+    if (judged_ != collapse.v0v1) judge(collapse.v0v1);
+    SurfaceMesh& surface = mesh();
+    const glm::vec3 step(surface.step(collapse.v0, collapse.v1));
+    for (const Handover& handover : handovers_) {
+        WedgeNumber& wedge = surface.data(handover.corner).wedge;
+        if (wedge != handover.wedge) surface.wedges.moveQuadric(wedge, handover.wedge, step);
+        wedge = handover.wedge;
+    }
+    handovers_.clear();
+    judged_.reset();
+}
+
+void WedgeModule::postprocess_collapse(const CollapseInfo& collapse) {
+    SurfaceMesh& surface = mesh();
+    const auto replace = [&](HalfedgeHandle gone, HalfedgeHandle beside) {
+        surface.data(surface.opposite_halfedge_handle(beside)).wedge = surface.wedge(gone);
+    };
+    if (collapse.fl.is_valid()) replace(collapse.v0vl, collapse.vlv1);
+    if (collapse.fr.is_valid()) replace(collapse.vrv0, collapse.v1vr);
+}
+
+Fit WedgeModule::judge(HalfedgeHandle along) {
+    const SurfaceMesh& surface = mesh();
+    handovers_.clear();
+    judged_ = along;
+    const Sides sides = sidesOf(surface, along);
+    for (const EdgeSide& side : sides.both) {
+        if (!side.face.is_valid()) continue;
+        surface.wedges.prefetch(side.from);  // the collapse that may follow adds them up
+        surface.wedges.prefetch(side.to);
+    }
+    Fit worst = Fit::good;
+    Choice choice;
+    WedgeNumber lastWedge;
+    PrimitiveNumber lastPrimitive;
+    forEachSpoke(surface, surface.from_vertex_handle(along), [&](HalfedgeHandle corner) {
+        const FaceHandle face = surface.face_handle(corner);
+        if (!face.is_valid() || face == sides.both[0].face || face == sides.both[1].face) return;
+        const WedgeNumber wedge = surface.wedge(corner);
+        const PrimitiveNumber primitive = surface.primitive(face);
+        if (wedge != lastWedge || primitive != lastPrimitive) choice = chooseWedge(sides, wedge, primitive);
+        lastWedge = wedge;
+        lastPrimitive = primitive;
+        worst = std::max(worst, choice.fit);
+        handovers_.push_back({corner, choice.wedge});
+    });
+    return worst;
+}
+
+const std::string& QuadricModule::name() const {
+    static const std::string text = "places and attributes";
+    return text;
+}
+
+float QuadricModule::collapse_priority(const CollapseInfo& collapse) {
+    return cost(collapse.v0v1, std::numeric_limits<float>::infinity());
+}
+
+void QuadricModule::postprocess_collapse(const CollapseInfo& collapse) {
+    const glm::vec3 step(mesh().step(collapse.v0, collapse.v1));
+    mesh().data(collapse.v1).quadric.add(mesh().data(collapse.v0).quadric, step);
+}
+
+float QuadricModule::cost(HalfedgeHandle along, float most) {
+    const SurfaceMesh& surface = mesh();
+    const HalfedgeHandle back = surface.opposite_halfedge_handle(along);
+    const VertexHandle from = surface.to_vertex_handle(back);
+    const VertexHandle to = surface.to_vertex_handle(along);
+    const glm::vec3 step(surface.step(from, to));
+    const Quadric& own = surface.data(from).quadric;
+    float sum = own.at(step) + surface.data(to).quadric.c + own.weight * edgeWeight * glm::dot(step, step);
+    if (!(sum < most)) return sum;
+
+    // Attributes on either side of the edge, once where they are the same.
+    WedgeNumber leftFrom, leftTo;
+    if (!surface.is_boundary(along)) {
+        leftFrom = surface.wedge(along);
+        leftTo = surface.wedge(surface.next_halfedge_handle(along));
+        sum += surface.wedges.cost(leftFrom, leftTo, step);
+    }
+    if (surface.is_boundary(back) || !(sum < most)) return sum;
+    const WedgeNumber rightFrom = surface.wedge(surface.next_halfedge_handle(back));
+    const WedgeNumber rightTo = surface.wedge(back);
+    if (rightFrom == leftFrom && rightTo == leftTo) return sum;
+    return sum + surface.wedges.cost(rightFrom, rightTo, step);
+}
+
+Candidate QuadricModule::cheapest(VertexHandle v) {
+    // Ask for everything before the first is needed: collapses come from all over the mesh.
+    const SurfaceMesh& surface = mesh();
+    spokes_.clear();
+    forEachSpoke(surface, v, [&](HalfedgeHandle spoke) {
+        const VertexHandle to = surface.to_vertex_handle(spoke);
+        __builtin_prefetch(&surface.data(to));
+        const HalfedgeHandle atTo =
+            surface.is_boundary(spoke) ? surface.opposite_halfedge_handle(spoke) : surface.next_halfedge_handle(spoke);
+        surface.wedges.prefetchStart(surface.wedge(atTo));
+        spokes_.push_back(spoke);
+    });
+    Candidate best;
+    for (const HalfedgeHandle spoke : spokes_) {
+        const float price = cost(spoke, best.cost);
+        if (!(price < best.cost)) continue;
+        best.along = spoke;
+        best.cost = price;
+    }
+    return best;
+}
 
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along) {
     const Fit shape = s.modules->shape.judge(along);
@@ -37,17 +333,17 @@ VertexHandle survivorOf(Simplifier& s, VertexHandle v) {
 }
 
 void compact(Simplifier& s) {
-    std::vector<VertexHandle> numbers;
+    Numbered<VertexHandle, VertexHandle> numbers;
     std::unique_ptr<SurfaceMesh> living = livingCopy(*s.mesh, numbers);
     for (VertexHandle& v : s.current)
-        if (v = survivorOf(s, v); v.is_valid()) v = numbers[indexOf(v)];
+        if (v = survivorOf(s, v); v.is_valid()) v = numbers[v];
     s.modules.reset();
     s.mesh = std::move(living);
     s.modules.emplace(*s.mesh);
     if (numbers.size() >= fewestToGiveBack) giveBackFreedMemory();
     s.survivors.resize(s.mesh->n_vertices());
     s.survivors.shrink_to_fit();
-    for (std::size_t v = 0; v < s.survivors.size(); ++v) s.survivors[v] = VertexHandle(static_cast<int>(v));
+    for (const VertexHandle v : s.survivors.numbers()) s.survivors[v] = v;
 }
 
 }  // namespace defocus

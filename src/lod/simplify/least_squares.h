@@ -12,7 +12,11 @@
 #include <span>
 #include <vector>
 
+#include "lod/simplify/number.h"
+
 namespace defocus {
+
+using UnknownNumber = Number<struct UnknownKind>;
 
 // Σ share·weightᵢ·weightⱼ over the points of one triangle, for (i, j) = 00, 11, 22, 01, 12, 20.
 using TriangleSums = std::array<float, 6>;
@@ -20,15 +24,15 @@ using TriangleSums = std::array<float, 6>;
 struct LeastSquares {
     // Up to four values at each corner, with which GCC and Clang compute at once; those not needed are 0.
     using Row = float __attribute__((vector_size(16)));
-    using Rows = std::vector<Row>;
+    using Rows = Numbered<UnknownNumber, Row>;
     static constexpr std::size_t channels = 4;
 
     std::span<const TriangleSums> triangles;
-    std::vector<std::uint32_t> corners;  // the unknown at each corner, three a triangle
-    // Of each unknown:
-    std::vector<float> weights;  // Σ share·weight; 0: it keeps its start
-    Rows sums;                   // Σ share·weight·target
-    Rows solution;               // start, and prior; then the solution
+    Numbered<TriangleCorner, UnknownNumber> corners;
+    Numbered<UnknownNumber, float> weights;      // Σ share·weight; 0: it keeps its start
+    Rows sums;                                   // Σ share·weight·target
+    Rows solution;                               // start, and prior; then the solution
+    Numbered<UnknownNumber, std::uint8_t> held;  // 1: it keeps its start; empty: none does
 
     static constexpr int iterations = 4;  // more change nothing that can be seen
     // Pull towards the prior, as a share of an unknown's weight: keeps those with few points from overshooting.
@@ -37,44 +41,48 @@ struct LeastSquares {
     // `sums` is spent on it.
     void solve() {
         inverseDiagonal_.resize(weights.size());
-        for (std::size_t g = 0; g < weights.size(); ++g) inverseDiagonal_[g] = pull * weights[g];
+        for (const UnknownNumber g : weights.numbers()) inverseDiagonal_[g] = pull * weights[g];
         for (std::size_t t = 0; t < triangles.size(); ++t)
-            for (std::size_t k = 0; k < 3; ++k) inverseDiagonal_[corners[3 * t + k]] += triangles[t][k];
+            for (std::size_t k = 0; k < 3; ++k) inverseDiagonal_[cornersOf(t)[k]] += triangles[t][k];
         for (float& d : inverseDiagonal_) d = d > 0 ? 1 / d : 0;
+        for (const UnknownNumber g : held.numbers())
+            if (held[g] != 0) inverseDiagonal_[g] = 0;
         Rows image(weights.size());
         apply(solution, image);
         Rows& residual = sums;
-        for (std::size_t g = 0; g < weights.size(); ++g) residual[g] += pull * weights[g] * solution[g] - image[g];
+        for (const UnknownNumber g : weights.numbers()) residual[g] += pull * weights[g] * solution[g] - image[g];
 
         Rows direction(weights.size());
-        for (std::size_t g = 0; g < weights.size(); ++g) direction[g] = inverseDiagonal_[g] * residual[g];
+        for (const UnknownNumber g : weights.numbers()) direction[g] = inverseDiagonal_[g] * residual[g];
         Row energy = dot(residual, direction);
         for (int iteration = 0; iteration < iterations; ++iteration) {
             apply(direction, image);
             const Row curvature = dot(direction, image);
             Row step{};
             for (std::size_t c = 0; c < channels; ++c) step[c] = curvature[c] > 0 ? energy[c] / curvature[c] : 0;
-            for (std::size_t g = 0; g < weights.size(); ++g) {
+            for (const UnknownNumber g : weights.numbers()) {
                 solution[g] += step * direction[g];
                 residual[g] -= step * image[g];
             }
             Rows& next = image;
-            for (std::size_t g = 0; g < weights.size(); ++g) next[g] = inverseDiagonal_[g] * residual[g];
+            for (const UnknownNumber g : weights.numbers()) next[g] = inverseDiagonal_[g] * residual[g];
             const Row nextEnergy = dot(residual, next);
             Row turn{};
             for (std::size_t c = 0; c < channels; ++c) turn[c] = energy[c] > 0 ? nextEnergy[c] / energy[c] : 0;
-            for (std::size_t g = 0; g < weights.size(); ++g) direction[g] = next[g] + turn * direction[g];
+            for (const UnknownNumber g : weights.numbers()) direction[g] = next[g] + turn * direction[g];
             energy = nextEnergy;
         }
     }
 
 private:
+    [[nodiscard]] const UnknownNumber* cornersOf(std::size_t triangle) const { return &corners.data()[3 * triangle]; }
+
     // The normal equations' matrix times `x`.
     void apply(const Rows& x, Rows& result) const {
-        for (std::size_t g = 0; g < x.size(); ++g) result[g] = pull * weights[g] * x[g];
+        for (const UnknownNumber g : x.numbers()) result[g] = pull * weights[g] * x[g];
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             const TriangleSums& m = triangles[t];
-            const std::uint32_t* g = &corners[3 * t];
+            const UnknownNumber* g = cornersOf(t);
             const Row a = x[g[0]];
             const Row b = x[g[1]];
             const Row d = x[g[2]];
@@ -86,14 +94,14 @@ private:
 
     static Row dot(const Rows& a, const Rows& b) {
         std::array<double, channels> sums{};
-        for (std::size_t g = 0; g < a.size(); ++g)
+        for (const UnknownNumber g : a.numbers())
             for (std::size_t c = 0; c < channels; ++c) sums[c] += double{a[g][c]} * double{b[g][c]};
         Row result{};
         for (std::size_t c = 0; c < channels; ++c) result[c] = static_cast<float>(sums[c]);
         return result;
     }
 
-    std::vector<float> inverseDiagonal_;  // 0 for 0
+    Numbered<UnknownNumber, float> inverseDiagonal_;  // 0 for 0
 };
 
 }  // namespace defocus

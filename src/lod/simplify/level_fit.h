@@ -1,15 +1,15 @@
 #pragma once
-// Positions, normals and colours for a coarser level. The values that its vertices happen to have pick up single spots
-// of a pattern and single bumps of a relief, and a level whose vertices all lie on a bulging surface is too small for
-// it. Instead what the level interpolates linearly is fitted to all vertices of level 0, in the sense of least squares
-// (as Hoppe et al. 1993, Mesh Optimization, fit positions; Jacobi-preconditioned conjugate gradients, Hestenes and
-// Stiefel 1952).
+// Positions, normals, colours and texture coordinates for a coarser level. The values that its vertices happen to have
+// pick up single spots of a pattern and single bumps of a relief, and a level whose vertices all lie on a bulging
+// surface is too small for it. Instead what the level interpolates linearly is fitted to all vertices of level 0, in
+// the sense of least squares (as Hoppe et al. 1993, Mesh Optimization, fit positions; Jacobi-preconditioned conjugate
+// gradients, Hestenes and Stiefel 1952).
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/bounds.h"
+#include "lod/simplify/outline.h"
 #include "lod/simplify/triangle_set.h"
 #include "lod/simplify/weld.h"
 #include "scene/mesh.h"
@@ -19,46 +19,78 @@ namespace defocus {
 // Where a vertex of level 0 lies on a coarser level: a point of one of its triangles, as a weighted mean of the
 // corners. Weights of 0 leave the vertex out.
 struct Anchor {
-    std::uint32_t triangle = 0;
+    TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
-    float count = 1;  // of vertices that it stands for
+    // A vertex near this one, at whose anchor its area, colour and normal count; by default at none.
+    MeshVertexNumber sharedWith = {};
 };
 
-// A level's triangles, with vertices numbered from 0.
+// A component of a level is scaled about `centre`, once it is fitted, so that it has `area`: what the mesh had of it
+// and of those that it stands in for. It neither shrinks nor grows by more than `mostFactor`.
+struct Growth {
+    glm::dvec3 centre{0};  // object units
+    double area = 0;       // object units squared
+    double mostFactor = 1;
+};
+
 struct LevelMesh {
-    TriangleSet triangles;
-    std::vector<std::uint32_t> sources;  // for each vertex, which one of the mesh's it has its values from
-    // For each vertex; 1: it is on the other side of a thin sheet than the others at its place, and shares its normal
+    TriangleSet<LevelVertexNumber> triangles;
+    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // whose values each vertex has; no twin
+    // 1: the vertex is on the other side of a thin sheet than the others at its place, and shares its normal
     // and colour only with those that are as well.
-    std::vector<std::uint8_t> apart;
+    Numbered<LevelVertexNumber, std::uint8_t> apart;
+    Numbered<ComponentNumber, Growth> growths;
+    Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // empty without any
 };
 
 // The values of each vertex of a LevelMesh.
 struct LevelFit {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;   // of length ≤ 1: the shorter, the more the normals that it stands for differ
-    std::vector<glm::u8vec4> colors;  // empty without colours
+    Numbered<LevelVertexNumber, glm::vec3> positions;
+    Numbered<LevelVertexNumber, glm::vec3>
+        normals;  // of length ≤ 1: the shorter, the more the normals that it stands for differ
+    Numbered<LevelVertexNumber, glm::vec4> colors;    // may lie outside [0, 1]; empty without colours
+    Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };
 
-// What all levels of a mesh are fitted to. Vertices with equal numbers in `smoothing` share a normal (smoothingGroups),
-// those with equal numbers in `shades` a colour; the number is that of one of them.
+// What all levels of a mesh are fitted to.
 struct FitSource {
     const Vertices& vertices;
-    const Welded& positions;
-    std::span<const std::uint32_t> smoothing;
-    std::vector<std::uint32_t> shades;  // empty without colours
-    std::vector<float> areas;           // the share of level 0's surface that each vertex stands for, mean 1
-    Bounds bounds;                      // of level 0's triangles
+    const WeldedPositions& positions;
+    const VertexGroups& smoothing;                   // vertices of one share a normal
+    VertexGroups shades;                             // vertices of one share a colour; empty without colours
+    VertexGroups charts;                             // and here texture coordinates; empty without
+    Numbered<MeshVertexNumber, std::uint8_t> seams;  // 1: others at its position have other ones; empty without
+    Numbered<MeshVertexNumber, float> areas;  // the share of level 0's surface that each vertex stands for, mean 1
+    Bounds bounds;                            // of level 0's triangles
+    // What level 0 has of what levels keep: see the functions below.
+    glm::dvec4 meanColor{0};
+    std::vector<CoverGrid> outlines;
 };
 
-// Prepares the fit; `indices` are level 0's triangles. Keeps references to the other three.
-FitSource prepareFit(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
-                     std::span<const std::uint32_t> indices);
+// Prepares the fit; `triangles` are level 0's. Keeps references to the other three.
+FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
+                     const TriangleSet<MeshVertexNumber>& triangles);
 
-// Fits a level. `anchors` holds one entry a vertex of the mesh, which counts by its area, foreshortened on its
+// Fits a level. Each vertex of the mesh counts by its area, foreshortened on its anchor's
 // triangle; vertices that no anchor names keep the values they have from the mesh. The fit turns no triangle by more
 // than 60° and leaves no part of them outside level 0's box. Vertices at one position stay at one; those whose normals
 // agree within a degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
-LevelFit fitLevel(const FitSource& source, const LevelMesh& level, std::vector<Anchor> anchors);
+LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
+
+// Corrects a fitted level until it keeps what a wide blur would show of level 0:
+// - the area that it covers, where it is so coarse that it may lose any: what lies at its outlines moves (outline.h);
+// - the mean colour over its area, alpha included: all colours are shifted alike.
+// What fitLevel promises of places and of normals that are shared still holds; a triangle turns by at most 60° more.
+void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
+
+// The means of the colours over a level's area, and those of what its anchors stand for in level 0: of each patch of
+// the level's triangles, which are numbered from 0. A patch that no anchor names has an area of 0 there.
+struct PatchMeans {
+    std::vector<double> areas, areas0;  // the second in means of all vertices' areas
+    std::vector<glm::dvec4> colors, colors0;
+};
+PatchMeans patchMeans(const FitSource& source, const LevelMesh& level, const LevelFit& fit,
+                      const Numbered<MeshVertexNumber, Anchor>& anchors,
+                      const Numbered<TriangleNumber, std::uint32_t>& patchOf);
 
 }  // namespace defocus

@@ -4,10 +4,12 @@
 #include "lod/simplify/manifold.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "lod/simplify/triangle_set.h"
 
@@ -23,138 +25,130 @@ constexpr std::uint8_t turnedRepair = 1;
 constexpr std::uint8_t cutRepair = 2;
 constexpr std::uint8_t splitRepair = 4;
 
-// What is known while the surface is put together; faces are those that were kept, corners and half-edges are 3·face +
-// i.
+// What is known while the surface is put together; its faces are those that were kept.
 struct PairedSurface {
-    const std::vector<glm::dvec3>& points;
-    std::vector<std::uint32_t> at;          // welded position of each corner
-    std::vector<std::uint32_t> primitives;  // of each face
-    std::vector<std::uint8_t> turned;
-    std::vector<std::uint8_t> repaired;  // of each face: turnedRepair, cutRepair, splitRepair
-    std::vector<std::uint32_t> twins;
+    const Numbered<PositionNumber, glm::dvec3>& points;
+    Numbered<SurfaceCorner, PositionNumber> at;
+    Numbered<SurfaceFaceNumber, PrimitiveNumber> primitives;
+    Numbered<SurfaceFaceNumber, std::uint8_t> turned;
+    Numbered<SurfaceFaceNumber, std::uint8_t> repaired;  // turnedRepair, cutRepair, splitRepair
+    Numbered<SurfaceCorner, SurfaceCorner> twins;
 
     [[nodiscard]] std::size_t faceCount() const { return primitives.size(); }
-    [[nodiscard]] std::uint32_t start(std::uint32_t edge) const { return at[edge]; }
-    [[nodiscard]] std::uint32_t end(std::uint32_t edge) const { return at[nextCorner(edge)]; }
+    [[nodiscard]] PositionNumber start(SurfaceCorner edge) const { return at[edge]; }
+    [[nodiscard]] PositionNumber end(SurfaceCorner edge) const { return at[nextCorner(edge)]; }
     // Which way the edge is run through once its face has been turned or not.
-    [[nodiscard]] bool forward(std::uint32_t edge) const {
-        return (start(edge) < end(edge)) != (turned[edge / 3] != 0);
+    [[nodiscard]] bool forward(SurfaceCorner edge) const {
+        return (start(edge) < end(edge)) != (turned[faceOf(edge)] != 0);
     }
 };
 
-// Keys 0 … keyCount − 1 as buckets: what has key k is at first[k] … first[k + 1] − 1, in the order it came.
-template <typename Key>
-std::vector<std::uint32_t> bucketed(std::uint32_t count, std::size_t keyCount, const Key& key,
-                                    std::vector<std::uint32_t>& first) {
-    constexpr auto skipped = Manifold::none;
-    first.assign(keyCount + 1, 0);
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (const std::uint32_t k = key(i); k != skipped) ++first[k + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<std::uint32_t> order(first.back());
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (const std::uint32_t k = key(i); k != skipped) order[next[k]++] = i;
-    return order;
-}
-
-// The faces that are neither degenerate nor repetitions, in input order.
-std::vector<std::uint32_t> properFaces(const TriangleSet& triangles, const std::vector<std::uint32_t>& primitives,
-                                       std::size_t positionCount) {
-    const auto corners = [&](std::uint32_t face) { return &triangles.indices[3 * std::size_t{face}]; };
-    const auto least = [&](std::uint32_t face) {
-        const std::uint32_t* p = corners(face);
-        if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return Manifold::none;
-        return std::min({p[0], p[1], p[2]});
-    };
-    const auto faceCount = static_cast<std::uint32_t>(triangles.count());
-    std::vector<std::uint32_t> first;
-    const std::vector<std::uint32_t> order = bucketed(faceCount, positionCount, least, first);
+// The triangles that are neither degenerate nor repetitions, in input order.
+Numbered<SurfaceFaceNumber, TriangleNumber> properFaces(const TriangleSet<PositionNumber>& triangles,
+                                                        const Numbered<TriangleNumber, PrimitiveNumber>& primitives,
+                                                        std::size_t positionCount) {
+    const Buckets<PositionNumber, TriangleNumber> atLeast(positionCount, triangles.count(),
+                                                          [&](TriangleNumber triangle) {
+                                                              const auto p = triangles.corners(triangle);
+                                                              if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0])
+                                                                  return PositionNumber();
+                                                              return std::min({p[0], p[1], p[2]});
+                                                          });
 
     // Equal faces share their smallest position; few have any one.
     struct Key {
-        std::array<std::uint32_t, 3> value;  // the other two positions in winding order, then the primitive
-        std::uint32_t face;
+        PositionNumber next, previous;  // the other two in winding order
+        PrimitiveNumber primitive;
+        TriangleNumber triangle;
+
+        [[nodiscard]] auto face() const { return std::tie(next, previous, primitive); }
+        auto operator<=>(const Key&) const = default;
     };
     std::vector<Key> keys;
-    std::vector<std::uint8_t> kept(faceCount, 0);
-    for (std::size_t position = 0; position < positionCount; ++position) {
+    Numbered<TriangleNumber, std::uint8_t> kept(triangles.count(), 0);
+    for (const PositionNumber position : atLeast.keys()) {
         keys.clear();
-        for (std::uint32_t i = first[position]; i < first[position + 1]; ++i) {
-            const std::uint32_t* p = corners(order[i]);
-            const auto at = static_cast<std::size_t>(std::find(p, p + 3, position) - p);
-            keys.push_back({{p[(at + 1) % 3], p[(at + 2) % 3], primitives[order[i]]}, order[i]});
+        for (const TriangleNumber triangle : atLeast[position]) {
+            const auto p = triangles.corners(triangle);
+            const auto at = static_cast<std::size_t>(std::find(p.begin(), p.end(), position) - p.begin());
+            keys.push_back({p[(at + 1) % 3], p[(at + 2) % 3], primitives[triangle], triangle});
         }
-        std::sort(keys.begin(), keys.end(),
-                  [](const Key& a, const Key& b) { return a.value != b.value ? a.value < b.value : a.face < b.face; });
+        std::sort(keys.begin(), keys.end());
         for (std::size_t i = 0; i < keys.size(); ++i)
-            if (i == 0 || keys[i].value != keys[i - 1].value) kept[keys[i].face] = 1;
+            if (i == 0 || keys[i].face() != keys[i - 1].face()) kept[keys[i].triangle] = 1;
     }
-    std::vector<std::uint32_t> faces;
-    faces.reserve(order.size());
-    for (std::uint32_t face = 0; face < faceCount; ++face)
-        if (kept[face] != 0) faces.push_back(face);
+    Numbered<SurfaceFaceNumber, TriangleNumber> faces;
+    faces.reserve(atLeast.itemCount());
+    for (const TriangleNumber triangle : triangles.numbers())
+        if (kept[triangle] != 0) faces.push_back(triangle);
     return faces;
 }
 
 // The half-edges grouped by the pair of positions that they join: group g is order[starts[g]] … order[starts[g + 1] −
 // 1].
 struct EdgeGroups {
-    std::vector<std::uint32_t> order;
+    std::vector<SurfaceCorner> order;
     std::vector<std::uint32_t> starts;
+
+    [[nodiscard]] std::size_t count() const { return starts.size() - 1; }
+    [[nodiscard]] std::span<const SurfaceCorner> operator[](std::size_t g) const {
+        return std::span(order).subspan(starts[g], starts[g + 1] - starts[g]);
+    }
 };
 
 EdgeGroups groupEdges(const PairedSurface& surface) {
-    const auto edgeCount = static_cast<std::uint32_t>(surface.at.size());
-    const auto low = [&](std::uint32_t e) { return std::min(surface.start(e), surface.end(e)); };
-    const auto high = [&](std::uint32_t e) { return std::max(surface.start(e), surface.end(e)); };
+    const std::size_t edgeCount = surface.at.size();
+    const auto low = [&](SurfaceCorner e) { return std::min(surface.start(e), surface.end(e)); };
+    const auto high = [&](SurfaceCorner e) { return std::max(surface.start(e), surface.end(e)); };
 
     // Bucket by the lower position, then sort the few edges of each bucket by the higher one.
-    std::vector<std::uint32_t> first;
+    Buckets<PositionNumber, SurfaceCorner> byLow(surface.points.size(), edgeCount, low);
     EdgeGroups groups;
-    groups.order = bucketed(edgeCount, surface.points.size(), low, first);
     groups.starts.reserve(edgeCount / 2 + edgeCount / 16);
-    std::vector<std::uint64_t> keys;  // higher positions above half-edges
-    for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+    std::uint32_t seen = 0;
+    std::vector<std::pair<PositionNumber, SurfaceCorner>> keys;  // higher positions before half-edges
+    for (const PositionNumber p : byLow.keys()) {
         keys.clear();
-        for (std::uint32_t i = first[p]; i < first[p + 1]; ++i)
-            keys.push_back(std::uint64_t{high(groups.order[i])} << 32 | groups.order[i]);
+        const std::span<SurfaceCorner> edges = byLow[p];
+        for (const SurfaceCorner e : edges) keys.emplace_back(high(e), e);
         std::sort(keys.begin(), keys.end());
         for (std::size_t k = 0; k < keys.size(); ++k) {
-            const auto i = static_cast<std::uint32_t>(first[p] + k);
-            groups.order[i] = static_cast<std::uint32_t>(keys[k]);
-            if (k == 0 || keys[k] >> 32 != keys[k - 1] >> 32) groups.starts.push_back(i);
+            edges[k] = keys[k].second;
+            if (k == 0 || keys[k].first != keys[k - 1].first) groups.starts.push_back(seen);
+            ++seen;
         }
     }
-    groups.starts.push_back(edgeCount);
+    groups.starts.push_back(seen);
+    groups.order = byLow.takeItems();
     return groups;
 }
 
 // Turns the minority of each component's faces so that neighbours across edges of two faces agree, where they can (a
 // Möbius band stays cut at one edge).
 void orient(PairedSurface& surface, const EdgeGroups& groups) {
-    std::vector<std::uint32_t> across(surface.at.size(), Manifold::none);
-    for (std::size_t g = 0; g + 1 < groups.starts.size(); ++g) {
-        if (groups.starts[g + 1] - groups.starts[g] != 2) continue;
-        const std::uint32_t a = groups.order[groups.starts[g]];
-        const std::uint32_t b = groups.order[groups.starts[g] + 1];
+    Numbered<SurfaceCorner, SurfaceCorner> across(surface.at.size());
+    for (std::size_t g = 0; g < groups.count(); ++g) {
+        if (groups[g].size() != 2) continue;
+        const SurfaceCorner a = groups[g][0];
+        const SurfaceCorner b = groups[g][1];
         const bool sameFace = surface.at[previousCorner(a)] == surface.at[previousCorner(b)];
         if (sameFace && surface.forward(a) == surface.forward(b)) continue;  // once more in another primitive
         across[a] = b;
         across[b] = a;
     }
 
-    std::vector<std::uint8_t> reached(surface.faceCount(), 0);
-    std::vector<std::uint32_t> component;
-    for (std::uint32_t seed = 0; seed < surface.faceCount(); ++seed) {
+    Numbered<SurfaceFaceNumber, std::uint8_t> reached(surface.faceCount(), 0);
+    std::vector<SurfaceFaceNumber> component;
+    for (const SurfaceFaceNumber seed : reached.numbers()) {
         if (reached[seed] != 0) continue;
         reached[seed] = 1;
         component.assign(1, seed);
         std::size_t turnedCount = 0;
         for (std::size_t i = 0; i < component.size(); ++i) {
-            for (std::uint32_t e = 3 * component[i]; e < 3 * component[i] + 3; ++e) {
-                if (across[e] == Manifold::none || reached[across[e] / 3] != 0) continue;
-                const std::uint32_t neighbour = across[e] / 3;
+            for (std::uint32_t side = 0; side < 3; ++side) {
+                const SurfaceCorner e = cornerAt(component[i], side);
+                if (!across[e].isValid() || reached[faceOf(across[e])] != 0) continue;
+                const SurfaceFaceNumber neighbour = faceOf(across[e]);
                 reached[neighbour] = 1;
                 if (surface.forward(e) == surface.forward(across[e])) {
                     surface.turned[neighbour] = 1;
@@ -164,17 +158,16 @@ void orient(PairedSurface& surface, const EdgeGroups& groups) {
             }
         }
         const bool turnOthers = 2 * turnedCount > component.size();
-        for (const std::uint32_t face : component) {
+        for (const SurfaceFaceNumber face : component) {
             if (turnOthers) surface.turned[face] ^= 1;
             if (surface.turned[face] != 0) surface.repaired[face] |= turnedRepair;
         }
     }
 }
 
-glm::dvec3 faceNormal(const PairedSurface& surface, std::uint32_t face) {
-    const glm::dvec3& a = surface.points[surface.at[3 * face]];
-    glm::dvec3 normal =
-        glm::cross(surface.points[surface.at[3 * face + 1]] - a, surface.points[surface.at[3 * face + 2]] - a);
+glm::dvec3 faceNormal(const PairedSurface& surface, SurfaceFaceNumber face) {
+    const auto point = [&](std::uint32_t i) { return surface.points[surface.at[cornerAt(face, i)]]; };
+    glm::dvec3 normal = glm::cross(point(1) - point(0), point(2) - point(0));
     if (surface.turned[face] != 0) normal = -normal;
     const double length = glm::length(normal);
     return length > 0 ? normal / length : glm::dvec3(0);
@@ -182,21 +175,20 @@ glm::dvec3 faceNormal(const PairedSurface& surface, std::uint32_t face) {
 
 // Pairs the half-edges at one edge: same primitive before flatter before earlier. A face and its reverse (a sheet with
 // two faces) only close onto each other where nothing else continues them.
-void pairEdges(PairedSurface& surface, const std::uint32_t* edges, std::size_t count) {
+void pairEdges(PairedSurface& surface, std::span<const SurfaceCorner> edges) {
     struct Candidate {
         double score;
-        std::uint32_t forward, backward;
+        SurfaceCorner forward, backward;
     };
     std::vector<Candidate> candidates;
-    for (std::size_t i = 0; i < count && count <= mostFacesToPair; ++i) {
-        if (!surface.forward(edges[i])) continue;
-        const glm::dvec3 normal = faceNormal(surface, edges[i] / 3);
-        for (std::size_t j = 0; j < count; ++j) {
-            if (surface.forward(edges[j])) continue;
-            const std::uint32_t a = edges[i];
-            const std::uint32_t b = edges[j];
-            double score = glm::dot(normal, faceNormal(surface, b / 3));
-            if (surface.primitives[a / 3] == surface.primitives[b / 3]) score += 4;
+    const bool tooMany = edges.size() > mostFacesToPair;
+    for (const SurfaceCorner a : tooMany ? std::span<const SurfaceCorner>() : edges) {
+        if (!surface.forward(a)) continue;
+        const glm::dvec3 normal = faceNormal(surface, faceOf(a));
+        for (const SurfaceCorner b : edges) {
+            if (surface.forward(b)) continue;
+            double score = glm::dot(normal, faceNormal(surface, faceOf(b)));
+            if (surface.primitives[faceOf(a)] == surface.primitives[faceOf(b)]) score += 4;
             if (surface.at[previousCorner(a)] == surface.at[previousCorner(b)]) score -= 16;
             candidates.push_back({score, a, b});
         }
@@ -204,65 +196,63 @@ void pairEdges(PairedSurface& surface, const std::uint32_t* edges, std::size_t c
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     for (const Candidate& candidate : candidates) {
-        if (surface.twins[candidate.forward] != Manifold::none || surface.twins[candidate.backward] != Manifold::none)
-            continue;
+        if (surface.twins[candidate.forward].isValid() || surface.twins[candidate.backward].isValid()) continue;
         surface.twins[candidate.forward] = candidate.backward;
         surface.twins[candidate.backward] = candidate.forward;
     }
-    for (std::size_t i = 0; i < count; ++i)
-        if (surface.twins[edges[i]] == Manifold::none) surface.repaired[edges[i] / 3] |= cutRepair;
+    for (const SurfaceCorner edge : edges)
+        if (!surface.twins[edge].isValid()) surface.repaired[faceOf(edge)] |= cutRepair;
 }
 
 void pairAllEdges(PairedSurface& surface, const EdgeGroups& groups) {
-    for (std::size_t g = 0; g + 1 < groups.starts.size(); ++g) {
-        const std::uint32_t* edges = &groups.order[groups.starts[g]];
-        const std::size_t count = groups.starts[g + 1] - groups.starts[g];
-        if (count == 1) continue;
-        if (count == 2 && surface.forward(edges[0]) != surface.forward(edges[1])) {
+    for (std::size_t g = 0; g < groups.count(); ++g) {
+        const std::span<const SurfaceCorner> edges = groups[g];
+        if (edges.size() == 1) continue;
+        if (edges.size() == 2 && surface.forward(edges[0]) != surface.forward(edges[1])) {
             surface.twins[edges[0]] = edges[1];
             surface.twins[edges[1]] = edges[0];
         } else {
-            pairEdges(surface, edges, count);
+            pairEdges(surface, edges);
         }
     }
 }
 
 // Numbers the fans: corners that are joined by paired edges are one vertex. Union-find, the smaller corner is the root.
 void numberVertices(PairedSurface& surface, Manifold& manifold) {
-    std::vector<std::uint32_t> parent(surface.at.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t corner) {
+    Numbered<SurfaceCorner, SurfaceCorner> parent(surface.at.size());
+    for (const SurfaceCorner corner : parent.numbers()) parent[corner] = corner;
+    const auto root = [&](SurfaceCorner corner) {
         while (parent[corner] != corner) corner = parent[corner] = parent[parent[corner]];
         return corner;
     };
-    for (std::uint32_t e = 0; e < surface.at.size(); ++e) {
-        const std::uint32_t twin = surface.twins[e];
-        if (twin == Manifold::none || twin < e) continue;
-        for (const std::uint32_t mine : {e, nextCorner(e)}) {
-            const std::uint32_t theirs = surface.at[mine] == surface.at[twin] ? twin : nextCorner(twin);
-            const std::uint32_t a = root(mine);
-            const std::uint32_t b = root(theirs);
+    for (const SurfaceCorner e : surface.at.numbers()) {
+        const SurfaceCorner twin = surface.twins[e];
+        if (!twin.isValid() || twin < e) continue;
+        for (const SurfaceCorner mine : {e, nextCorner(e)}) {
+            const SurfaceCorner theirs = surface.at[mine] == surface.at[twin] ? twin : nextCorner(twin);
+            const SurfaceCorner a = root(mine);
+            const SurfaceCorner b = root(theirs);
             parent[std::max(a, b)] = std::min(a, b);
         }
     }
 
     manifold.corners.resize(surface.at.size());
-    std::vector<std::uint8_t> taken(surface.points.size(), 0);  // positions that have a vertex already
-    std::vector<std::uint8_t> further;                          // for each vertex: not the first of its position
-    for (std::uint32_t corner = 0; corner < surface.at.size(); ++corner) {
-        const std::uint32_t fan = root(corner);
+    Numbered<PositionNumber, std::uint8_t> taken(surface.points.size(), 0);  // has a vertex already
+    Numbered<SurfaceVertexNumber, std::uint8_t> further;                     // not the first of its position
+    for (const SurfaceCorner corner : surface.at.numbers()) {
+        const SurfaceCorner fan = root(corner);
         if (fan == corner) {
-            manifold.corners[corner] = static_cast<std::uint32_t>(manifold.positions.size());
+            manifold.corners[corner] = manifold.positions.next();
             manifold.positions.push_back(surface.at[corner]);
             further.push_back(taken[surface.at[corner]]);
             taken[surface.at[corner]] = 1;
         }
         manifold.corners[corner] = manifold.corners[fan];
-        if (further[manifold.corners[corner]] != 0) surface.repaired[corner / 3] |= splitRepair;
+        if (further[manifold.corners[corner]] != 0) surface.repaired[faceOf(corner)] |= splitRepair;
     }
 }
 
-Repairs repairsOf(const PairedSurface& surface, std::size_t inputFaces) {
+Repairs countedRepairs(const PairedSurface& surface, std::size_t inputFaces) {
     Repairs repairs;
     repairs.dropped = static_cast<std::uint32_t>(inputFaces - surface.faceCount());
     repairs.faces = repairs.dropped;
@@ -277,36 +267,38 @@ Repairs repairsOf(const PairedSurface& surface, std::size_t inputFaces) {
 
 }  // namespace
 
-TriangleSet weldedTriangles(const TriangleSet& triangles, const Welded& positions,
-                            const std::vector<glm::dvec3>& points) {
-    TriangleSet welded;
+TriangleSet<PositionNumber> weldedTriangles(const TriangleSet<MeshVertexNumber>& triangles,
+                                            const WeldedPositions& positions,
+                                            const Numbered<PositionNumber, glm::dvec3>& points) {
+    TriangleSet<PositionNumber> welded;
     welded.primitiveIndexCounts = triangles.primitiveIndexCounts;
     welded.indices.reserve(triangles.indices.size());
-    for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3) {
-        const std::uint32_t p[3] = {positions.id[triangles.indices[i]], positions.id[triangles.indices[i + 1]],
-                                    positions.id[triangles.indices[i + 2]]};
+    for (const TriangleNumber triangle : triangles.numbers()) {
+        const auto v = triangles.corners(triangle);
+        const PositionNumber p[3] = {positions.id[v[0]], positions.id[v[1]], positions.id[v[2]]};
         const glm::dvec3 sum = points[p[0]] + points[p[1]] + points[p[2]];
         const bool proper = std::isfinite(sum.x + sum.y + sum.z);
-        for (const std::uint32_t corner : p) welded.indices.push_back(proper ? corner : p[0]);
+        for (const PositionNumber corner : p) welded.indices.push_back(proper ? corner : p[0]);
     }
     return welded;
 }
 
-Manifold buildManifold(const TriangleSet& triangles, const std::vector<glm::dvec3>& points) {
+Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
+                       const Numbered<PositionNumber, glm::dvec3>& points) {
     // Keep the faces that can be part of a surface.
     Manifold manifold;
-    const std::vector<std::uint32_t> primitives = primitivesOf(triangles);
+    const Numbered<TriangleNumber, PrimitiveNumber> primitives = primitivesOf(triangles);
     manifold.faces = properFaces(triangles, primitives, points.size());
     const std::size_t count = manifold.faces.size();
     PairedSurface surface{points, {}, {}, {}, {}, {}};
     surface.turned.assign(count, 0);
     surface.repaired.assign(count, 0);
-    surface.twins.assign(3 * count, Manifold::none);
+    surface.twins.resize(3 * count);
     surface.at.reserve(3 * count);
     surface.primitives.reserve(count);
-    for (const std::uint32_t face : manifold.faces) {
-        for (std::size_t i = 0; i < 3; ++i) surface.at.push_back(triangles.indices[3 * std::size_t{face} + i]);
-        surface.primitives.push_back(primitives[face]);
+    for (const TriangleNumber triangle : manifold.faces) {
+        for (const PositionNumber p : triangles.corners(triangle)) surface.at.push_back(p);
+        surface.primitives.push_back(primitives[triangle]);
     }
 
     // Make neighbours agree, join them edge by edge, and give each fan its vertex.
@@ -317,8 +309,23 @@ Manifold buildManifold(const TriangleSet& triangles, const std::vector<glm::dvec
 
     manifold.turned = std::move(surface.turned);
     manifold.twins = std::move(surface.twins);
-    manifold.repairs = repairsOf(surface, triangles.count());
+    manifold.repairs = countedRepairs(surface, triangles.count());
     return manifold;
+}
+
+Repairs repairsOf(const Mesh& mesh) {
+    TriangleSet<MeshVertexNumber> triangles;
+    triangles.indices.reserve(3 * mesh.triangleCount());
+    for (const Primitive& primitive : mesh.primitives) {
+        const std::size_t count = primitive.indices.size() / 3 * 3;
+        for (std::size_t i = 0; i < count; ++i) triangles.indices.push_back({primitive.indices[i]});
+        triangles.primitiveIndexCounts.push_back(static_cast<std::uint32_t>(count));
+    }
+    const WeldedPositions positions = weldPositions(mesh.vertices.positions);
+    Numbered<PositionNumber, glm::dvec3> points;
+    points.reserve(positions.first.size());
+    for (const MeshVertexNumber v : positions.first) points.emplace_back(mesh.vertices.positions[v.value]);
+    return buildManifold(weldedTriangles(triangles, positions, points), points).repairs;
 }
 
 }  // namespace defocus

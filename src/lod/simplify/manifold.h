@@ -9,32 +9,46 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <vector>
 
-#include "lod/simplify/repairs.h"
 #include "lod/simplify/triangle_set.h"
 #include "lod/simplify/weld.h"
+#include "scene/mesh.h"
 
 namespace defocus {
 
-struct Manifold {
-    static constexpr std::uint32_t none = 0xffffffffu;
+// How many faces have no place in a manifold as they are; one may be of several kinds. They are drawn unchanged at
+// level 0; coarser levels are made of the repaired surface.
+struct Repairs {
+    std::uint32_t faces = 0;    // in all
+    std::uint32_t dropped = 0;  // degenerate, or repetitions
+    std::uint32_t turned = 0;   // wound against their neighbours
+    std::uint32_t cut = 0;      // off, at an edge of more faces than two, or of two that can't agree
+    std::uint32_t split = 0;    // off, at a vertex where several fans meet
+};
 
-    std::vector<std::uint32_t> faces;    // the input face of each face
-    std::vector<std::uint32_t> corners;  // the vertices of each face, three a face, in the input face's corner order
-    std::vector<std::uint8_t> turned;    // 1: the surface's orientation runs against the corner order
-    // Half-edge 3·f + i runs from corner i to i + 1: the one on its other side, or none.
-    std::vector<std::uint32_t> twins;
-    std::vector<std::uint32_t> positions;  // the welded position of each vertex
+// Half-edges have the numbers of the corners that they leave, in the order that the input has a face's corners.
+using SurfaceCorner = CornerNumber<SurfaceFaceNumber>;
+
+struct Manifold {
+    Numbered<SurfaceFaceNumber, TriangleNumber> faces;  // the input triangle of each face
+    Numbered<SurfaceCorner, SurfaceVertexNumber> corners;
+    Numbered<SurfaceFaceNumber, std::uint8_t> turned;  // 1: the surface's orientation runs against the corner order
+    Numbered<SurfaceCorner, SurfaceCorner> twins;      // the half-edge on each one's other side, or none
+    Numbered<SurfaceVertexNumber, PositionNumber> positions;
     Repairs repairs;
 };
 
 // The triangles by the welded positions of their corners; `points` are those positions. A triangle with a corner that
 // is no place at all becomes degenerate.
-TriangleSet weldedTriangles(const TriangleSet& triangles, const Welded& positions,
-                            const std::vector<glm::dvec3>& points);
+TriangleSet<PositionNumber> weldedTriangles(const TriangleSet<MeshVertexNumber>& triangles,
+                                            const WeldedPositions& positions,
+                                            const Numbered<PositionNumber, glm::dvec3>& points);
 
-// `triangles` are by welded positions: equal numbers, equal positions; `points` are these.
-Manifold buildManifold(const TriangleSet& triangles, const std::vector<glm::dvec3>& points);
+// `points` are the positions of the triangles' corners.
+Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
+                       const Numbered<PositionNumber, glm::dvec3>& points);
+
+// What buildManifold would repair of the mesh.
+Repairs repairsOf(const Mesh& mesh);
 
 }  // namespace defocus

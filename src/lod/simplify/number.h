@@ -1,9 +1,19 @@
 #pragma once
-// Numbers that count different things and so must not be mixed up. Vertices, half-edges and faces of the surface have
-// OpenMesh's handles (surface_mesh.h); these are for the rest.
+// Numbers that count different things and so must not be mixed up, and arrays that open to one kind of number only.
+// Vertices, half-edges and faces of the surface that collapses have OpenMesh's handles (surface_mesh.h), which open
+// arrays just as well.
 
 #include <compare>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <ranges>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace defocus {
 
@@ -13,12 +23,151 @@ struct Number {
     static constexpr std::uint32_t none = 0xffffffffu;
     std::uint32_t value = none;
 
-    [[nodiscard]] bool isValid() const { return value != none; }
+    [[nodiscard]] constexpr bool isValid() const { return value != none; }
     auto operator<=>(const Number&) const = default;
 };
 
-using WedgeNumber = Number<struct WedgeKind>;          // into WedgeTable
-using ComponentNumber = Number<struct ComponentKind>;  // into Simplifier::components
-using PrimitiveNumber = Number<struct PrimitiveKind>;  // of the mesh's primitives
+using FileVertexNumber = Number<struct FileVertexKind>;  // into Mesh::vertices
+// Of the mesh that is simplified, in which equal vertices are one. Twins (see Simplification) come after its own.
+using MeshVertexNumber = Number<struct MeshVertexKind>;
+using PositionNumber = Number<struct PositionKind>;            // of a place, which several vertices may share
+using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // of the manifold, before any collapse
+using SurfaceFaceNumber = Number<struct SurfaceFaceKind>;      // of the same
+using WedgeNumber = Number<struct WedgeKind>;                  // into WedgeTable
+using ComponentNumber = Number<struct ComponentKind>;          // into Simplifier::components
+using PrimitiveNumber = Number<struct PrimitiveKind>;          // of the mesh's primitives
+using TriangleNumber = Number<struct TriangleKind>;            // of a TriangleSet
+using LevelVertexNumber = Number<struct LevelVertexKind>;      // of the vertices that one level uses, by first use
+using PyramidVertexNumber = Number<struct PyramidVertexKind>;  // into Pyramid::vertices
+
+// Corner 3·f + i is corner i of face f.
+template <typename Face>
+struct CornerOf;
+template <typename Face>
+using CornerNumber = Number<CornerOf<Face>>;
+
+using TriangleCorner = CornerNumber<TriangleNumber>;
+
+template <typename Face>
+constexpr Face faceOf(Number<CornerOf<Face>> corner) {
+    return {corner.value / 3};
+}
+template <typename Face>
+constexpr CornerNumber<Face> cornerAt(Face face, std::uint32_t i) {
+    return {3 * face.value + i};
+}
+// The corner after this one and the one before it in the same face.
+template <typename Face>
+constexpr Number<CornerOf<Face>> nextCorner(Number<CornerOf<Face>> corner) {
+    return {corner.value % 3 == 2 ? corner.value - 2 : corner.value + 1};
+}
+template <typename Face>
+constexpr Number<CornerOf<Face>> previousCorner(Number<CornerOf<Face>> corner) {
+    return {corner.value % 3 == 0 ? corner.value + 2 : corner.value - 1};
+}
+
+// The place of a number, or of an OpenMesh handle, in arrays that hold one value an item; and back.
+template <typename Key>
+constexpr std::size_t indexOf(Key item) {
+    if constexpr (requires { item.value; })
+        return item.value;
+    else if constexpr (std::unsigned_integral<Key>)
+        return item;  // a number of what leaves or enters the simplifier
+    else
+        return static_cast<std::size_t>(item.idx());
+}
+template <typename Key>
+constexpr Key itemAt(std::size_t index) {
+    if constexpr (requires { Key::none; })
+        return Key{static_cast<std::uint32_t>(index)};
+    else
+        return Key(static_cast<int>(index));
+}
+
+// The numbers 0 … count − 1.
+template <typename Key>
+auto numbersBelow(std::size_t count) {
+    return std::views::iota(std::size_t{0}, count) | std::views::transform(itemAt<Key>);
+}
+
+// A std::vector with one value an item, found by the item's number.
+template <typename Key, typename T>
+class Numbered : std::vector<T> {
+    using Values = std::vector<T>;
+
+public:
+    using typename Values::const_iterator;
+    using typename Values::iterator;
+    using typename Values::value_type;
+    using Values::assign;
+    using Values::back;
+    using Values::begin;
+    using Values::clear;
+    using Values::data;
+    using Values::emplace_back;
+    using Values::empty;
+    using Values::end;
+    using Values::front;
+    using Values::insert;
+    using Values::push_back;
+    using Values::reserve;
+    using Values::resize;
+    using Values::shrink_to_fit;
+    using Values::size;
+    using Values::Values;
+
+    T& operator[](Key item) { return Values::operator[](indexOf(item)); }
+    const T& operator[](Key item) const { return Values::operator[](indexOf(item)); }
+    bool operator==(const Numbered&) const = default;
+
+    [[nodiscard]] auto numbers() const { return numbersBelow<Key>(size()); }
+    // The number of a value that is added at the end next.
+    [[nodiscard]] Key next() const { return itemAt<Key>(size()); }
+};
+
+// Items by key: those of one key lie one after the other, in the order they came.
+template <typename Key, typename Item>
+class Buckets {
+public:
+    // Holds those of the items 0 … itemCount − 1 that have a valid key; keyOf(item) is below keyCount.
+    template <typename KeyOf>
+    Buckets(std::size_t keyCount, std::size_t itemCount, const KeyOf& keyOf) : first_(keyCount + 1, 0) {
+        const auto items = numbersBelow<Item>(itemCount);
+        for (const Item item : items)
+            if (const Key key = keyOf(item); isKey(key)) ++first_[indexOf(key) + 1];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        items_.resize(first_.back());
+        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+        for (const Item item : items)
+            if (const Key key = keyOf(item); isKey(key)) items_[next[indexOf(key)]++] = item;
+    }
+
+    [[nodiscard]] std::span<const Item> operator[](Key key) const {
+        return std::span(items_).subspan(at(key), count(key));
+    }
+    [[nodiscard]] std::span<Item> operator[](Key key) { return std::span(items_).subspan(at(key), count(key)); }
+    [[nodiscard]] auto keys() const { return numbersBelow<Key>(first_.size() - 1); }
+    [[nodiscard]] std::size_t itemCount() const { return items_.size(); }
+    // Gives the items away, in the order of their keys.
+    std::vector<Item> takeItems() { return std::move(items_); }
+
+private:
+    static bool isKey(Key key) {
+        if constexpr (requires { key.isValid(); })
+            return key.isValid();
+        else
+            return key.is_valid();
+    }
+    [[nodiscard]] std::size_t at(Key key) const { return first_[indexOf(key)]; }
+    [[nodiscard]] std::size_t count(Key key) const { return first_[indexOf(key) + 1] - at(key); }
+
+    std::vector<std::uint32_t> first_;
+    std::vector<Item> items_;
+};
 
 }  // namespace defocus
+
+template <typename Kind>
+struct std::hash<defocus::Number<Kind>> {
+    std::size_t operator()(defocus::Number<Kind> number) const { return number.value; }
+};

@@ -4,8 +4,17 @@
 //
 // Places d are steps from the vertex that the quadric belongs to. All places that it is asked for lie near by, so that
 // single precision serves.
+//
+// Hoppe 1999, New Quadric Metric for Simplifying Meshes with Appearance Attributes: the squared distance between the
+// attributes at a place and what faces interpolate linearly there, weighed by the faces' areas.
+//
+// Attributes are steps from those of that vertex as well. `n` is the number of attributes, so that a mesh pays only for
+// those that it has.
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -53,6 +62,98 @@ struct Quadric {
 
     // The sum at d; never negative.
     [[nodiscard]] float at(const glm::vec3& d) const { return std::max(0.0f, glm::dot(timesA(d) + 2.0f * b, d) + c); }
+};
+
+template <std::size_t n>
+using AttributeRow = std::array<float, n>;
+
+// How each attribute changes over a face, per unit of length along each axis.
+template <std::size_t n>
+struct AttributeGradients {
+    AttributeRow<n> x, y, z;
+
+    [[nodiscard]] glm::vec3 of(std::size_t attribute) const { return {x[attribute], y[attribute], z[attribute]}; }
+};
+
+// The gradients over the face with the corners `p` (not on one line) and their attributes.
+template <std::size_t n>
+AttributeGradients<n> attributeGradients(const glm::dvec3* const* p, const AttributeRow<n>* const* s) {
+    const glm::dvec3 e1 = *p[1] - *p[0];
+    const glm::dvec3 e2 = *p[2] - *p[0];
+    const glm::dvec3 normal = glm::cross(e1, e2);
+    const double square = glm::dot(normal, normal);
+    const glm::vec3 along1(glm::cross(e2, normal) / square);
+    const glm::vec3 along2(glm::cross(normal, e1) / square);
+    AttributeGradients<n> gradients;
+    for (std::size_t j = 0; j < n; ++j) {
+        const float d1 = (*s[1])[j] - (*s[0])[j];
+        const float d2 = (*s[2])[j] - (*s[0])[j];
+        gradients.x[j] = d1 * along1.x + d2 * along2.x;
+        gradients.y[j] = d1 * along1.y + d2 * along2.y;
+        gradients.z[j] = d1 * along1.z + d2 * along2.z;
+    }
+    return gradients;
+}
+
+template <std::size_t n>
+struct AttributeQuadric {
+    // Σ w·(g·d + e − s)² over faces and attributes, where e is what a face is off by at the vertex. `squares` holds the
+    // part without s (its weight is Σ w); the other two hold Σ w·g and Σ w·e of each attribute.
+    Quadric squares;
+    AttributeGradients<n> gradients{};
+    AttributeRow<n> offset{};
+
+    // Adds a face around the vertex, which the face meets there.
+    void addFace(const AttributeGradients<n>& face, float faceWeight) {
+        squares.weight += faceWeight;
+        for (std::size_t j = 0; j < n; ++j) {
+            squares.addSquare(face.of(j), faceWeight);
+            gradients.x[j] += faceWeight * face.x[j];
+            gradients.y[j] += faceWeight * face.y[j];
+            gradients.z[j] += faceWeight * face.z[j];
+        }
+    }
+
+    // Adds another quadric of this vertex, of faces that have not been collapsed.
+    void addFaces(const AttributeQuadric& other) {
+        squares.add(other.squares, glm::vec3(0));
+        for (std::size_t j = 0; j < n; ++j) {
+            gradients.x[j] += other.gradients.x[j];
+            gradients.y[j] += other.gradients.y[j];
+            gradients.z[j] += other.gradients.z[j];
+        }
+    }
+
+    // Adds the quadric of another vertex, from which `step` and `change` lead to this one's place and attributes.
+    void add(const AttributeQuadric& other, const glm::vec3& step, const AttributeRow<n>& change) {
+        const float cost = other.at(step, change);
+        const AttributeGradients<n>& g = other.gradients;
+        glm::vec3 turned(0);
+        for (std::size_t j = 0; j < n; ++j) {
+            turned += change[j] * g.of(j);
+            offset[j] += other.offset[j] + g.x[j] * step.x + g.y[j] * step.y + g.z[j] * step.z -
+                         other.squares.weight * change[j];
+            gradients.x[j] += g.x[j];
+            gradients.y[j] += g.y[j];
+            gradients.z[j] += g.z[j];
+        }
+        const float c = squares.c;
+        squares.add(other.squares, step);
+        squares.b -= turned;
+        squares.c = c + cost;
+    }
+
+    // The quadric at the place and the attributes that are so far away; never negative.
+    [[nodiscard]] float at(const glm::vec3& step, const AttributeRow<n>& change) const {
+        AttributeRow<std::bit_ceil(n)> terms{};
+        for (std::size_t j = 0; j < n; ++j) {
+            const float mean = gradients.x[j] * step.x + gradients.y[j] * step.y + gradients.z[j] * step.z + offset[j];
+            terms[j] = change[j] * (squares.weight * change[j] - 2 * mean);
+        }
+        for (std::size_t width = terms.size() / 2; width > 0; width /= 2)
+            for (std::size_t j = 0; j < width; ++j) terms[j] += terms[j + width];
+        return std::max(0.0f, squares.at(step) + terms[0]);
+    }
 };
 
 }  // namespace defocus

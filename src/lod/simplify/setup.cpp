@@ -106,10 +106,10 @@ void buildQuadrics(SurfaceMesh& mesh) {
     });
 }
 
-Frame frameOf(const Vertices& vertices, const std::vector<std::uint32_t>& indices) {
+Frame frameOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles) {
     Bounds bounds;
-    for (const std::uint32_t v : indices) {
-        const glm::dvec3 point = vertices.positions[v];
+    for (const MeshVertexNumber v : triangles.indices) {
+        const glm::dvec3 point = vertices.positions[v.value];
         if (std::isfinite(point.x + point.y + point.z)) bounds.extend(point);
     }
     const glm::dvec3 size = bounds.size();
@@ -118,16 +118,17 @@ Frame frameOf(const Vertices& vertices, const std::vector<std::uint32_t>& indice
 }
 
 // uv in lengths of the unit frame: the ratio that keeps the mesh's whole area.
-float uvScaleOf(const Vertices& vertices, const std::vector<std::uint32_t>& indices, const Frame& frame) {
+float uvScaleOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles, const Frame& frame) {
     double area = 0;
     double uvArea = 0;
-    for (std::size_t i = 0; i + 2 < indices.size() && !vertices.uv0.empty(); i += 3) {
-        const std::uint32_t* v = &indices[i];
-        const glm::dvec3 a = vertices.positions[v[0]];
-        area +=
-            glm::length(glm::cross(glm::dvec3(vertices.positions[v[1]]) - a, glm::dvec3(vertices.positions[v[2]]) - a));
-        const glm::dvec2 s = glm::dvec2(vertices.uv0[v[1]]) - glm::dvec2(vertices.uv0[v[0]]);
-        const glm::dvec2 t = glm::dvec2(vertices.uv0[v[2]]) - glm::dvec2(vertices.uv0[v[0]]);
+    if (vertices.uv0.empty()) return 0;
+    for (const TriangleNumber triangle : triangles.numbers()) {
+        const auto v = triangles.corners(triangle);
+        const auto position = [&](std::size_t i) { return glm::dvec3(vertices.positions[v[i].value]); };
+        const auto uv = [&](std::size_t i) { return glm::dvec2(vertices.uv0[v[i].value]); };
+        area += glm::length(glm::cross(position(1) - position(0), position(2) - position(0)));
+        const glm::dvec2 s = uv(1) - uv(0);
+        const glm::dvec2 t = uv(2) - uv(0);
         uvArea += std::abs(s.x * t.y - s.y * t.x);
     }
     const double ratio = std::sqrt(area / uvArea) * frame.inverse;
@@ -136,13 +137,13 @@ float uvScaleOf(const Vertices& vertices, const std::vector<std::uint32_t>& indi
 
 // Notes which vertex of the surface each mesh vertex is, and of which primitive: by the first corner that draws it.
 void rememberCorners(Origin& origin, const SurfaceMesh& mesh) {
-    origin.firstVertex.assign(origin.vertices.count(), VertexHandle());
-    origin.firstPrimitive.assign(origin.vertices.count(), PrimitiveNumber());
+    origin.firstVertex.resize(origin.vertices.count());
+    origin.firstPrimitive.resize(origin.vertices.count());
     forEachFace(mesh, [&](FaceHandle face) {
         for (const HalfedgeHandle corner : cornersOf(mesh, face)) {
-            const std::size_t v = mesh.wedge(corner).value;
-            if (origin.firstVertex[v].is_valid()) continue;
-            origin.firstVertex[v] = mesh.from_vertex_handle(corner);
+            const MeshVertexNumber v = mesh.wedges.source(mesh.wedge(corner));
+            if (origin.firstVertex[v].isValid()) continue;
+            origin.firstVertex[v] = itemAt<SurfaceVertexNumber>(indexOf(mesh.from_vertex_handle(corner)));
             origin.firstPrimitive[v] = mesh.primitive(face);
         }
     });
@@ -150,10 +151,9 @@ void rememberCorners(Origin& origin, const SurfaceMesh& mesh) {
 
 }  // namespace
 
-void prepareSimplifier(Simplifier& s, const Vertices& vertices, const Welded& positions,
-                       std::span<const std::uint32_t> smoothing, const TriangleSet& triangles) {
-    const auto origin =
-        std::make_shared<Origin>(Origin{vertices, smoothing, frameOf(vertices, triangles.indices), {}, {}, {}});
+void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
+                       const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles) {
+    const auto origin = std::make_shared<Origin>(Origin{vertices, smoothing, frameOf(vertices, triangles), {}, {}, {}});
     s.origin = origin;
     s.mesh = std::make_unique<SurfaceMesh>();
     s.modules.emplace(*s.mesh);
@@ -163,9 +163,9 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const Welded& po
 
     // Make a manifold of the mesh.
     {
-        std::vector<glm::dvec3> points(positions.first.size());
-        for (std::size_t p = 0; p < points.size(); ++p)
-            points[p] = origin->frame.point(vertices.positions[positions.first[p]]);
+        Numbered<PositionNumber, glm::dvec3> points(positions.first.size());
+        for (const PositionNumber p : points.numbers())
+            points[p] = origin->frame.point(vertices.positions[positions.first[p].value]);
         Manifold manifold = buildManifold(weldedTriangles(triangles, positions, points), points);
         s.repairedFaces = manifold.repairs.faces;
         s.liveFaces = manifold.faces.size();
@@ -173,19 +173,19 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const Welded& po
         origin->places = std::move(manifold.positions);
     }
     if (s.liveFaces >= fewestToGiveBack) giveBackFreedMemory();  // before what takes the most
-    for (std::size_t v = 0; v < origin->places.size(); ++v) {
-        const glm::vec3& p = vertices.positions[positions.first[origin->places[v]]];
-        mesh.set_point(VertexHandle(static_cast<int>(v)), {p.x, p.y, p.z});
+    for (const SurfaceVertexNumber v : origin->places.numbers()) {
+        const glm::vec3& p = vertices.positions[positions.first[origin->places[v]].value];
+        mesh.set_point(itemAt<VertexHandle>(indexOf(v)), {p.x, p.y, p.z});
     }
-    rememberCorners(*origin, mesh);
 
     // Describe it: wedges and quadrics.
-    mesh.wedges.assign(vertices, uvScaleOf(vertices, triangles.indices, origin->frame));
+    mesh.wedges.assign(vertices, uvScaleOf(vertices, triangles, origin->frame));
+    rememberCorners(*origin, mesh);
     buildQuadrics(mesh);
     buildAttributeQuadrics(mesh);
     s.survivors.reserve(mesh.n_vertices());
-    for (std::size_t v = 0; v < mesh.n_vertices(); ++v) s.survivors.emplace_back(static_cast<int>(v));
-    s.current = s.survivors;
+    for (const auto v : numbersBelow<VertexHandle>(mesh.n_vertices())) s.survivors.push_back(v);
+    s.current.assign(s.survivors.begin(), s.survivors.end());
 }
 
 }  // namespace defocus

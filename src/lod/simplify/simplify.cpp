@@ -171,8 +171,7 @@ float costAtRank(const SurfaceMesh& mesh, std::size_t rank) {
     std::vector<float> costs;
     const std::size_t stride = 1 + mesh.n_vertices() / costSample;
     for (std::size_t v = 0; v < mesh.n_vertices(); v += stride)
-        if (const Candidate& c = mesh.data(VertexHandle(static_cast<int>(v))).candidate;
-            c.possible() && c.fit < Fit::bad)
+        if (const Candidate& c = mesh.data(itemAt<VertexHandle>(v)).candidate; c.possible() && c.fit < Fit::bad)
             costs.push_back(c.cost);
     if (costs.size() <= rank / stride) return std::numeric_limits<float>::infinity();
     const auto place = costs.begin() + static_cast<std::ptrdiff_t>(rank / stride);
@@ -219,68 +218,6 @@ bool sweepTo(Simplifier& s, std::size_t target) {
     return true;
 }
 
-// Notes what is known of components once many are as small as they get.
-void noteComponents(const Simplifier& s, Snapshot& level) {
-    if (!s.grows) return;
-    level.removed = removedBalls(s);
-    level.growths = growths(s);
-    level.growthsOf.reserve(s.mesh->n_vertices());
-    forEachVertex(*s.mesh, [&](VertexHandle v) { level.growthsOf.push_back(s.mesh->data(v).component); });
-}
-
-// Takes a picture of what compact() has left.
-Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
-    const SurfaceMesh& mesh = *s.mesh;
-    Snapshot level;
-    level.positions.reserve(mesh.n_vertices());
-    forEachVertex(mesh, [&](VertexHandle v) { level.positions.push_back(mesh.position(v)); });
-    level.nearest = s.current;
-    std::vector<HalfedgeHandle> corners;
-    corners.reserve(3 * mesh.n_faces());
-    level.drawn.primitiveIndexCounts.assign(primitiveCount, 0);
-    forEachFace(mesh, [&](FaceHandle face) {
-        level.drawn.primitiveIndexCounts[mesh.primitive(face).value] += 3;
-        const FaceCorners around = cornersOf(mesh, face);
-        corners.insert(corners.end(), around.begin(), around.end());
-        if (mesh.data(face).isTurned()) std::swap(corners[corners.size() - 1], corners[corners.size() - 2]);
-    });
-    Creases found = creases(s, corners);
-    level.drawn.indices = std::move(found.drawn);
-    level.behind = std::move(found.behind);
-    level.corners.reserve(corners.size());
-    for (const HalfedgeHandle corner : corners) level.corners.push_back(mesh.from_vertex_handle(corner));
-    level.twins = s.twins;
-    noteComponents(s, level);
-    return level;
-}
-
-SimplifiedLevel described(const Origin& origin, const Snapshot& snapshot) {
-    SimplifiedLevel level;
-    level.anchors = anchors(origin, snapshot);
-    level.mesh.triangles.primitiveIndexCounts = snapshot.drawn.primitiveIndexCounts;
-    const auto vertexCount = static_cast<std::uint32_t>(origin.firstVertex.size());
-    constexpr std::uint32_t unused = 0xffffffffu;
-    std::vector<std::uint32_t> local(vertexCount + snapshot.twins.size(), unused);
-    level.mesh.triangles.indices.reserve(snapshot.drawn.indices.size());
-    level.removed = snapshot.removed;
-    level.growths = snapshot.growths;
-    for (std::size_t i = 0; i < snapshot.drawn.indices.size(); ++i) {
-        const std::uint32_t v = snapshot.drawn.indices[i];
-        if (local[v] == unused) {
-            local[v] = static_cast<std::uint32_t>(level.numbers.size());
-            const bool twin = v >= vertexCount;
-            level.numbers.push_back(v);
-            level.mesh.sources.push_back(twin ? snapshot.twins[v - vertexCount] : v);
-            const bool behind = std::binary_search(snapshot.behind.begin(), snapshot.behind.end(), v);
-            level.mesh.apart.push_back(twin || behind ? 1 : 0);
-            if (!snapshot.growthsOf.empty())
-                level.growthsOf.push_back(snapshot.growthsOf[indexOf(snapshot.corners[i])].value);
-        }
-        level.mesh.triangles.indices.push_back(local[v]);
-    }
-    return level;
-}
-
 // Whether `least` is too near to so many faces for a level of its own.
 bool isJustAbove(std::size_t faces, std::size_t least) {
     return faces > least && largestShare * static_cast<double>(faces) < static_cast<double>(least);
@@ -297,7 +234,7 @@ std::size_t nextTarget(const Simplifier& s, std::size_t leastTriangles) {
 std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share) {
     const SurfaceMesh& mesh = *s.mesh;
     std::size_t stuck = 0;  // faces of whose vertices none can go: of tetrahedra, single triangles and the like
-    std::vector<std::uint8_t> movable(s.components.size(), 0);  // has others
+    Numbered<ComponentNumber, std::uint8_t> movable(s.components.size(), 0);  // has others
     forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
         const bool canGo = std::any_of(corners.begin(), corners.end(), [&](HalfedgeHandle corner) {
@@ -306,13 +243,13 @@ std::size_t collapseFloor(const Simplifier& s, std::size_t target, double share)
         if (!canGo)
             ++stuck;
         else if (!movable.empty())
-            movable[mesh.data(mesh.from_vertex_handle(corners.at[0])).component.value] = 1;
+            movable[mesh.data(mesh.from_vertex_handle(corners.at[0])).component] = 1;
     });
     const auto rest = static_cast<double>(s.liveFaces - stuck);
     double kept = leastShareOfMovable * rest;
     if (movable.size() > 1) {
         double area = 0;
-        for (std::size_t c = 0; c < movable.size(); ++c) area += movable[c] != 0 ? s.components[c].area : 0;
+        for (const ComponentNumber c : movable.numbers()) area += movable[c] != 0 ? s.components[c].area : 0;
         kept = std::max(kept, std::min(rest, share * evenShare(s, area, target)));
     }
     return std::max(target, stuck + static_cast<std::size_t>(kept));
@@ -333,7 +270,7 @@ void collapseToLevel(Simplifier& s, std::size_t target, std::size_t enough) {
 }
 
 // Why no level is tried from so many faces.
-PyramidEnd endAt(std::size_t faces, const TriangleSet& mesh, const SimplifyOptions& options) {
+PyramidEnd endAt(std::size_t faces, const TriangleSet<MeshVertexNumber>& mesh, const SimplifyOptions& options) {
     if (faces == 0 && !mesh.indices.empty()) return PyramidEnd::noSurface;
     return faces <= options.leastTriangles ? PyramidEnd::leastTriangles : PyramidEnd::smallSaving;
 }
@@ -346,8 +283,8 @@ bool canCollapse(const Simplifier& s) {
 
 }  // namespace
 
-Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
-                        const TriangleSet& triangles, const SimplifyOptions& options, Tasks& tasks,
+Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
+                        const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take) {
     Simplification result;
     Simplifier s;

@@ -16,7 +16,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "core/parallel.h"
@@ -40,28 +39,18 @@ struct Ball {
     double radius = 0;
 };
 
-// A component of a level is scaled about `centre`, once it is fitted, so that it has `area`: what the mesh had of it
-// and of those that it stands in for. It neither shrinks nor grows by more than `mostFactor`.
-struct Growth {
-    glm::dvec3 centre{0};  // object units
-    double area = 0;       // object units squared
-    double mostFactor = 1;
-};
-
 struct SimplifiedLevel {
     LevelMesh mesh;
-    // For each vertex of `mesh` its number: that of the mesh's vertex, or vertexCount + i for the twin i.
-    std::vector<std::uint32_t> numbers;
-    std::vector<Anchor> anchors;  // one a vertex of the mesh
-    std::vector<Ball> removed;    // around each component that the level lacks
-    std::vector<Growth> growths;
-    std::vector<std::uint32_t> growthsOf;  // of each vertex of `mesh`, into `growths`; empty without any
+    // For each vertex of `mesh` the one that it is: of the mesh itself, or vertexCount + i for the twin i.
+    Numbered<LevelVertexNumber, MeshVertexNumber> numbers;
+    Numbered<MeshVertexNumber, Anchor> anchors;
+    std::vector<Ball> removed;  // around each component that the level lacks
 };
 
 struct Simplification {
     // A twin is a second vertex beside twins[i] of the mesh, for the other side of a thin sheet whose rim has
     // collapsed.
-    std::vector<std::uint32_t> twins;
+    std::vector<MeshVertexNumber> twins;
     std::uint32_t levelCount = 0;  // coarser and coarser, the mesh itself not among them; may be 0
     std::uint32_t repairedFaces = 0;
     PyramidEnd end = PyramidEnd::mostLevels;
@@ -69,9 +58,9 @@ struct Simplification {
 
 // Makes levels of half the triangles each; they end where less than a quarter can be saved. Each is given to
 // take(l, level) once, l = 0 … levelCount − 1, by whichever thread of `tasks` has made its anchors; all are when
-// tasks.wait() has returned, which the caller does. `smoothing` (see FitSource) and `vertices` are read until then.
-Simplification simplify(const Vertices& vertices, const Welded& positions, std::span<const std::uint32_t> smoothing,
-                        const TriangleSet& triangles, const SimplifyOptions& options, Tasks& tasks,
+// tasks.wait() has returned, which the caller does. `smoothing` and `vertices` are read until then.
+Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
+                        const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);
 
 }  // namespace defocus

@@ -5,36 +5,24 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "lod/simplify/collapse.h"
 #include "lod/simplify/collapse_queue.h"
-#include "lod/simplify/quadric_module.h"
-#include "lod/simplify/shape_module.h"
 #include "lod/simplify/simplify.h"
 #include "lod/simplify/surface_mesh.h"
-#include "lod/simplify/wedge_module.h"
 
 namespace defocus {
 
-// The surface before any collapse, as far as it is asked for later. `vertices` and `smoothing` are the caller's.
+// The surface before any collapse, as far as it is asked for later. The caller keeps `vertices` and `smoothing`.
 struct Origin {
     const Vertices& vertices;
-    std::span<const std::uint32_t> smoothing;  // of each mesh vertex, see FitSource
+    const VertexGroups& smoothing;
     Frame frame;
-    std::vector<VertexHandle> firstVertex;        // of each mesh vertex's first corner; invalid if it has no face
-    std::vector<PrimitiveNumber> firstPrimitive;  // of the same corner
-    std::vector<std::uint32_t> places;            // the welded position of each vertex of the surface
-};
-
-// What judges, prices and follows each collapse of a surface.
-struct CollapseModules {
-    explicit CollapseModules(SurfaceMesh& mesh) : shape(mesh), wedges(mesh), quadrics(mesh) {}
-
-    ShapeModule shape;
-    WedgeModule wedges;
-    QuadricModule quadrics;
+    Numbered<MeshVertexNumber, SurfaceVertexNumber> firstVertex;  // of its first corner; invalid if it has no face
+    Numbered<MeshVertexNumber, PrimitiveNumber> firstPrimitive;   // of the same corner
+    Numbered<SurfaceVertexNumber, PositionNumber> places;
 };
 
 // A part of the mesh that shares no position with the rest; see components.cpp.
@@ -53,34 +41,35 @@ struct Simplifier {
     std::shared_ptr<const Origin> origin;
     std::unique_ptr<SurfaceMesh> mesh;       // after compact() it holds what lives and nothing else
     std::optional<CollapseModules> modules;  // of `mesh`
-    std::vector<VertexHandle> survivors;     // for each vertex the one that it collapsed onto; itself while it lives;
-                                             // invalid if it was taken out with its component
-    std::vector<VertexHandle> current;       // for each vertex of Origin, the one that it is now or has collapsed onto
+    // For each vertex the one that it collapsed onto; itself while it lives; invalid if it was taken out with its
+    // component.
+    Numbered<VertexHandle, VertexHandle> survivors;
+    // For each vertex of the surface before any collapse, the one that it had become when the mesh was last compact.
+    Numbered<SurfaceVertexNumber, VertexHandle> current;
     CollapseQueue queue;
     bool queued = false;  // vertices wait in it
     std::size_t liveFaces = 0;
     std::uint32_t repairedFaces = 0;
 
-    std::vector<std::uint32_t> twins;                         // see Simplification
-    std::unordered_map<std::uint32_t, std::uint32_t> twinOf;  // mesh vertex → the number of its twin
+    std::vector<MeshVertexNumber> twins;  // see Simplification
+    std::unordered_map<MeshVertexNumber, MeshVertexNumber> twinOf;
 
-    std::vector<Component> components;  // found once faces are few or many components are as small as they get
-    double area = 0;                    // object units squared; of all components
-    bool grows = false;                 // small components do, since many are as small as they get
-    std::size_t spentFaces = 0;         // living faces of spent components
-    double spentArea = 0;               // object units squared; of spent components that are left
+    Numbered<ComponentNumber, Component>
+        components;              // found once faces are few or many components are as small as they get
+    double area = 0;             // object units squared; of all components
+    bool grows = false;          // small components do, since many are as small as they get
+    std::size_t spentFaces = 0;  // living faces of spent components
+    double spentArea = 0;        // object units squared; of spent components that are left
 
-    [[nodiscard]] Component& componentAt(VertexHandle v) { return components[mesh->data(v).component.value]; }
-    [[nodiscard]] const Component& componentAt(VertexHandle v) const {
-        return components[mesh->data(v).component.value];
-    }
-    [[nodiscard]] VertexHandle& survivor(VertexHandle v) { return survivors[indexOf(v)]; }
+    [[nodiscard]] Component& componentAt(VertexHandle v) { return components[mesh->data(v).component]; }
+    [[nodiscard]] const Component& componentAt(VertexHandle v) const { return components[mesh->data(v).component]; }
+    [[nodiscard]] VertexHandle& survivor(VertexHandle v) { return survivors[v]; }
 };
 
 // setup.cpp: makes the mesh's manifold with its quadrics; there are no candidates yet. Without a surface the mesh stays
 // empty.
-void prepareSimplifier(Simplifier& s, const Vertices& vertices, const Welded& positions,
-                       std::span<const std::uint32_t> smoothing, const TriangleSet& triangles);
+void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
+                       const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
 // collapse.cpp: how the faces around take the collapse along a half-edge, and their wedges.
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
@@ -94,20 +83,12 @@ VertexHandle survivorOf(Simplifier& s, VertexHandle v);
 // Numbers what lives anew, in the order it had, and gives back the memory of what is gone.
 void compact(Simplifier& s);
 
-// creases.cpp: finds the mesh vertices that all corners draw. Where the faces around those that share a normal look
-// opposite ways, the faces of one side lie behind the others, and a mesh vertex that is on both sides is split.
-struct Creases {
-    std::vector<std::uint32_t> drawn;   // of each corner; numbers from the mesh's vertex count on are twins
-    std::vector<std::uint32_t> behind;  // those of `drawn` of which all corners lie behind; sorted
-};
-Creases creases(Simplifier& s, std::span<const HalfedgeHandle> corners);
-
 // components.cpp: whether the faces hang together, by faces alone.
 bool isConnected(const Simplifier& s);
 // Whether many faces are of components that can be no smaller.
 bool manyAreSmallest(const Simplifier& s);
 // Finds the components of what is left of the mesh; the first call does, later ones do nothing.
-void findComponents(Simplifier& s, const TriangleSet& triangles);
+void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
 // Notes that the vertex's component has no collapse left that isn't bad.
 void spend(Simplifier& s, VertexHandle v);
 // How many of so many faces an area would have if they were spread evenly over the mesh's.
@@ -119,24 +100,25 @@ bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, do
 // Takes whole components out of the mesh until `target` faces are left, or nothing that may go.
 void removeComponents(Simplifier& s, std::size_t target);
 std::vector<Ball> removedBalls(const Simplifier& s);
-// One a component; see SimplifiedLevel.
-std::vector<Growth> growths(const Simplifier& s);
+// See SimplifiedLevel.
+Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 
 // A level as it was when the collapses had come to it, for what is found out about it while they go on.
 struct Snapshot {
-    TriangleSet drawn;                  // in mesh vertices; numbers from the mesh's vertex count on are twins
-    std::vector<VertexHandle> corners;  // the same triangles in vertices of the level's surface, numbered from 0
-    std::vector<glm::vec3> positions;   // of the level's surface
-    std::vector<VertexHandle> nearest;  // Simplifier::current
-    std::vector<std::uint32_t> twins;
-    std::vector<std::uint32_t> behind;       // see Creases
-    std::vector<Ball> removed;               // see SimplifiedLevel
-    std::vector<Growth> growths;             // the same
-    std::vector<ComponentNumber> growthsOf;  // of each of the level's vertices, into `growths`; empty without any
+    TriangleSet<MeshVertexNumber> drawn;
+    Numbered<TriangleCorner, VertexHandle> corners;       // the same triangles in vertices of the level's surface
+    Numbered<VertexHandle, glm::vec3> positions;          // of the level's surface
+    Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // Simplifier::current
+    std::vector<MeshVertexNumber> twins;
+    std::vector<MeshVertexNumber> behind;               // those of `drawn` whose corners all lie behind; sorted
+    std::vector<Ball> removed;                          // see SimplifiedLevel
+    Numbered<ComponentNumber, Growth> growths;          // the same
+    Numbered<VertexHandle, ComponentNumber> growthsOf;  // empty without any
 };
 
-// anchors.cpp: the closest points to all mesh vertices, as far as they lie on faces of their own primitive and
-// component.
-std::vector<Anchor> anchors(const Origin& origin, const Snapshot& level);
+// snapshot.cpp: takes a picture of what compact() has left.
+Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
+// The level of which the picture was taken, with its anchors.
+SimplifiedLevel described(const Origin& origin, const Snapshot& picture);
 
 }  // namespace defocus

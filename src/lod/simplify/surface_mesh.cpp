@@ -20,25 +20,25 @@ void linkBorders(SurfaceMesh& mesh) {
 
 // Numbers in their old order what `isKept` lets in, others are invalid; returns how many there are.
 template <typename Handle, typename IsKept>
-std::size_t number(std::vector<Handle>& numbers, std::size_t count, const IsKept& isKept) {
+std::size_t number(Numbered<Handle, Handle>& numbers, std::size_t count, const IsKept& isKept) {
     numbers.assign(count, Handle());
     int next = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        if (isKept(Handle(static_cast<int>(i)))) numbers[i] = Handle(next++);
+    for (const Handle item : numbers.numbers())
+        if (isKept(item)) numbers[item] = Handle(next++);
     return static_cast<std::size_t>(next);
 }
 
 // Drops the wedges that no living corner draws; says what the others are from now on.
-std::vector<WedgeNumber> keepDrawnWedges(SurfaceMesh& mesh) {
-    std::vector<WedgeNumber> numbers(mesh.wedges.size());
+Numbered<WedgeNumber, WedgeNumber> keepDrawnWedges(SurfaceMesh& mesh) {
+    Numbered<WedgeNumber, WedgeNumber> numbers(mesh.wedges.size());
     forEachFace(mesh, [&](FaceHandle face) {
-        for (const HalfedgeHandle corner : cornersOf(mesh, face)) numbers[mesh.wedge(corner).value] = {0};
+        for (const HalfedgeHandle corner : cornersOf(mesh, face)) numbers[mesh.wedge(corner)] = {0};
     });
     std::vector<WedgeNumber> kept;
-    for (std::uint32_t w = 0; w < numbers.size(); ++w) {
+    for (const WedgeNumber w : numbers.numbers()) {
         if (!numbers[w].isValid()) continue;
         numbers[w] = {static_cast<std::uint32_t>(kept.size())};
-        kept.push_back({w});
+        kept.push_back(w);
     }
     mesh.wedges.keep(kept);
     return numbers;
@@ -46,14 +46,14 @@ std::vector<WedgeNumber> keepDrawnWedges(SurfaceMesh& mesh) {
 
 }  // namespace
 
-void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet& triangles) {
+void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles) {
     // Each pair of twins is an edge, and so is each half-edge without one; the first of them in the order of faces is
     // its half-edge 0.
-    std::vector<HalfedgeHandle> halfedges(manifold.twins.size());
+    Numbered<SurfaceCorner, HalfedgeHandle> halfedges(manifold.twins.size());
     int edges = 0;
-    for (std::uint32_t h = 0; h < halfedges.size(); ++h) {
-        const std::uint32_t twin = manifold.twins[h];
-        if (twin != Manifold::none && twin < h)
+    for (const SurfaceCorner h : halfedges.numbers()) {
+        const SurfaceCorner twin = manifold.twins[h];
+        if (twin.isValid() && twin < h)
             halfedges[h] = mesh.opposite_halfedge_handle(halfedges[twin]);
         else
             halfedges[h] = SurfaceMesh::s_halfedge_handle(EdgeHandle(edges++), 0);
@@ -61,44 +61,45 @@ void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet& t
     if (edges == 0) return;
     mesh.resize(manifold.positions.size(), static_cast<std::size_t>(edges), manifold.faces.size());
 
-    const std::vector<std::uint32_t> primitives = primitivesOf(triangles);
-    for (std::uint32_t f = 0; f < manifold.faces.size(); ++f) {
-        const FaceHandle face(static_cast<int>(f));
+    const Numbered<TriangleNumber, PrimitiveNumber> primitives = primitivesOf(triangles);
+    for (const SurfaceFaceNumber f : manifold.faces.numbers()) {
+        const auto face = itemAt<FaceHandle>(indexOf(f));
         const bool turned = manifold.turned[f] != 0;
-        mesh.data(face).primitiveAndTurn = primitives[manifold.faces[f]] << 1 | (turned ? 1 : 0);
+        mesh.data(face).primitiveAndTurn = primitives[manifold.faces[f]].value << 1 | (turned ? 1 : 0);
         // A turned face runs from corner 0 over 2 to 1: half-edge 2, which the manifold runs from 2 to 0, leaves 0.
-        const std::uint32_t cornerOrder[3] = {3 * f, 3 * f + (turned ? 2 : 1), 3 * f + (turned ? 1 : 2)};
-        const HalfedgeHandle sides[3] = {halfedges[3 * f + (turned ? 2 : 0)], halfedges[3 * f + 1],
-                                         halfedges[3 * f + (turned ? 0 : 2)]};
+        const std::uint32_t cornerOrder[3] = {0, turned ? 2u : 1u, turned ? 1u : 2u};
+        const HalfedgeHandle sides[3] = {halfedges[cornerAt(f, turned ? 2 : 0)], halfedges[cornerAt(f, 1)],
+                                         halfedges[cornerAt(f, turned ? 0 : 2)]};
+        const auto vertexAt = [&](std::size_t i) {
+            return itemAt<VertexHandle>(indexOf(manifold.corners[cornerAt(f, cornerOrder[i])]));
+        };
         mesh.set_halfedge_handle(face, sides[0]);
         for (std::size_t i = 0; i < 3; ++i) {
-            const VertexHandle from(static_cast<int>(manifold.corners[cornerOrder[i]]));
+            const VertexHandle from = vertexAt(i);
             mesh.set_face_handle(sides[i], face);
             mesh.set_next_halfedge_handle(sides[i], sides[(i + 1) % 3]);
             mesh.set_vertex_handle(mesh.opposite_halfedge_handle(sides[i]), from);
-            mesh.set_vertex_handle(sides[i],
-                                   VertexHandle(static_cast<int>(manifold.corners[cornerOrder[(i + 1) % 3]])));
-            mesh.data(sides[i]).wedge = {triangles.indices[3 * std::size_t{manifold.faces[f]} + cornerOrder[i] % 3]};
+            mesh.set_vertex_handle(sides[i], vertexAt((i + 1) % 3));
+            mesh.data(sides[i]).wedge = {triangles.corners(manifold.faces[f])[cornerOrder[i]].value};
             if (mesh.is_isolated(from)) mesh.set_halfedge_handle(from, sides[i]);
         }
     }
     linkBorders(mesh);
 }
 
-std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, std::vector<VertexHandle>& vertexNumbers) {
-    const std::vector<WedgeNumber> wedges = keepDrawnWedges(mesh);
-    std::vector<EdgeHandle> edges;
-    std::vector<FaceHandle> faces;
+std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle, VertexHandle>& vertexNumbers) {
+    const Numbered<WedgeNumber, WedgeNumber> wedges = keepDrawnWedges(mesh);
+    Numbered<EdgeHandle, EdgeHandle> edges;
+    Numbered<FaceHandle, FaceHandle> faces;
     const std::size_t vertexCount =
         number(vertexNumbers, mesh.n_vertices(), [&](VertexHandle v) { return mesh.isAlive(v); });
     const std::size_t edgeCount = number(edges, mesh.n_edges(), [&](EdgeHandle e) { return mesh.isAlive(e); });
     const std::size_t faceCount = number(faces, mesh.n_faces(), [&](FaceHandle f) { return mesh.isAlive(f); });
     const auto numberOf = [&](HalfedgeHandle h) {
-        return SurfaceMesh::s_halfedge_handle(edges[static_cast<std::size_t>(h.idx() / 2)],
-                                              static_cast<unsigned>(h.idx() % 2));
+        return SurfaceMesh::s_halfedge_handle(edges[mesh.edge_handle(h)], static_cast<unsigned>(h.idx() % 2));
     };
-    const auto vertexNumber = [&](VertexHandle v) { return vertexNumbers[indexOf(v)]; };
-    const auto faceNumber = [&](FaceHandle f) { return faces[indexOf(f)]; };
+    const auto vertexNumber = [&](VertexHandle v) { return vertexNumbers[v]; };
+    const auto faceNumber = [&](FaceHandle f) { return faces[f]; };
 
     auto copy = std::make_unique<SurfaceMesh>();
     copy->frame = mesh.frame;
@@ -118,7 +119,7 @@ std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, std::vector<VertexHan
         copy->set_next_halfedge_handle(to, numberOf(mesh.next_halfedge_handle(h)));
         if (mesh.is_boundary(h)) continue;
         copy->set_face_handle(to, faceNumber(mesh.face_handle(h)));
-        copy->data(to).wedge = wedges[mesh.wedge(h).value];
+        copy->data(to).wedge = wedges[mesh.wedge(h)];
     }
     forEachFace(mesh, [&](FaceHandle face) {
         copy->data(faceNumber(face)) = mesh.data(face);

@@ -15,8 +15,6 @@
 #include <memory>
 #include <vector>
 
-#include "lod/simplify/fit.h"
-#include "lod/simplify/frame.h"
 #include "lod/simplify/manifold.h"
 #include "lod/simplify/number.h"
 #include "lod/simplify/quadric.h"
@@ -30,11 +28,23 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-// A handle's place in arrays that hold one value an item.
-template <typename Handle>
-std::size_t indexOf(Handle item) {
-    return static_cast<std::size_t>(item.idx());
-}
+// The mesh at unit size, so that no weight depends on its scale.
+struct Frame {
+    glm::dvec3 centre{0};  // object units
+    double inverse = 0;    // of the mesh's longest side in object units; 0: the mesh has no extent
+
+    // A place of the mesh in the frame.
+    [[nodiscard]] glm::dvec3 point(const glm::vec3& position) const {
+        return (glm::dvec3(position) - centre) * inverse;
+    }
+    // The way between two places, in units of the frame.
+    [[nodiscard]] glm::dvec3 step(const glm::vec3& from, const glm::vec3& to) const {
+        return (glm::dvec3(to) - glm::dvec3(from)) * inverse;
+    }
+};
+
+// Collapses of a worse kind wait until no better one is left. See simplify.h for what makes one poor or bad.
+enum class Fit : std::uint8_t { good, poor, bad, impossible };
 
 // The collapse that a vertex waits for.
 struct Candidate {
@@ -165,11 +175,11 @@ inline FaceCorners cornersOf(const SurfaceMesh& mesh, FaceHandle face) {
 // Links the manifold's faces: its vertices and faces keep their numbers. add_face() would refuse a second edge between
 // two vertices, which cuts can leave. `triangles` are those that the manifold was made of, in mesh vertices, which are
 // their corners' wedges.
-void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet& triangles);
+void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles);
 
 // What lives, numbered anew in the order that it had: garbage_collection() would fill gaps from the end, and what is
 // near in space would no longer be so in memory. Takes the wedge table along, without the wedges that no corner draws.
 // `vertexNumbers` gets the new number of each vertex, invalid for those that are gone.
-std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, std::vector<VertexHandle>& vertexNumbers);
+std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle, VertexHandle>& vertexNumbers);
 
 }  // namespace defocus

@@ -63,11 +63,11 @@ void WedgeTable::assign(const Vertices& vertices, float uvScale) {
     rows_.clear();
     rows_.reserve(attributeCount_ * vertices.count());
     for (std::size_t v = 0; v < sources_.size(); ++v) {
-        sources_[v] = static_cast<std::uint32_t>(v);
+        sources_[v] = itemAt<MeshVertexNumber>(v);
         const glm::vec3 normal = vertices.normals.empty() ? glm::vec3(0) : normalWeight * vertices.normals[v];
         rows_.insert(rows_.end(), {normal.x, normal.y, normal.z});
         if (hasColors_) {
-            const glm::vec3 color = colorWeight / 255.0f * glm::vec3(vertices.colors[v]);
+            const glm::vec3 color = colorWeight * glm::vec3(vertices.colors[v]);
             rows_.insert(rows_.end(), {color.x, color.y, color.z});
         }
         if (hasUv_) {

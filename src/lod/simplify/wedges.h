@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/memory.h"
-#include "lod/simplify/attribute_quadric.h"
 #include "lod/simplify/number.h"
+#include "lod/simplify/quadric.h"
 #include "scene/mesh.h"
 
 namespace defocus {
@@ -36,7 +36,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return sources_.size(); }
     // The mesh vertex that the wedge's corners draw.
-    [[nodiscard]] std::uint32_t source(WedgeNumber w) const { return sources_[w.value]; }
+    [[nodiscard]] MeshVertexNumber source(WedgeNumber w) const { return sources_[w.value]; }
     // Weighted attributes: normal, then colour, then uv, as far as the mesh has them.
     [[nodiscard]] std::span<const float> row(WedgeNumber w) const {
         return {&rows_[w.value * attributeCount_], attributeCount_};
@@ -73,7 +73,7 @@ private:
     bool hasColors_ = false;
     bool hasUv_ = false;
     LargeVector<float> rows_;  // attributeCount_ a wedge
-    LargeVector<std::uint32_t> sources_;
+    LargeVector<MeshVertexNumber> sources_;
     Quadrics quadrics_;
 };
 

@@ -1,9 +1,11 @@
 #include "lod/simplify/weld.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstring>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <span>
 
 #include "core/hash.h"
@@ -12,27 +14,27 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t emptySlot = 0xffffffffu;
+constexpr float agreeingCosine = 0.99985f;  // 1°
 
 // Open addressing with linear probing over a table of at most half load. `equal` compares vertices of equal hash.
-template <typename Equal>
-Welded weld(const std::vector<std::uint64_t>& hashes, const Equal& equal) {
+template <typename Vertex, typename Id, typename Equal>
+Welded<Vertex, Id> weld(const std::vector<std::uint64_t>& hashes, const Equal& equal) {
     const std::size_t size = std::bit_ceil(2 * hashes.size() + 1);
-    std::vector<std::uint32_t> table(size, emptySlot);
-    Welded result;
+    std::vector<Id> table(size);
+    Welded<Vertex, Id> result;
     result.id.resize(hashes.size());
     for (std::uint32_t v = 0; v < hashes.size(); ++v) {
         std::uint64_t slot = (hashes[v] ^ (hashes[v] >> 32)) & (size - 1);
-        while (table[slot] != emptySlot) {
-            const std::uint32_t other = result.first[table[slot]];
-            if (hashes[other] == hashes[v] && equal(other, v)) break;
+        while (table[slot].isValid()) {
+            const Vertex other = result.first[table[slot]];
+            if (hashes[other.value] == hashes[v] && equal(other.value, v)) break;
             slot = (slot + 1) & (size - 1);
         }
-        if (table[slot] == emptySlot) {
-            table[slot] = static_cast<std::uint32_t>(result.first.size());
-            result.first.push_back(v);
+        if (!table[slot].isValid()) {
+            table[slot] = result.first.next();
+            result.first.push_back({v});
         }
-        result.id[v] = table[slot];
+        result.id[{v}] = table[slot];
     }
     return result;
 }
@@ -72,25 +74,51 @@ std::vector<Stream> attributeStreams(const Mesh& mesh) {
 
 }  // namespace
 
-Welded weldPositions(const std::vector<glm::vec3>& positions) {
+WeldedPositions weldPositions(const std::vector<glm::vec3>& positions) {
     std::vector<std::uint64_t> hashes(positions.size());
     for (std::size_t v = 0; v < positions.size(); ++v) {
         const glm::vec3 unsignedZero = positions[v] + 0.0f;
         hashes[v] = hashBytes(std::as_bytes(std::span(&unsignedZero, 1)));
     }
-    return weld(hashes, [&](std::uint32_t a, std::uint32_t b) { return positions[a] == positions[b]; });
+    return weld<MeshVertexNumber, PositionNumber>(
+        hashes, [&](std::uint32_t a, std::uint32_t b) { return positions[a] == positions[b]; });
 }
 
-Welded weldVertices(const Mesh& mesh) {
+WeldedVertices weldVertices(const Mesh& mesh) {
     const std::vector<Stream> streams = attributeStreams(mesh);
     std::vector<std::uint64_t> hashes(mesh.vertices.count(), hashSeed);
     for (const Stream& stream : streams)
         for (std::size_t v = 0; v < hashes.size(); ++v) hashes[v] = hashBytes({stream.at(v), stream.stride}, hashes[v]);
-    return weld(hashes, [&](std::uint32_t a, std::uint32_t b) {
+    return weld<FileVertexNumber, MeshVertexNumber>(hashes, [&](std::uint32_t a, std::uint32_t b) {
         for (const Stream& stream : streams)
             if (std::memcmp(stream.at(a), stream.at(b), stream.stride) != 0) return false;
         return true;
     });
+}
+
+VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions) {
+    // Only vertices that share their position with another need a look; the others lead themselves.
+    const Numbered<MeshVertexNumber, PositionNumber>& at = positions.id;
+    VertexGroups groups(normals.size());
+    for (const MeshVertexNumber v : groups.numbers()) groups[v] = v;
+    Numbered<PositionNumber, std::uint8_t> met(positions.first.size(), 0);  // how many vertices are there, up to 2
+    for (const PositionNumber position : at) met[position] = met[position] == 0 ? 1 : 2;
+    std::vector<MeshVertexNumber> order;
+    for (const MeshVertexNumber v : groups)
+        if (met[at[v]] == 2) order.push_back(v);
+    std::stable_sort(order.begin(), order.end(), [&](MeshVertexNumber a, MeshVertexNumber b) { return at[a] < at[b]; });
+
+    std::vector<MeshVertexNumber> leaders;  // the first vertex of each group at this position
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i == 0 || at[order[i]] != at[order[i - 1]]) leaders.clear();
+        const glm::vec3& normal = normals[order[i].value];
+        const auto leader = std::find_if(leaders.begin(), leaders.end(), [&](MeshVertexNumber v) {
+            return glm::dot(normals[v.value], normal) > agreeingCosine;
+        });
+        groups[order[i]] = leader != leaders.end() ? *leader : order[i];
+        if (leader == leaders.end()) leaders.push_back(order[i]);
+    }
+    return groups;
 }
 
 }  // namespace defocus

@@ -1,23 +1,33 @@
 #pragma once
-// Which vertices are the same? Numbers equal vertices alike, in order of first appearance.
+// Which vertices are the same, which are at the same place, and which of those share a normal?
 
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "lod/simplify/number.h"
 #include "scene/mesh.h"
 
 namespace defocus {
 
+// Equal vertices have one number, in order of first appearance.
+template <typename Vertex, typename Id>
 struct Welded {
-    std::vector<std::uint32_t> id;     // for each vertex
-    std::vector<std::uint32_t> first;  // for each id the first vertex that has it
+    Numbered<Vertex, Id> id;
+    Numbered<Id, Vertex> first;  // the first vertex that has the id
 };
+using WeldedPositions = Welded<MeshVertexNumber, PositionNumber>;
+using WeldedVertices = Welded<FileVertexNumber, MeshVertexNumber>;
 
 // Welds exactly equal positions (−0 equals 0; a position that is no number equals none).
-Welded weldPositions(const std::vector<glm::vec3>& positions);
+WeldedPositions weldPositions(const std::vector<glm::vec3>& positions);
 
 // Welds vertices of which every attribute is equal to the last bit, morph targets included.
-Welded weldVertices(const Mesh& mesh);
+WeldedVertices weldVertices(const Mesh& mesh);
+
+// Of each vertex its group's first.
+using VertexGroups = Numbered<MeshVertexNumber, MeshVertexNumber>;
+
+// Vertices at one position whose normals agree within a degree share one group; others keep a crease between them.
+VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions);
 
 }  // namespace defocus

@@ -84,20 +84,19 @@ private:
     std::size_t count_ = 0;
 };
 
-std::uint8_t toByte(float value) {
-    return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(std::isfinite(value) ? value : 0.0f, 0.0f, 1.0f)));
-}
-
-std::vector<glm::u8vec4> readColors(const AttributeReader& reader) {
-    std::vector<glm::u8vec4> result;
+// The specification clamps colours to [0, 1].
+std::vector<glm::vec4> readColors(const AttributeReader& reader) {
+    std::vector<glm::vec4> result;
     if (!reader.has("COLOR_0")) return result;
-    result.reserve(reader.count());
-    if (reader.components("COLOR_0") == 3)
-        for (const glm::vec3& color : reader.read<glm::vec3>("COLOR_0"))
-            result.emplace_back(toByte(color.r), toByte(color.g), toByte(color.b), 255);
-    else
-        for (const glm::vec4& color : reader.read<glm::vec4>("COLOR_0"))
-            result.emplace_back(toByte(color.r), toByte(color.g), toByte(color.b), toByte(color.a));
+    if (reader.components("COLOR_0") == 3) {
+        result.reserve(reader.count());
+        for (const glm::vec3& color : reader.read<glm::vec3>("COLOR_0")) result.emplace_back(color, 1);
+    } else {
+        result = reader.read<glm::vec4>("COLOR_0");
+    }
+    for (glm::vec4& color : result)
+        for (glm::length_t c = 0; c < 4; ++c)
+            color[c] = std::clamp(std::isfinite(color[c]) ? color[c] : 0.0f, 0.0f, 1.0f);
     return result;
 }
 

@@ -230,6 +230,19 @@ void addNodeExtras(const Source& source, std::vector<Camera>& cameras) {
     }
 }
 
+bool isFromBlender(const Source& source) {
+    const auto asset = source.document.json.find("asset");
+    const auto generator = asset->find("generator");
+    return generator != asset->end() && generator->is_string() &&
+           generator->get<std::string>().starts_with("Khronos glTF Blender I/O");
+}
+
+// Without a rotation, the middle of an edge points to the right in Blender, and a corner here.
+void turnBlades(Camera& camera) {
+    const double count = camera.lensValue("bladeCount").value_or(0);
+    if (count >= 3) camera.lens["bladeRotation"] += 180 / count;
+}
+
 }  // namespace
 
 Hierarchy readHierarchy(Source& source) {
@@ -282,6 +295,7 @@ std::vector<Camera> readCameras(Source& source) {
         cameras.push_back(camera);
     }
     addNodeExtras(source, cameras);
+    if (isFromBlender(source)) std::ranges::for_each(cameras, turnBlades);
     return cameras;
 }
 

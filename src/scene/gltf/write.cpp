@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "buffers are written a
 
 using Json = nlohmann::ordered_json;
 
-constexpr int unsignedByte = 5121, unsignedInt = 5125, floatType = 5126;
+constexpr int unsignedInt = 5125, floatType = 5126;
 constexpr int vertexData = 34962, indexData = 34963;  // targets of buffer views
 constexpr std::uint32_t unused = 0xffffffffu;
 constexpr std::size_t headerBytes = 12, chunkHeaderBytes = 8;
@@ -183,7 +183,7 @@ Json addVertices(GlbBuilder& builder, const Vertices& vertices, const std::vecto
     if (!vertices.uv0.empty()) addUv("TEXCOORD_1", vertices.uv1);  // sets are numbered without a gap
     if (!vertices.colors.empty())
         attributes["COLOR_0"] =
-            builder.add(chosen(vertices.colors, order), unsignedByte, "VEC4", vertexData, {{"normalized", true}});
+            builder.add(chosen(vertices.colors, order), floatType, "VEC4", vertexData);
     return attributes;
 }
 

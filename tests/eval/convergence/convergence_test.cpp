@@ -348,7 +348,7 @@ TEST(ConvergenceHash, changesWithWhateverTheImageShows) {
         value = kept;
     };
     changed(small->scene.meshes[0].vertices.positions[7].x, 0.125f);
-    changed(small->scene.meshes[0].vertices.colors[7].g, std::uint8_t{77});
+    changed(small->scene.meshes[0].vertices.colors[7].g, 0.3f);
     changed(small->scene.meshes[0].primitives[0].material, -1);
     changed(small->scene.materials[0].roughnessFactor, 0.41f);
     changed(small->scene.materials[0].unlit, true);

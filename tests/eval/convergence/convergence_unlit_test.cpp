@@ -18,7 +18,7 @@ TEST(ConvergenceUnlit, paintsTheLightOnTheVertices) {
     const Scene unlit = unlitScene(scene);
     for (const Mesh& mesh : unlit.meshes) {
         ASSERT_EQ(mesh.vertices.colors.size(), 4u);
-        EXPECT_EQ(mesh.vertices.colors[2].r, static_cast<int>(255 * (0.2 + 0.8 * 0.6 / std::sqrt(1.16)) + 0.5));
+        EXPECT_FLOAT_EQ(mesh.vertices.colors[2].r, static_cast<float>(0.2 + 0.8 * 0.6 / std::sqrt(1.16)));
         const Material& material = unlit.materials.at(static_cast<std::size_t>(mesh.primitives[0].material));
         EXPECT_TRUE(material.unlit);
         EXPECT_EQ(material.alphaMode, AlphaMode::opaque);

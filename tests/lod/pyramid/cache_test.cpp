@@ -56,6 +56,8 @@ void expectEqual(const Pyramid& a, const Pyramid& b) {
         EXPECT_TRUE(sameBits(x.positions, y.positions));
         EXPECT_TRUE(sameBits(x.normals, y.normals));
         EXPECT_TRUE(sameBits(x.colors, y.colors));
+        EXPECT_TRUE(sameBits(x.uv0, y.uv0));
+        EXPECT_TRUE(sameBits(x.uv1, y.uv1));
         EXPECT_EQ(std::memcmp(&x.meanEdge, &y.meanEdge, sizeof x.meanEdge), 0);
         EXPECT_EQ(std::memcmp(&x.error, &y.error, sizeof x.error), 0);
     }
@@ -69,7 +71,7 @@ Mesh decoratedTorus(std::uint32_t columns = 24, std::uint32_t rows = 16) {
         const auto byte = static_cast<std::uint8_t>(v % 251);
         mesh.vertices.tangents.push_back({1, 0, 0, v % 2 == 0 ? 1.0f : -1.0f});
         mesh.vertices.uv1.push_back(0.5f * mesh.vertices.uv0[v]);
-        mesh.vertices.colors.push_back({byte, 128, 255, 255});
+        mesh.vertices.colors.emplace_back(byte / 255.0f, 0.5f, 1, 1);
         mesh.vertices.joints.push_back({byte % 7, 0, 0, 0});
         mesh.vertices.weights.push_back({1, 0, 0, 0});
         mesh.vertices.joints1.push_back({byte % 5, 0, 0, 0});
@@ -123,7 +125,9 @@ std::vector<std::size_t> sectionBorders(const Encoded& file) {
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
         add(pyramid.levels[l].positions.size() * 12);
         add(pyramid.levels[l].normals.size() * 12);
-        add(pyramid.levels[l].colors.size() * 4);
+        add(pyramid.levels[l].colors.size() * 16);
+        add(pyramid.levels[l].uv0.size() * 8);
+        add(pyramid.levels[l].uv1.size() * 8);
     }
     return borders;
 }
@@ -141,6 +145,8 @@ void expectSound(const Pyramid& pyramid, const Mesh& mesh) {
         ASSERT_EQ(level.positions.size(), level.vertexCount);
         ASSERT_EQ(level.normals.size(), level.vertexCount);
         ASSERT_EQ(level.colors.size(), mesh.vertices.colors.empty() ? 0 : level.vertexCount);
+        ASSERT_EQ(level.uv0.size(), mesh.vertices.uv0.empty() ? 0 : level.vertexCount);
+        ASSERT_EQ(level.uv1.size(), mesh.vertices.uv1.empty() ? 0 : level.vertexCount);
         std::size_t count = 0;
         for (const IndexRange& range : level.primitives) {
             ASSERT_LE(std::size_t{range.first} + range.count, pyramid.indices.size());
@@ -190,7 +196,7 @@ TEST(PyramidKey, everyInputCounts) {
         [](Mesh& m) { m.vertices.tangents[7].w *= -1.0f; },
         [](Mesh& m) { m.vertices.uv0[7].x += 0.1f; },
         [](Mesh& m) { m.vertices.uv1[7].x += 0.1f; },
-        [](Mesh& m) { m.vertices.colors[7].r ^= 1; },
+        [](Mesh& m) { m.vertices.colors[7].r += 1e-4f; },
         [](Mesh& m) { m.vertices.joints[7].w ^= 1; },
         [](Mesh& m) { m.vertices.weights[7].w += 0.1f; },
         [](Mesh& m) { m.vertices.joints1[7].w ^= 1; },

@@ -1,11 +1,14 @@
-#include "lod/pyramid/cluster_growth.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <random>
+
+#include "lod/numbered.h"
+#include "lod/pyramid/clusters.h"
 
 namespace defocus {
 namespace {
@@ -14,8 +17,12 @@ constexpr std::uint32_t most = 64;
 
 struct Soup {
     std::vector<std::uint32_t> corners;
-    std::vector<glm::vec3> positions;
+    Numbered<LocalNumber, glm::vec3> positions;
 };
+
+GrownClusters grow(const Soup& soup) {
+    return growClusters(numbered<Numbered<TriangleCorner, LocalNumber>>(soup.corners), soup.positions, most);
+}
 
 // A sheet of n × n unit squares, its rows in the plane z = 0; beyond half of them it is folded up by 90°.
 Soup foldedSheet(std::uint32_t n) {
@@ -36,10 +43,10 @@ Soup foldedSheet(std::uint32_t n) {
 
 // Every triangle is in one cluster, and none is larger than allowed.
 void expectPartition(const Soup& soup, const GrownClusters& grown) {
-    std::vector<std::uint32_t> sorted = grown.triangles;
+    std::vector<TriangleNumber> sorted = grown.triangles;
     std::sort(sorted.begin(), sorted.end());
     ASSERT_EQ(sorted.size(), soup.corners.size() / 3);
-    for (std::uint32_t t = 0; t < sorted.size(); ++t) ASSERT_EQ(sorted[t], t);
+    for (std::uint32_t t = 0; t < sorted.size(); ++t) ASSERT_EQ(sorted[t].value, t);
     std::size_t sum = 0;
     for (const std::uint32_t size : grown.sizes) {
         EXPECT_GT(size, 0u);
@@ -54,8 +61,28 @@ std::vector<glm::vec3> clusterPoints(const Soup& soup, const GrownClusters& grow
     std::vector<glm::vec3> points;
     for (std::size_t t = begin; t < begin + size; ++t)
         for (std::size_t k = 0; k < 3; ++k)
-            points.push_back(soup.positions[soup.corners[3 * std::size_t{grown.triangles[t]} + k]]);
+            points.push_back(soup.positions[{soup.corners[3 * indexOf(grown.triangles[t]) + k]}]);
     return points;
+}
+
+// More than are looked at at once; without a bound this takes minutes.
+TEST(ClusterGrowth, takesHundredsOfThousandsOfTrianglesAtOneVertex) {
+    Soup fan;
+    Soup point;
+    fan.positions.emplace_back(0, 0, 1);
+    point.positions.emplace_back(0, 0, 0);
+    constexpr std::uint32_t count = 300'000;
+    for (std::uint32_t t = 0; t < count; ++t) {
+        const double angle = 2 * std::numbers::pi * t / count;
+        fan.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+        fan.corners.insert(fan.corners.end(), {0, 1 + t, 1 + (t + 1) % count});
+        point.corners.insert(point.corners.end(), {0, 0, 0});
+    }
+    for (const Soup* soup : {&fan, &point}) {
+        const GrownClusters grown = grow(*soup);
+        expectPartition(*soup, grown);
+        EXPECT_LE(grown.sizes.size(), 1.2 * count / most);
+    }
 }
 
 TEST(ClusterGrowth, takesEveryTriangleOnceWhateverTheSoup) {
@@ -63,21 +90,21 @@ TEST(ClusterGrowth, takesEveryTriangleOnceWhateverTheSoup) {
     std::mt19937 random(1);
     Soup soup;
     for (int v = 0; v < 300; ++v) soup.positions.emplace_back(random() % 100, random() % 100, random() % 100);
-    soup.positions[7].x = std::numeric_limits<float>::quiet_NaN();
-    soup.positions[8].y = std::numeric_limits<float>::max();
+    soup.positions[{7}].x = std::numeric_limits<float>::quiet_NaN();
+    soup.positions[{8}].y = std::numeric_limits<float>::max();
     for (int corner = 0; corner < 3 * 5000; ++corner)
         soup.corners.push_back(corner % 4 == 0 ? 0 : static_cast<std::uint32_t>(random() % 300));
-    expectPartition(soup, growClusters(soup.corners, soup.positions, most));
-    expectPartition({}, growClusters({}, {}, most));
+    expectPartition(soup, grow(soup));
+    expectPartition({}, grow({}));
 
-    Soup nowhere{{}, std::vector<glm::vec3>(3, glm::vec3(2))};
+    Soup nowhere{{}, Numbered<LocalNumber, glm::vec3>(3, glm::vec3(2))};
     for (int i = 0; i < 200; ++i) nowhere.corners.insert(nowhere.corners.end(), {0, 1, 2});
-    expectPartition(nowhere, growClusters(nowhere.corners, nowhere.positions, most));
+    expectPartition(nowhere, grow(nowhere));
 }
 
 TEST(ClusterGrowth, clustersAreCompactAndDontGoRoundACrease) {
     const Soup sheet = foldedSheet(80);
-    const GrownClusters grown = growClusters(sheet.corners, sheet.positions, most);
+    const GrownClusters grown = grow(sheet);
     expectPartition(sheet, grown);
     // 32 unit squares fill a disk of radius 3.2.
     const double fewest = static_cast<double>(grown.triangles.size()) / most;
@@ -106,14 +133,14 @@ TEST(ClusterGrowth, theBackOfASheetIsAnotherCluster) {
     const std::size_t front = sheet.corners.size();
     for (std::size_t i = 0; i < front; i += 3)
         sheet.corners.insert(sheet.corners.end(), {sheet.corners[i], sheet.corners[i + 2], sheet.corners[i + 1]});
-    const GrownClusters grown = growClusters(sheet.corners, sheet.positions, most);
+    const GrownClusters grown = grow(sheet);
     expectPartition(sheet, grown);
     std::size_t begin = 0;
     std::size_t mixed = 0;
     for (const std::uint32_t size : grown.sizes) {
         const auto first = grown.triangles.begin() + static_cast<std::ptrdiff_t>(begin);
         const auto backs =
-            std::count_if(first, first + size, [&](std::uint32_t t) { return 3 * std::size_t{t} >= front; });
+            std::count_if(first, first + size, [&](TriangleNumber t) { return 3 * indexOf(t) >= front; });
         mixed += backs > 0 && backs < size ? 1 : 0;
         begin += size;
     }
@@ -129,7 +156,7 @@ TEST(ClusterGrowth, looseTrianglesShareClustersWithThoseNearBy) {
             row.positions.push_back(p);
         }
     }
-    const GrownClusters grown = growClusters(row.corners, row.positions, most);
+    const GrownClusters grown = grow(row);
     expectPartition(row, grown);
     EXPECT_LE(grown.sizes.size(), 20u);
     std::size_t begin = 0;

@@ -10,7 +10,7 @@
 #include "lod/invariants.h"
 #include "lod/pyramid/pyramid.h"
 #include "lod/pyramid/surface_distance.h"
-#include "lod/simplify/repairs.h"
+#include "lod/simplify/manifold.h"
 #include "models.h"
 #include "scene/gltf/gltf.h"
 

@@ -20,7 +20,7 @@ Mesh decorated(Mesh mesh) {
         const auto byte = static_cast<std::uint8_t>(v % 251);
         mesh.vertices.tangents.push_back({1, 0, 0, v % 2 == 0 ? 1.0f : -1.0f});
         mesh.vertices.uv1.push_back(0.5f * mesh.vertices.uv0[v]);
-        mesh.vertices.colors.push_back({byte, 128, 255, 255});
+        mesh.vertices.colors.emplace_back(byte / 255.0f, 0.5f, 1, 1);
         mesh.vertices.joints.push_back({byte, 0, 0, 0});
         mesh.vertices.weights.push_back({1, 0, 0, 0});
     }

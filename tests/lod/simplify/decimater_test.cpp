@@ -34,7 +34,7 @@ struct Decimated {
 void expectWedgesInPlace(const DrawnSurface& surface, const SurfaceMesh& mesh) {
     forEachFace(mesh, [&](FaceHandle face) {
         for (const HalfedgeHandle corner : cornersOf(mesh, face))
-            ASSERT_EQ(surface.vertices.positions[mesh.wedges.source(mesh.wedge(corner))],
+            ASSERT_EQ(surface.vertices.positions[mesh.wedges.source(mesh.wedge(corner)).value],
                       mesh.position(mesh.from_vertex_handle(corner)));
     });
 }
@@ -129,7 +129,7 @@ TEST(Decimater, leavesMaterialBordersToTheModules) {
         const bool inner = mesh.primitive(face).value == 1;
         std::vector<glm::vec3> corners;
         for (const HalfedgeHandle corner : cornersOf(mesh, face)) {
-            EXPECT_EQ(mesh.wedges.source(mesh.wedge(corner)) >= count, inner);
+            EXPECT_EQ(mesh.wedges.source(mesh.wedge(corner)).value >= count, inner);
             corners.push_back(mesh.position(mesh.from_vertex_handle(corner)));
         }
         if (inner) innerArea += 0.5 * glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "lod/simplify/smoothing_groups.h"
+#include "lod/numbered.h"
 #include "lod/simplify/state.h"
 
 namespace defocus {
@@ -16,20 +16,18 @@ using Face = std::array<int, 3>;
 // A mesh with a Simplifier of it; neither can be moved.
 struct DrawnSurface {
     Vertices vertices;
-    TriangleSet triangles;
-    Welded positions;
-    std::vector<std::uint32_t> smoothing;
+    TriangleSet<MeshVertexNumber> triangles;
+    WeldedPositions positions;
+    VertexGroups smoothing;
     Simplifier simplifier;
 
     DrawnSurface(Vertices drawn, const std::vector<std::vector<std::uint32_t>>& primitives)
-        : vertices(std::move(drawn)) {
-        for (const auto& indices : primitives) {
-            triangles.indices.insert(triangles.indices.end(), indices.begin(), indices.end());
-            triangles.primitiveIndexCounts.push_back(static_cast<std::uint32_t>(indices.size()));
-        }
-        if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, triangles.indices);
+        : vertices(std::move(drawn)), triangles(numberedTriangles<MeshVertexNumber>(primitives)) {
+        std::vector<std::uint32_t> all;
+        for (const auto& indices : primitives) all.insert(all.end(), indices.begin(), indices.end());
+        if (vertices.normals.empty()) vertices.normals = smoothNormals(vertices.positions, all);
         positions = weldPositions(vertices.positions);
-        smoothing = smoothingGroups(vertices.normals, positions.id);
+        smoothing = smoothingGroups(vertices.normals, positions);
         prepareSimplifier(simplifier, vertices, positions, smoothing, triangles);
     }
     DrawnSurface(const DrawnSurface&) = delete;
@@ -38,9 +36,12 @@ struct DrawnSurface {
     [[nodiscard]] SurfaceMesh& mesh() { return *simplifier.mesh; }
     [[nodiscard]] CollapseModules& modules() { return *simplifier.modules; }
 
-    // The half-edge between the places of two mesh vertices.
+    // The vertex of the surface at a mesh vertex, and the half-edge between two; since compact().
+    [[nodiscard]] VertexHandle vertex(std::uint32_t v) const {
+        return simplifier.current[simplifier.origin->firstVertex[{v}]];
+    }
     [[nodiscard]] HalfedgeHandle edge(std::uint32_t from, std::uint32_t to) {
-        return mesh().find_halfedge(simplifier.origin->firstVertex[from], simplifier.origin->firstVertex[to]);
+        return mesh().find_halfedge(vertex(from), vertex(to));
     }
     void collapse(std::uint32_t from, std::uint32_t to) { collapseEdge(simplifier, edge(from, to)); }
 };
@@ -51,7 +52,8 @@ inline std::vector<Face> drawnFaces(const SurfaceMesh& mesh) {
     forEachFace(mesh, [&](FaceHandle handle) {
         Face& face = faces.emplace_back();
         const FaceCorners corners = cornersOf(mesh, handle);
-        for (std::size_t i = 0; i < 3; ++i) face[i] = static_cast<int>(mesh.wedges.source(mesh.wedge(corners.at[i])));
+        for (std::size_t i = 0; i < 3; ++i)
+            face[i] = static_cast<int>(mesh.wedges.source(mesh.wedge(corners.at[i])).value);
         std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
     });
     std::sort(faces.begin(), faces.end());

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "lod/simplify/smoothing_groups.h"
+#include "lod/numbered.h"
 
 namespace defocus {
 namespace {
@@ -15,16 +15,17 @@ const glm::vec3 right(1, 0, 0);
 
 TEST(SmoothingGroups, joinNormalsWithinADegreeAtOnePositionOnly) {
     const glm::vec3 almostUp = glm::normalize(glm::vec3(0.01f, 0, 1));  // 0.57°
-    const std::vector<std::uint32_t> groups = smoothingGroups({up, right, almostUp, up}, {0, 0, 0, 1});
-    EXPECT_EQ(groups[0], groups[2]);
-    EXPECT_NE(groups[0], groups[1]);
-    EXPECT_NE(groups[0], groups[3]);
+    const WeldedPositions positions = weldPositions({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}});
+    const VertexGroups groups = smoothingGroups({up, right, almostUp, up}, positions);
+    EXPECT_EQ(groups[{0}], groups[{2}]);
+    EXPECT_NE(groups[{0}], groups[{1}]);
+    EXPECT_NE(groups[{0}], groups[{3}]);
 }
 
 // One triangle (vertices 0, 1, 2 of the level) stands for 3 + `inner` vertices at the barycentric places below.
 struct OneTriangle {
     Vertices vertices;
-    std::vector<Anchor> anchors;
+    Numbered<MeshVertexNumber, Anchor> anchors;
 };
 
 OneTriangle oneTriangle() {
@@ -33,10 +34,10 @@ OneTriangle oneTriangle() {
         for (int j = 0; i + j <= 10; ++j) {
             const bool corner = i == 10 || j == 10 || i + j == 0;
             if (corner) continue;
-            Anchor anchor{0, {0.1f * float(i), 0.1f * float(j), 1 - 0.1f * float(i + j)}};
+            Anchor anchor{{0}, {0.1f * float(i), 0.1f * float(j), 1 - 0.1f * float(i + j)}};
             result.anchors.push_back(anchor);
         }
-    std::vector<Anchor> corners = {{0, {1, 0, 0}}, {0, {0, 1, 0}}, {0, {0, 0, 1}}};
+    std::vector<Anchor> corners = {{{0}, {1, 0, 0}}, {{0}, {0, 1, 0}}, {{0}, {0, 0, 1}}};
     result.anchors.insert(result.anchors.begin(), corners.begin(), corners.end());
     const glm::vec3 corner[3] = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}};
     for (const Anchor& anchor : result.anchors) {
@@ -44,21 +45,21 @@ OneTriangle oneTriangle() {
         for (int k = 0; k < 3; ++k) position += anchor.weight[k] * corner[k];
         result.vertices.positions.push_back(position);
         result.vertices.normals.push_back(up);
-        result.vertices.colors.emplace_back(0, 0, 0, 255);
+        result.vertices.colors.emplace_back(0, 0, 0, 1);
     }
     return result;
 }
 
 // The level is the triangle, and as many more of the vertices behind it as `indices` name.
 defocus::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& indices = {0, 1, 2}) {
-    const Welded positions = weldPositions(t.vertices.positions);
-    const auto smoothing = smoothingGroups(t.vertices.normals, positions.id);
-    FitSource source = prepareFit(t.vertices, positions, smoothing, indices);
+    const WeldedPositions positions = weldPositions(t.vertices.positions);
+    const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
+    FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({indices}));
     source.areas.assign(t.anchors.size(), 1);  // level 0's triangles are nowhere written down: all alike
     source.bounds.extend({0, 0, 1});
     LevelMesh level;
-    level.triangles.indices = indices;
-    for (std::uint32_t v = 0; v < indices.size(); ++v) level.sources.push_back(v);
+    level.triangles = numberedTriangles<LevelVertexNumber>({indices});
+    for (std::uint32_t v = 0; v < indices.size(); ++v) level.sources.push_back({v});
     level.apart.assign(indices.size(), 0);
     return fitLevel(source, level, t.anchors);
 }
@@ -66,8 +67,8 @@ defocus::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& 
 TEST(LevelFit, flatTriangleStaysWhereItIs) {
     const OneTriangle t = oneTriangle();
     const defocus::LevelFit fitted = fitOf(t);
-    for (std::size_t v = 0; v < 3; ++v)
-        EXPECT_NEAR(glm::distance(fitted.positions[v], t.vertices.positions[v]), 0, 1e-6);
+    for (std::uint32_t v = 0; v < 3; ++v)
+        EXPECT_NEAR(glm::distance(fitted.positions[{v}], t.vertices.positions[v]), 0, 1e-6);
 }
 
 // All but the corners lie 0.3 above the triangle: least squares takes it nearly all the way up.
@@ -75,7 +76,7 @@ TEST(LevelFit, triangleRisesToTheBulgeItStandsFor) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 3; v < t.vertices.positions.size(); ++v) t.vertices.positions[v].z = 0.3f;
     const defocus::LevelFit fitted = fitOf(t);
-    const float mean = (fitted.positions[0].z + fitted.positions[1].z + fitted.positions[2].z) / 3;
+    const float mean = (fitted.positions[{0}].z + fitted.positions[{1}].z + fitted.positions[{2}].z) / 3;
     EXPECT_GT(mean, 0.25f);
     EXPECT_LT(mean, 0.3f);
 }
@@ -87,30 +88,130 @@ TEST(LevelFit, farFromTheOriginNothingIsLost) {
         if (v >= 3) t.vertices.positions[v].z = 0.3f;
     }
     const defocus::LevelFit fitted = fitOf(t);
-    EXPECT_GT((fitted.positions[0].z + fitted.positions[1].z + fitted.positions[2].z) / 3, 0.25f);
-    for (std::size_t v = 0; v < 3; ++v)
-        EXPECT_NEAR(glm::distance(glm::vec2(fitted.positions[v]), glm::vec2(t.vertices.positions[v])), 0, 0.01);
+    EXPECT_GT((fitted.positions[{0}].z + fitted.positions[{1}].z + fitted.positions[{2}].z) / 3, 0.25f);
+    for (std::uint32_t v = 0; v < 3; ++v)
+        EXPECT_NEAR(glm::distance(glm::vec2(fitted.positions[{v}]), glm::vec2(t.vertices.positions[v])), 0, 0.01);
 }
 
 TEST(LevelFit, colourThatIsLinearOverTheTriangleIsKept) {
     OneTriangle t = oneTriangle();
-    const float corner[3] = {40, 120, 220};
-    for (std::size_t v = 0; v < t.anchors.size(); ++v) {
+    const float corner[3] = {0.16f, 0.47f, 0.86f};
+    for (std::uint32_t v = 0; v < t.anchors.size(); ++v) {
         float value = 0;
-        for (int k = 0; k < 3; ++k) value += t.anchors[v].weight[k] * corner[k];
-        t.vertices.colors[v].r = static_cast<std::uint8_t>(std::lround(value));
+        for (int k = 0; k < 3; ++k) value += t.anchors[{v}].weight[k] * corner[k];
+        t.vertices.colors[v].r = value;
     }
     const defocus::LevelFit fitted = fitOf(t);
-    for (std::size_t v = 0; v < 3; ++v) EXPECT_NEAR(fitted.colors[v].r, corner[v], 4);
-    EXPECT_EQ(fitted.colors[0].a, 255);
+    for (std::uint32_t v = 0; v < 3; ++v) EXPECT_NEAR(fitted.colors[{v}].r, corner[v], 0.016f);
+    EXPECT_NEAR(fitted.colors[{0}].a, 1, 1e-5f);
+}
+
+// Dark but for its corner: the line that fits best is below 0 at the other end, and cut off it would be too bright.
+TEST(LevelFit, coloursOvershootRatherThanBrighten) {
+    OneTriangle t = oneTriangle();
+    double mean = 0;
+    for (std::uint32_t v = 0; v < t.anchors.size(); ++v) {
+        t.vertices.colors[v].r = t.anchors[{v}].weight[0] > 0.6f ? 1.0f : 0.0f;
+        mean += double{t.vertices.colors[v].r} / static_cast<double>(t.anchors.size());
+    }
+    const defocus::LevelFit fitted = fitOf(t);
+    EXPECT_LT(std::min(fitted.colors[{1}].r, fitted.colors[{2}].r), -0.02f);
+    double shown = 0;
+    for (const Anchor& anchor : t.anchors)
+        for (std::uint32_t k = 0; k < 3; ++k)
+            shown += double{anchor.weight[k]} * double{fitted.colors[{k}].r} / static_cast<double>(t.anchors.size());
+    EXPECT_NEAR(shown, mean, 0.004);
+}
+
+// Vertices that share an anchor count there as if they were one.
+TEST(LevelFit, whatSharesAnAnchorCountsThere) {
+    OneTriangle t = oneTriangle();
+    for (std::uint32_t v = 3; v + 1 < t.anchors.size(); v += 2) {
+        t.vertices.colors[v].r = 0.2f;
+        t.vertices.colors[v + 1].r = 0.8f;
+        t.anchors[{v + 1}] = {};
+        t.anchors[{v + 1}].sharedWith = {v};
+    }
+    for (std::uint32_t v = 0; v < 3; ++v) t.vertices.colors[v].r = 0.5f;
+    t.vertices.colors.back().r = 0.5f;
+    const defocus::LevelFit fitted = fitOf(t);
+    for (std::uint32_t v = 0; v < 3; ++v) EXPECT_NEAR(fitted.colors[{v}].r, 0.5f, 1e-4f);
+}
+
+TEST(LevelFit, meanColourBecomesLevel0s) {
+    const OneTriangle t = oneTriangle();
+    const WeldedPositions positions = weldPositions(t.vertices.positions);
+    const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
+    FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({{0, 1, 2}}));
+    source.meanColor = {0.3, 0.4, 0.5, 1};
+    LevelMesh level;
+    level.triangles = numberedTriangles<LevelVertexNumber>({{0, 1, 2}});
+    level.sources = numbered<Numbered<LevelVertexNumber, MeshVertexNumber>>({0, 1, 2});
+    level.apart.assign(3, 0);
+    defocus::LevelFit fit;
+    fit.positions = {t.vertices.positions[0], t.vertices.positions[1], t.vertices.positions[2]};
+    fit.normals = {up, up, up};
+    fit.colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 2, 1}};
+    conserve(source, level, fit);
+    const glm::vec4 mean = (fit.colors[{0}] + fit.colors[{1}] + fit.colors[{2}]) / 3.0f;
+    EXPECT_LT(glm::distance(mean, glm::vec4(source.meanColor)), 1e-6f);
+    EXPECT_NEAR(fit.colors[{0}].r - fit.colors[{1}].r, 1, 1e-6) << "all are shifted alike";
+
+    const PatchMeans means = patchMeans(source, level, fit, t.anchors, {0});
+    EXPECT_NEAR(means.areas.at(0), 50, 1e-6);
+    EXPECT_LT(glm::distance(means.colors[0], source.meanColor), 1e-6);
+    EXPECT_LT(glm::distance(means.colors0.at(0), glm::dvec4(0, 0, 0, 1)), 1e-6);
+}
+
+// u = x², v = y over a triangle: the line that shows most of the texture where it was.
+TEST(LevelFit, textureLiesWhereItDid) {
+    OneTriangle t = oneTriangle();
+    for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
+    const defocus::LevelFit fitted = fitOf(t);
+    ASSERT_EQ(fitted.uv0.size(), 3u);
+    EXPECT_TRUE(fitted.uv1.empty());
+    const auto shift = [&](const auto& cornerOf) {
+        glm::dvec2 sum(0);
+        for (std::uint32_t v = 0; v < t.anchors.size(); ++v) {
+            glm::vec2 here(0);
+            for (std::uint32_t k = 0; k < 3; ++k) here += t.anchors[{v}].weight[k] * cornerOf(k);
+            sum += glm::dvec2(here - t.vertices.uv0[v]) / static_cast<double>(t.anchors.size());
+        }
+        return glm::length(sum);
+    };
+    ASSERT_GT(shift([&](std::uint32_t k) { return t.vertices.uv0[k]; }), 0.1);
+    EXPECT_LT(shift([&](std::uint32_t k) { return fitted.uv0[{k}]; }), 0.005);
+}
+
+// A second vertex at a corner, with another place in the texture.
+TEST(LevelFit, textureCoordinatesAtSeamsStay) {
+    OneTriangle t = oneTriangle();
+    for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
+    t.vertices.positions.push_back(t.vertices.positions[0]);
+    t.vertices.normals.push_back(up);
+    t.vertices.colors.emplace_back(0, 0, 0, 1);
+    t.vertices.uv0.emplace_back(0.5f, 0.5f);
+    t.anchors.push_back({});
+    const defocus::LevelFit fitted = fitOf(t);
+    EXPECT_EQ(fitted.uv0[{0}], t.vertices.uv0[0]);
+    EXPECT_NE(fitted.uv0[{1}], t.vertices.uv0[1]);
+}
+
+// What lies on another chart says nothing about this one's.
+TEST(LevelFit, otherChartsDoNotPullAtATexture) {
+    OneTriangle t = oneTriangle();
+    for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.1f * p.x, 0.1f * p.y);
+    for (std::size_t v = 3; v < t.anchors.size(); v += 3) t.vertices.uv0[v] += glm::vec2(3, 0);
+    const defocus::LevelFit fitted = fitOf(t);
+    for (std::uint32_t v = 0; v < 3; ++v) EXPECT_LT(glm::distance(fitted.uv0[{v}], t.vertices.uv0[v]), 1e-5f);
 }
 
 // A survivor that happens to sit on a dark spot must not make the whole triangle dark.
 TEST(LevelFit, colourOfOneSpotIsOutvoted) {
     OneTriangle t = oneTriangle();
-    for (auto& color : t.vertices.colors) color.r = 200;
+    for (auto& color : t.vertices.colors) color.r = 0.8f;
     t.vertices.colors[0].r = 0;
-    EXPECT_GT(fitOf(t).colors[0].r, 120);
+    EXPECT_GT(fitOf(t).colors[{0}].r, 0.47f);
 }
 
 TEST(LevelFit, normalsOfAReliefAveragedGetShorter) {
@@ -119,7 +220,7 @@ TEST(LevelFit, normalsOfAReliefAveragedGetShorter) {
         t.vertices.normals[v] = glm::normalize(glm::vec3(v % 2 == 0 ? 0.5f : -0.5f, 0, 1));
     const defocus::LevelFit fitted = fitOf(t);
     glm::vec3 mean(0);
-    for (std::size_t v = 0; v < 3; ++v) mean += fitted.normals[v] / 3.0f;
+    for (std::uint32_t v = 0; v < 3; ++v) mean += fitted.normals[{v}] / 3.0f;
     EXPECT_NEAR(mean.z, 1 / std::sqrt(1.25), 0.01);  // the mean of the two slopes points up and is that long
     EXPECT_NEAR(mean.x, 0, 0.1);
 }
@@ -131,13 +232,13 @@ TEST(LevelFit, equalNormalsStayUnitLength) {
 
 TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     OneTriangle t = oneTriangle();
-    t.vertices.colors[4] = {9, 8, 7, 6};
+    t.vertices.colors[4] = {0.9f, 0.8f, 0.7f, 0.6f};
     t.vertices.normals[4] = right;
     t.vertices.positions[4] = {2, 3, 0};
     const defocus::LevelFit fitted = fitOf(t, {0, 1, 2, 3, 4, 5});
-    EXPECT_EQ(fitted.positions[4], t.vertices.positions[4]);
-    EXPECT_EQ(fitted.colors[4], t.vertices.colors[4]);
-    EXPECT_EQ(fitted.normals[4], right);
+    EXPECT_EQ(fitted.positions[{4}], t.vertices.positions[4]);
+    EXPECT_EQ(fitted.colors[{4}], t.vertices.colors[4]);
+    EXPECT_EQ(fitted.normals[{4}], right);
 }
 
 // Two vertices at one place with one normal: one of them a twin, which only its own anchors move.
@@ -145,17 +246,20 @@ TEST(LevelFit, aTwinHasANormalOfItsOwn) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)
         t.vertices.normals[v] = glm::normalize(glm::vec3(0.2f, 0, 1));
-    for (std::size_t v = 0; v < 3; ++v) t.vertices.normals[v] = up;
-    const Welded positions = weldPositions(t.vertices.positions);
-    const std::vector<std::uint32_t> indices = {0, 1, 2};
-    const auto smoothing = smoothingGroups(t.vertices.normals, positions.id);
-    FitSource source = prepareFit(t.vertices, positions, smoothing, indices);
+    for (std::uint32_t v = 0; v < 3; ++v) t.vertices.normals[v] = up;
+    const WeldedPositions positions = weldPositions(t.vertices.positions);
+    const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
+    FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({{0, 1, 2}}));
     source.areas.assign(t.anchors.size(), 1);
-    const LevelMesh level{{{0, 1, 2, 3, 1, 2}, {6}}, {0, 1, 2, 0}, {0, 0, 0, 1}};
+    const LevelMesh level{numberedTriangles<LevelVertexNumber>({{0, 1, 2, 3, 1, 2}}),
+                          numbered<Numbered<LevelVertexNumber, MeshVertexNumber>>({0, 1, 2, 0}),
+                          {0, 0, 0, 1},
+                          {},
+                          {}};
     const defocus::LevelFit fitted = fitLevel(source, level, t.anchors);
-    EXPECT_EQ(fitted.positions[3], fitted.positions[0]);
-    EXPECT_GT(fitted.normals[0].x, 0.05f);
-    EXPECT_EQ(fitted.normals[3], up);
+    EXPECT_EQ(fitted.positions[{3}], fitted.positions[{0}]);
+    EXPECT_GT(fitted.normals[{0}].x, 0.05f);
+    EXPECT_EQ(fitted.normals[{3}], up);
 }
 
 }  // namespace

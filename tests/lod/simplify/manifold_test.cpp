@@ -5,31 +5,34 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lod/numbered.h"
+
 namespace defocus {
 namespace {
 
-constexpr std::uint32_t none = Manifold::none;
+using Points = Numbered<PositionNumber, glm::dvec3>;
 
-Manifold manifoldOf(const std::vector<glm::dvec3>& points, const std::vector<std::uint32_t>& corners) {
-    return buildManifold({corners, {static_cast<std::uint32_t>(corners.size())}}, points);
+Manifold manifoldOf(const Points& points, const std::vector<std::uint32_t>& corners) {
+    return buildManifold(numberedTriangles<PositionNumber>({corners}), points);
 }
 
 std::ptrdiff_t pairedHalfEdges(const Manifold& manifold) {
-    return std::count_if(manifold.twins.begin(), manifold.twins.end(), [](std::uint32_t twin) { return twin != none; });
+    return std::count_if(manifold.twins.begin(), manifold.twins.end(),
+                         [](SurfaceCorner twin) { return twin.isValid(); });
 }
 
 // Twins name each other and join the same two vertices.
 void expectConsistent(const Manifold& manifold) {
-    const auto end = [&](std::uint32_t e) { return manifold.corners[e % 3 == 2 ? e - 2 : e + 1]; };
-    for (std::uint32_t e = 0; e < manifold.twins.size(); ++e) {
-        const std::uint32_t twin = manifold.twins[e];
-        if (twin == none) continue;
+    const auto end = [&](SurfaceCorner e) { return manifold.corners[{e.value % 3 == 2 ? e.value - 2 : e.value + 1}]; };
+    for (const SurfaceCorner e : manifold.twins.numbers()) {
+        const SurfaceCorner twin = manifold.twins[e];
+        if (!twin.isValid()) continue;
         EXPECT_EQ(manifold.twins[twin], e);
         EXPECT_EQ(std::minmax({manifold.corners[e], end(e)}), std::minmax({manifold.corners[twin], end(twin)}));
     }
 }
 
-const std::vector<glm::dvec3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const Points square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 TEST(Manifold, TetrahedronIsClosed) {
     const Manifold manifold =
@@ -53,11 +56,11 @@ TEST(Manifold, SquareHasOneInnerEdge) {
 
 TEST(Manifold, FaceWoundAgainstItsNeighboursIsTurned) {
     // The middle one of a strip of three: 0 1 2, then 1 2 3 the wrong way, then 2 3 4.
-    const std::vector<glm::dvec3> strip = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}};
+    const Points strip = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}};
     const Manifold manifold = manifoldOf(strip, {0, 2, 1, 1, 3, 2, 2, 4, 3});
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 4);
-    EXPECT_EQ(manifold.turned, (std::vector<std::uint8_t>{0, 1, 0}));
+    EXPECT_EQ(manifold.turned, (Numbered<SurfaceFaceNumber, std::uint8_t>{0, 1, 0}));
     EXPECT_EQ(manifold.repairs.faces, 1u);
     EXPECT_EQ(manifold.repairs.turned, 1u);
 }
@@ -66,22 +69,22 @@ TEST(Manifold, BowTieGetsTwoVerticesAtItsKnot) {
     // 1   4
     // | X |   with the knot 2 in the middle
     // 0   3
-    const std::vector<glm::dvec3> points = {{0, 0, 0}, {0, 2, 0}, {1, 1, 0}, {2, 0, 0}, {2, 2, 0}};
+    const Points points = {{0, 0, 0}, {0, 2, 0}, {1, 1, 0}, {2, 0, 0}, {2, 2, 0}};
     const Manifold manifold = manifoldOf(points, {0, 2, 1, 3, 4, 2});
     EXPECT_EQ(manifold.positions.size(), 6u);
-    EXPECT_EQ(std::count(manifold.positions.begin(), manifold.positions.end(), 2u), 2);
+    EXPECT_EQ(std::count(manifold.positions.begin(), manifold.positions.end(), PositionNumber{2}), 2);
     EXPECT_EQ(manifold.repairs.faces, 1u);
     EXPECT_EQ(manifold.repairs.split, 1u);
 }
 
 TEST(Manifold, ThirdFaceOfAnEdgeIsCutOffWhereTheOthersContinueEachOther) {
     // A flat square 0 1 2 3 over the diagonal 0-2, and a fin 0 2 4 standing on the diagonal.
-    std::vector<glm::dvec3> points = square;
+    Points points = square;
     points.push_back({0.5, 0.5, 1});
     const Manifold manifold = manifoldOf(points, {0, 1, 2, 0, 2, 4, 0, 2, 3});
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 2);
-    EXPECT_EQ(manifold.twins[2], 6u);  // 2→0 of the first face, 0→2 of the last
+    EXPECT_EQ(manifold.twins[{2}], SurfaceCorner{6});  // 2→0 of the first face, 0→2 of the last
     EXPECT_EQ(manifold.positions.size(), 7u);
     EXPECT_EQ(manifold.repairs.faces, 1u);
     EXPECT_EQ(manifold.repairs.cut, 1u);
@@ -93,28 +96,28 @@ TEST(Manifold, SheetWithTwoFacesClosesAroundItsOutline) {
     const Manifold manifold = manifoldOf(square, {0, 1, 2, 0, 2, 1, 0, 2, 3, 0, 3, 2});
     expectConsistent(manifold);
     EXPECT_EQ(pairedHalfEdges(manifold), 12);
-    EXPECT_EQ(manifold.twins[2], 6u);
+    EXPECT_EQ(manifold.twins[{2}], SurfaceCorner{6});
     EXPECT_EQ(manifold.positions.size(), 4u);
     EXPECT_EQ(manifold.repairs.faces, 0u);
 }
 
 TEST(Manifold, DegenerateAndRepeatedFacesHaveNoPlaceInASurface) {
     const Manifold manifold = manifoldOf(square, {0, 1, 2, 1, 2, 0, 0, 0, 1, 3, 3, 3, 0, 2, 3});
-    EXPECT_EQ(manifold.faces, (std::vector<std::uint32_t>{0, 4}));
+    EXPECT_EQ(manifold.faces, (numbered<Numbered<SurfaceFaceNumber, TriangleNumber>>({0, 4})));
     EXPECT_EQ(manifold.repairs.faces, 3u);
     EXPECT_EQ(manifold.repairs.dropped, 3u);
     EXPECT_EQ(manifold.positions.size(), 4u);
 }
 
 TEST(Manifold, SameFaceInTwoPrimitivesStays) {
-    const Manifold manifold = buildManifold({{0, 1, 2, 0, 1, 2}, {3, 3}}, square);
+    const Manifold manifold = buildManifold(numberedTriangles<PositionNumber>({{0, 1, 2}, {0, 1, 2}}), square);
     EXPECT_EQ(manifold.faces.size(), 2u);
     EXPECT_EQ(manifold.positions.size(), 6u);
 }
 
 TEST(Manifold, MoebiusBandIsCutAtOneEdge) {
     // Five triangles i, i+1, i+2 (mod 5): the edges i, i+1 have two faces each, the edges i, i+2 are its single border.
-    std::vector<glm::dvec3> points;
+    Points points;
     std::vector<std::uint32_t> corners;
     for (std::uint32_t i = 0; i < 5; ++i) {
         points.push_back({std::cos(1.2566 * i), std::sin(1.2566 * i), 0.1 * i});
@@ -127,7 +130,7 @@ TEST(Manifold, MoebiusBandIsCutAtOneEdge) {
 }
 
 TEST(Manifold, HundredFacesAtOneEdgeAreCutApart) {
-    std::vector<glm::dvec3> points = {{0, 0, 0}, {0, 0, 1}};
+    Points points = {{0, 0, 0}, {0, 0, 1}};
     std::vector<std::uint32_t> corners;
     for (std::uint32_t i = 0; i < 100; ++i) {
         points.push_back({std::cos(0.0628 * i), std::sin(0.0628 * i), 0.5});

@@ -72,8 +72,8 @@ TEST(SurfaceMesh, holdsTwoEdgesBetweenTwoVertices) {
     expectLinked(mesh);
     ASSERT_EQ(mesh.n_vertices(), 6u);
     EXPECT_EQ(mesh.n_edges(), 12u);
-    const VertexHandle a = surface.simplifier.origin->firstVertex[0];
-    const VertexHandle b = surface.simplifier.origin->firstVertex[1];
+    const VertexHandle a = surface.vertex(0);
+    const VertexHandle b = surface.vertex(1);
     int between = 0;
     forEachSpoke(mesh, a, [&](HalfedgeHandle spoke) {
         if (mesh.to_vertex_handle(spoke) != b) return;
@@ -93,9 +93,9 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
     }
     const SurfaceMesh& mesh = surface.mesh();
     std::vector<glm::vec3> positions;
-    std::vector<std::vector<std::uint32_t>> faces;  // as sources of their corners, in order
+    std::vector<std::vector<MeshVertexNumber>> faces;  // as sources of their corners, in order
     const auto sourcesOf = [](const SurfaceMesh& of, FaceHandle face) {
-        std::vector<std::uint32_t> sources;
+        std::vector<MeshVertexNumber> sources;
         for (const HalfedgeHandle corner : cornersOf(of, face)) sources.push_back(of.wedges.source(of.wedge(corner)));
         return sources;
     };
@@ -114,11 +114,8 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
         EXPECT_EQ(copy.position(VertexHandle(static_cast<int>(v))), positions[v]);
     for (std::size_t f = 0; f < faces.size(); ++f)
         EXPECT_EQ(sourcesOf(copy, FaceHandle(static_cast<int>(f))), faces[f]);
-    const auto now = [&](std::size_t v) {
-        return surface.simplifier.current[indexOf(surface.simplifier.origin->firstVertex[v])];
-    };
-    EXPECT_EQ(now(6), now(7));
-    EXPECT_EQ(copy.position(now(6)), surface.vertices.positions[7]);
+    EXPECT_EQ(surface.vertex(6), surface.vertex(7));
+    EXPECT_EQ(copy.position(surface.vertex(6)), surface.vertices.positions[7]);
 }
 
 }  // namespace

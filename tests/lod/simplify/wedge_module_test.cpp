@@ -1,9 +1,8 @@
-#include "lod/simplify/wedge_module.h"
-
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
+#include "lod/simplify/collapse.h"
 #include "lod/simplify/drawn_surface.h"
 
 namespace defocus {

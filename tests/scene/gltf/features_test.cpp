@@ -92,12 +92,9 @@ TEST(GltfTopology, missingAttributesOfOnePrimitiveAreNeutral) {
                   {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"COLOR_0", colors}}}}});
     const Vertices vertices = builder.load().meshes[0].vertices;
     ASSERT_EQ(vertices.count(), 6u);
-    EXPECT_EQ(vertices.colors, (std::vector<glm::u8vec4>{{255, 255, 255, 255},
-                                                         {255, 255, 255, 255},
-                                                         {255, 255, 255, 255},
-                                                         {0, 0, 0, 255},
-                                                         {128, 128, 128, 255},
-                                                         {255, 0, 255, 255}}));
+    EXPECT_EQ(vertices.colors,
+              (std::vector<glm::vec4>{
+                  {1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}, {0, 0, 0, 1}, {0.5f, 0.5f, 0.5f, 1}, {1, 0, 1, 1}}));
     EXPECT_EQ(vertices.uv0, (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}, {0, 0}, {0, 0}, {0, 0}}));
 }
 
@@ -202,14 +199,25 @@ TEST(GltfAccessor, sparseElementsOverABaseAndOverZeros) {
     }
 }
 
-TEST(GltfAccessor, colorsOfSixteenBitsAreRounded) {
+TEST(GltfAccessor, colorsOfSixteenBitsAreKept) {
     GltfBuilder builder;
     const int colors = builder.accessor(
-        builder.view(std::vector<std::uint16_t>{0, 128, 129, 65535, 257, 386, 65535, 0, 32768, 0, 0, 32767}),
+        builder.view(std::vector<std::uint16_t>{0, 118, 129, 65535, 257, 386, 65535, 0, 32768, 0, 0, 32767}),
         gltfUnsignedShort, "VEC4", 3, {{"normalized", true}});
     builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}, {"COLOR_0", colors}}}}});
+    const std::vector<glm::vec4> read = builder.load().meshes[0].vertices.colors;
+    const std::vector<glm::dvec4> written = {{0, 118, 129, 65535}, {257, 386, 65535, 0}, {32768, 0, 0, 32767}};
+    ASSERT_EQ(read.size(), written.size());
+    for (std::size_t v = 0; v < read.size(); ++v)
+        for (glm::length_t c = 0; c < 4; ++c) EXPECT_FLOAT_EQ(read[v][c], static_cast<float>(written[v][c] / 65535));
+}
+
+TEST(GltfAccessor, colorsOfFloatsAreKeptAndClampedToTheirRange) {
+    GltfBuilder builder;
+    const int colors = builder.floats({0.0018f, 1e-5f, 0.7f, 1, 1.5f, -0.5f, 0.3f, 0.1f, 0, 1, 0, 2}, "VEC4", 4);
+    builder.mesh({{{"attributes", {{"POSITION", builder.positions(unitTriangle)}, {"COLOR_0", colors}}}}});
     EXPECT_EQ(builder.load().meshes[0].vertices.colors,
-              (std::vector<glm::u8vec4>{{0, 0, 1, 255}, {1, 2, 255, 0}, {128, 0, 0, 127}}));
+              (std::vector<glm::vec4>{{0.0018f, 1e-5f, 0.7f, 1}, {1, 0, 0.3f, 0.1f}, {0, 1, 0, 1}}));
 }
 
 TEST(GltfMorph, targetsAndWeightsAreKept) {
@@ -370,6 +378,27 @@ TEST(GltfScene, customPropertiesOfACamerasNodeAreLensValuesToo) {
     EXPECT_EQ(scene.cameras.at(0).lensValue("fStop"), 1.4) << "the camera's own win";
     EXPECT_EQ(scene.cameras[0].lensValue("focusDistance"), 3);
     EXPECT_EQ(scene.cameras[0].lensValue("dofEnabled"), 1);
+}
+
+// Cycles' polygon has the middle of an edge where ours has a corner: half a blade's angle between them.
+TEST(GltfScene, bladesOfAFileFromBlenderStandAsInBlender) {
+    GltfBuilder builder;
+    const auto camera = [](const nlohmann::json& extras) -> nlohmann::json {
+        return {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.2}}}, {"extras", extras}};
+    };
+    builder.json["cameras"] = {camera({{"bladeCount", 6}, {"bladeRotation", 15}}), camera({{"bladeCount", 5}}),
+                               camera({{"bladeRotation", 15}})};
+    const auto rotation = [](const Scene& scene, std::size_t i) {
+        return scene.cameras.at(i).lensValue("bladeRotation").value_or(0);
+    };
+    Scene scene = builder.load();
+    EXPECT_EQ(rotation(scene, 0), 15);
+    EXPECT_EQ(rotation(scene, 1), 0);
+    builder.json["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.60";
+    scene = builder.load();
+    EXPECT_EQ(rotation(scene, 0), 15 + 30);
+    EXPECT_EQ(rotation(scene, 1), 36);
+    EXPECT_EQ(rotation(scene, 2), 15) << "without a number of blades there is none to turn by";
 }
 
 // A triangle with _COC_SCALE on a node with cocScale.

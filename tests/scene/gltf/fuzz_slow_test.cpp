@@ -98,7 +98,8 @@ INSTANTIATE_TEST_SUITE_P(Gltf, DamagedModel,
                                          "AnimatedMorphCube-Quantized.glb", "SimpleInstancing.glb", "CornellBox.glb",
                                          "RiggedFigure.glb", "MorphPrimitivesTest.glb", "InterpolationTest.glb",
                                          "MultiUVTest.glb", "MeshPrimitiveModes.gltf", "SimpleSparseAccessor.gltf",
-                                         "suzanne-high-poly-Draco.gltf", "japanese-bridge-garden-meshopt.glb"),
+                                         "tests/data/compressed/fish-draco.glb",
+                                         "tests/data/compressed/reed-meshopt.glb"),
                          [](const auto& tested) { return testNameOf(tested.param); });
 
 }  // namespace

@@ -1,0 +1,388 @@
+// A level as the collapses have left it: which mesh vertices its corners draw, and where the mesh's vertices lie on it.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "lod/simplify/state.h"
+#include "lod/simplify/triangle_distance.h"
+
+namespace defocus {
+
+namespace {
+
+// ---- creases
+
+// Where the two sides of a thin sheet meet after their rim has collapsed, one normal cannot serve both: it would point
+// sideways and darken either side. Such a wedge is split, as Hoppe 1998 allows at any corner. At a seam of the texture
+// each side may have a wedge of its own already; as they shared a normal before, they are looked at together.
+
+// Resultant of the unit normals around a wedge, as a share of their number (by angle), below which it is split: a cone
+// of 60° at its tip is kept.
+constexpr double leastResultant = 0.5;
+constexpr int rounds = 3;  // of two means
+
+struct CornerNormal {
+    TriangleCorner corner;
+    // Of the face as the mesh winds it; as long as twice its area, then as long as the corner's angle.
+    glm::dvec3 normal;
+};
+
+double angleBetween(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+// Where all faces look within 60° of the first, their resultant is long enough whatever the angles are.
+bool surelyAgree(std::span<const CornerNormal> corners) {
+    const glm::dvec3& first = corners[0].normal;
+    const double limit = leastResultant * leastResultant * glm::dot(first, first);
+    return std::all_of(corners.begin(), corners.end(), [&](const CornerNormal& c) {
+        const double along = glm::dot(first, c.normal);
+        return along > 0 && along * along > limit * glm::dot(c.normal, c.normal);
+    });
+}
+
+// The places of a corner and of the two beside it, as the mesh winds the face.
+struct CornerPlaces {
+    glm::dvec3 own, next, previous;
+};
+
+using Corners = Numbered<TriangleCorner, HalfedgeHandle>;
+
+CornerPlaces placesAt(const SurfaceMesh& mesh, const Corners& corners, TriangleCorner corner) {
+    const auto place = [&](TriangleCorner c) { return mesh.place(mesh.from_vertex_handle(corners[c])); };
+    return {place(corner), place(nextCorner(corner)), place(previousCorner(corner))};
+}
+
+CornerNormal cornerNormal(const CornerPlaces& at, TriangleCorner corner) {
+    return {corner, glm::cross(at.next - at.own, at.previous - at.own)};
+}
+
+void weighByAngle(const CornerPlaces& at, CornerNormal& c) {
+    const double length = glm::length(c.normal);
+    c.normal *= length > 0 ? angleBetween(at.next - at.own, at.previous - at.own) / length : 0;
+}
+
+// Moves the corners of one of the two sides behind the returned place; all stay before it where one side is enough.
+std::size_t splitSides(std::span<CornerNormal> corners, const glm::dvec3& own) {
+    glm::dvec3 sum(0);
+    double angles = 0;
+    for (const CornerNormal& c : corners) {
+        sum += c.normal;
+        angles += glm::length(c.normal);
+    }
+    if (glm::length(sum) >= leastResultant * angles) return corners.size();
+
+    // Two means, from the corner of the largest angle and the one that looks away from it most.
+    const auto longer = [](const CornerNormal& a, const CornerNormal& b) {
+        return glm::dot(a.normal, a.normal) < glm::dot(b.normal, b.normal);
+    };
+    glm::dvec3 front = std::max_element(corners.begin(), corners.end(), longer)->normal;
+    glm::dvec3 back =
+        std::min_element(corners.begin(), corners.end(), [&](const CornerNormal& a, const CornerNormal& b) {
+            return glm::dot(a.normal, front) < glm::dot(b.normal, front);
+        })->normal;
+    const auto isFront = [&](const CornerNormal& c) {
+        return glm::dot(c.normal, front) * glm::length(back) >= glm::dot(c.normal, back) * glm::length(front);
+    };
+    for (int round = 0; round < rounds; ++round) {
+        glm::dvec3 nextFront(0);
+        glm::dvec3 nextBack(0);
+        for (const CornerNormal& c : corners) (isFront(c) ? nextFront : nextBack) += c.normal;
+        front = nextFront;
+        back = nextBack;
+    }
+    // The side that the vertex's own normal agrees with better keeps it.
+    if (glm::dot(front, own) * glm::length(back) < glm::dot(back, own) * glm::length(front)) std::swap(front, back);
+    const auto border = std::stable_partition(corners.begin(), corners.end(), isFront);
+    return static_cast<std::size_t>(border - corners.begin());
+}
+
+// Wedges whose vertices are of one smoothing group, as far as there are corners of it; numbered by first use.
+using NormalGroup = Number<struct NormalGroupKind>;
+using CornersByNormal = Buckets<NormalGroup, TriangleCorner>;
+
+CornersByNormal groupCorners(const Simplifier& s, const Corners& corners) {
+    const WedgeTable& wedges = s.mesh->wedges;
+    Numbered<MeshVertexNumber, NormalGroup> numbers(s.origin->smoothing.size());
+    Numbered<WedgeNumber, NormalGroup> groupOf;
+    groupOf.reserve(wedges.size());
+    std::uint32_t count = 0;
+    for (const auto w : numbersBelow<WedgeNumber>(wedges.size())) {
+        NormalGroup& number = numbers[s.origin->smoothing[wedges.source(w)]];
+        if (!number.isValid()) number = {count++};
+        groupOf.push_back(number);
+    }
+    return {count, corners.size(), [&](TriangleCorner corner) { return groupOf[s.mesh->wedge(corners[corner])]; }};
+}
+
+// Finds the mesh vertices that all corners draw. Where the faces around those that share a normal look
+// opposite ways, the faces of one side lie behind the others, and a mesh vertex that is on both sides is split.
+struct Creases {
+    Numbered<TriangleCorner, MeshVertexNumber> drawn;
+    std::vector<MeshVertexNumber> behind;  // those of `drawn` of which all corners lie behind; sorted
+};
+
+Creases creases(Simplifier& s, const Corners& corners) {
+    const SurfaceMesh& mesh = *s.mesh;
+    Creases result;
+    Numbered<TriangleCorner, MeshVertexNumber>& drawn = result.drawn;
+    drawn.reserve(corners.size());
+    for (const HalfedgeHandle corner : corners) drawn.push_back(mesh.wedges.source(mesh.wedge(corner)));
+
+    const CornersByNormal groups = groupCorners(s, corners);
+    std::vector<CornerNormal> around;
+    std::vector<MeshVertexNumber> inFront;
+    for (const NormalGroup group : groups.keys()) {
+        around.clear();
+        for (const TriangleCorner corner : groups[group])
+            around.push_back(cornerNormal(placesAt(mesh, corners, corner), corner));
+        if (around.size() < 2 || surelyAgree(around)) continue;
+        for (CornerNormal& c : around) weighByAngle(placesAt(mesh, corners, c.corner), c);
+        const MeshVertexNumber leader = s.origin->smoothing[drawn[around[0].corner]];
+        const std::size_t kept = splitSides(around, s.origin->vertices.normals[leader.value]);
+        if (kept == around.size() || kept == 0) continue;
+        inFront.clear();
+        for (const CornerNormal& c : std::span(around).first(kept)) inFront.push_back(drawn[c.corner]);
+        for (const CornerNormal& c : std::span(around).subspan(kept)) {
+            const MeshVertexNumber v = drawn[c.corner];
+            if (std::find(inFront.begin(), inFront.end(), v) == inFront.end()) {
+                result.behind.push_back(v);  // all of it: at a seam, each side has a wedge of its own
+                continue;
+            }
+            const auto [twin, isNew] =
+                s.twinOf.try_emplace(v, itemAt<MeshVertexNumber>(s.origin->firstVertex.size() + s.twins.size()));
+            if (isNew) s.twins.push_back(v);
+            drawn[c.corner] = twin->second;
+        }
+    }
+    std::sort(result.behind.begin(), result.behind.end());
+    return result;
+}
+
+// ---- anchors
+
+// Where do the mesh's vertices lie on what is left of it? Every vertex that is gone has a survivor, near which the
+// level's closest face is looked for.
+
+constexpr std::size_t mostSteps = 12;          // vertices whose faces are looked at, on the way to the closest face
+constexpr std::size_t mostFacesAround = 1024;  // faces of a vertex on that way; files may have millions at one
+constexpr double noDistance = 1e-24;           // squared, where the mesh is about 1 wide: rounding
+constexpr double leastUpright = 0.99;  // squared cosine of the angle between a face's normal and the way straight up
+// Of the vertices that have collapsed onto one, at least so many are looked for: each second, fourth … of more.
+constexpr std::uint32_t enoughAnchors = 16;
+
+// The level's faces, and whose corners lie at each vertex.
+struct FaceRings {
+    const Snapshot& level;
+    Numbered<VertexHandle, glm::dvec3> points;     // in the frame
+    Numbered<TriangleNumber, glm::dvec3> normals;  // as long as twice the area
+    Buckets<VertexHandle, TriangleCorner> around;
+
+    [[nodiscard]] const glm::dvec3& point(VertexHandle v) const { return points[v]; }
+    [[nodiscard]] const glm::dvec3& point(TriangleCorner corner) const { return point(level.corners[corner]); }
+};
+
+FaceRings faceRings(const Snapshot& level, const Frame& frame) {
+    FaceRings rings{level, {}, {}, {level.positions.size(), level.corners.size(), [&](TriangleCorner corner) {
+                                        return level.corners[corner];
+                                    }}};
+    rings.points.reserve(level.positions.size());
+    for (const glm::vec3& position : level.positions) rings.points.push_back(frame.point(position));
+    rings.normals.reserve(level.drawn.count());
+    for (const TriangleNumber face : level.drawn.numbers()) {
+        const glm::dvec3& a = rings.point(cornerAt(face, 0));
+        rings.normals.push_back(glm::cross(rings.point(cornerAt(face, 1)) - a, rings.point(cornerAt(face, 2)) - a));
+    }
+    return rings;
+}
+
+struct Closest {
+    double squaredDistance = 0;
+    TriangleCorner corner;  // of the face; none: the vertex itself is the closest point
+    glm::dvec2 along{0};    // see closestCoordinates; from the corner to the next and the previous one
+};
+
+// The corner of `face` nearest to `p` that isn't among `seen` and hasn't more faces than pay; invalid if there is none.
+VertexHandle nearestUnseen(const FaceRings& rings, TriangleNumber face, const glm::dvec3& p,
+                           std::span<const VertexHandle> seen) {
+    VertexHandle nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const VertexHandle v = rings.level.corners[cornerAt(face, i)];
+        if (rings.around[v].size() > mostFacesAround || std::find(seen.begin(), seen.end(), v) != seen.end()) continue;
+        const glm::dvec3 offset = p - rings.point(v);
+        if (const double distance = glm::dot(offset, offset); distance < least) {
+            least = distance;
+            nearest = v;
+        }
+    }
+    return nearest;
+}
+
+// Does the face lie straight below a point that is `offset` away from its point `along`? The coordinates alone don't
+// tell: those of a sliver are mostly rounding.
+bool liesBelow(const FaceRings& rings, TriangleNumber face, const glm::dvec2& along, const glm::dvec3& offset) {
+    if (!(along.x > 0 && along.y > 0 && along.x + along.y < 1)) return false;
+    const glm::dvec3& normal = rings.normals[face];
+    const double height = glm::dot(offset, normal);
+    return height * height >= leastUpright * glm::dot(offset, offset) * glm::dot(normal, normal);
+}
+
+// The point of the level's surface closest to `p`, near the vertex `start`: from the faces around one vertex to those
+// around the corners of the closest, as long as that leads closer and no face lies straight below.
+// Only faces that look to `side` count: a thin fin has two sides in one place.
+Closest closestTo(const FaceRings& rings, const glm::dvec3& p, VertexHandle start, const glm::dvec3& side) {
+    Closest result;
+    VertexHandle nearest = start;
+    const glm::dvec3 away = p - rings.point(start);
+    bool below = false;
+    double least = glm::dot(away, away);
+    std::array<VertexHandle, mostSteps> seen;
+    for (std::size_t step = 0; step < mostSteps && nearest.is_valid(); ++step) {
+        if (least <= (result.corner.isValid() ? noDistance : 0)) break;
+        seen[step] = nearest;
+        const glm::dvec3& a = rings.point(nearest);
+        const glm::dvec3 fromA = p - a;
+        for (const TriangleCorner corner : rings.around[nearest]) {
+            const glm::dvec3& b = rings.point(nextCorner(corner));
+            const glm::dvec3& c = rings.point(previousCorner(corner));
+            if (glm::dot(b - a, fromA) <= 0 && glm::dot(c - a, fromA) <= 0) continue;  // closest at the vertex itself
+            const TriangleNumber face = faceOf(corner);
+            if (!(glm::dot(rings.normals[face], side) > 0)) continue;
+            const glm::dvec2 along = closestCoordinates(p, a, b, c);
+            const glm::dvec3 offset = fromA - along.x * (b - a) - along.y * (c - a);
+            const double distance = glm::dot(offset, offset);
+            if (!(distance < least)) continue;  // NaN of a degenerate face is passed over
+            least = distance;
+            result.along = along;
+            result.corner = corner;
+            below = liesBelow(rings, face, along, offset);
+            if (below) break;
+        }
+        if (!result.corner.isValid() || below) break;
+        nearest = nearestUnseen(rings, faceOf(result.corner), p, std::span(seen.data(), step + 1));
+    }
+    result.squaredDistance = least;
+    return result;
+}
+
+// For each vertex of the level, of how many mesh vertices that have collapsed onto it one is enough.
+Numbered<VertexHandle, std::uint32_t> anchorStrides(const Origin& origin, const Snapshot& level) {
+    Numbered<VertexHandle, std::uint32_t> strides(level.positions.size(), 0);
+    for (const SurfaceVertexNumber v : origin.firstVertex)
+        if (v.isValid() && level.nearest[v].is_valid()) ++strides[level.nearest[v]];
+    for (std::uint32_t& stride : strides) stride = std::bit_floor(std::max(1u, stride / enoughAnchors));
+    return strides;
+}
+
+// The closest points to all mesh vertices, as far as they lie on faces of their own primitive and
+// component.
+Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot& level) {
+    const FaceRings rings = faceRings(level, origin.frame);
+    Numbered<MeshVertexNumber, TriangleCorner> cornerOf(origin.firstVertex.size() + level.twins.size());
+    for (const TriangleCorner corner : level.drawn.indices.numbers()) cornerOf[level.drawn.indices[corner]] = corner;
+    const Numbered<TriangleNumber, PrimitiveNumber> primitives = primitivesOf(level.drawn);
+
+    Numbered<MeshVertexNumber, Anchor> result(origin.firstVertex.size());
+    const Numbered<VertexHandle, std::uint32_t> strides = anchorStrides(origin, level);
+    Numbered<VertexHandle, std::uint32_t> waiting(strides.size(), 0);
+    Numbered<VertexHandle, MeshVertexNumber> lastOf(strides.size());  // that was looked for
+    for (const MeshVertexNumber own : result.numbers()) {
+        const SurfaceVertexNumber v = origin.firstVertex[own];
+        if (!v.isValid()) continue;
+        Anchor& anchor = result[own];
+        const VertexHandle survivor = level.nearest[v];
+        if (!survivor.is_valid()) continue;
+        const std::uint32_t stride = strides[survivor];
+        if (waiting[survivor]++ % stride != 0) {
+            anchor.sharedWith = lastOf[survivor];
+            continue;
+        }
+        lastOf[survivor] = own;
+        const glm::dvec3 side = origin.vertices.normals[own.value];
+        const glm::dvec3 point = origin.frame.point(origin.vertices.positions[own.value]);
+        const Closest closest = closestTo(rings, point, survivor, side);
+        if (!closest.corner.isValid()) {
+            const TriangleCorner corner = cornerOf[own];
+            if (closest.squaredDistance != 0 || !corner.isValid()) continue;
+            anchor.triangle = faceOf(corner);
+            anchor.weight[corner.value % 3] = 1;
+            continue;
+        }
+        if (primitives[faceOf(closest.corner)] != origin.firstPrimitive[own]) continue;
+        anchor.triangle = faceOf(closest.corner);
+        anchor.weight[closest.corner.value % 3] = static_cast<float>(1 - closest.along.x - closest.along.y);
+        anchor.weight[nextCorner(closest.corner).value % 3] = static_cast<float>(closest.along.x);
+        anchor.weight[previousCorner(closest.corner).value % 3] = static_cast<float>(closest.along.y);
+    }
+    return result;
+}
+
+// Notes what is known of components once many are as small as they get.
+void noteComponents(const Simplifier& s, Snapshot& level) {
+    if (!s.grows) return;
+    level.removed = removedBalls(s);
+    level.growths = growths(s);
+    level.growthsOf.reserve(s.mesh->n_vertices());
+    forEachVertex(*s.mesh, [&](VertexHandle v) { level.growthsOf.push_back(s.mesh->data(v).component); });
+}
+
+}  // namespace
+
+Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
+    const SurfaceMesh& mesh = *s.mesh;
+    Snapshot level;
+    level.positions.reserve(mesh.n_vertices());
+    forEachVertex(mesh, [&](VertexHandle v) { level.positions.push_back(mesh.position(v)); });
+    level.nearest = s.current;
+    Numbered<TriangleCorner, HalfedgeHandle> corners;
+    corners.reserve(3 * mesh.n_faces());
+    level.drawn.primitiveIndexCounts.assign(primitiveCount, 0);
+    forEachFace(mesh, [&](FaceHandle face) {
+        level.drawn.primitiveIndexCounts[mesh.primitive(face)] += 3;
+        const FaceCorners around = cornersOf(mesh, face);
+        corners.insert(corners.end(), around.begin(), around.end());
+        if (mesh.data(face).isTurned()) std::swap(corners.end()[-1], corners.end()[-2]);
+    });
+    Creases found = creases(s, corners);
+    level.drawn.indices = std::move(found.drawn);
+    level.behind = std::move(found.behind);
+    level.corners.reserve(corners.size());
+    for (const HalfedgeHandle corner : corners) level.corners.push_back(mesh.from_vertex_handle(corner));
+    level.twins = s.twins;
+    noteComponents(s, level);
+    return level;
+}
+
+SimplifiedLevel described(const Origin& origin, const Snapshot& picture) {
+    SimplifiedLevel level;
+    level.anchors = anchors(origin, picture);
+    level.mesh.triangles.primitiveIndexCounts = picture.drawn.primitiveIndexCounts;
+    const std::size_t vertexCount = origin.firstVertex.size();
+    Numbered<MeshVertexNumber, LevelVertexNumber> local(vertexCount + picture.twins.size());
+    level.mesh.triangles.indices.reserve(picture.drawn.indices.size());
+    level.removed = picture.removed;
+    level.mesh.growths = picture.growths;
+    for (const TriangleCorner corner : picture.drawn.indices.numbers()) {
+        const MeshVertexNumber v = picture.drawn.indices[corner];
+        if (!local[v].isValid()) {
+            local[v] = level.numbers.next();
+            const bool twin = indexOf(v) >= vertexCount;
+            level.numbers.push_back(v);
+            level.mesh.sources.push_back(twin ? picture.twins[indexOf(v) - vertexCount] : v);
+            const bool behind = std::binary_search(picture.behind.begin(), picture.behind.end(), v);
+            level.mesh.apart.push_back(twin || behind ? 1 : 0);
+            if (!picture.growthsOf.empty()) level.mesh.growthsOf.push_back(picture.growthsOf[picture.corners[corner]]);
+        }
+        level.mesh.triangles.indices.push_back(local[v]);
+    }
+    return level;
+}
+
+}  // namespace defocus

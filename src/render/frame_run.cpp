@@ -1,0 +1,118 @@
+#include "render/frame_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "core/stopwatch.h"
+
+namespace defocus {
+
+void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter) {
+    if (!stop.given()) return;
+    const char* what = stop.targetError ? "a target error" : "a time limit";
+    if (!method.sumsBlocks)
+        throw UsageError(
+            fmt::format("method '{}' doesn't add lens samples block by block, which {} needs", method.name, what));
+    if (shutter.seconds > 0 && shutter.exactMotion)
+        throw UsageError(
+            fmt::format("exact motion poses the scene for each of a known number of samples, which {} leaves open; "
+                        "give a number of motion segments",
+                        what));
+}
+
+void FrameRun::start(const View& view, const RenderSettings& settings, const StopSettings& stop) {
+    begin_ = Clock::now();
+    view_ = view;
+    before_ = {};
+    plan_ = {};
+    planMilliseconds_ = 0;
+    schedule_.reset();
+    if (stop.given()) {
+        schedule_.emplace(settings, stop, measuredLevels(settings));
+        return startBlock(true);
+    }
+    plan_ = planned(settings);
+    renderer_->start(plan_);
+}
+
+// A few samples of the frame with levels, coarse and fine, against the same samples at full detail.
+std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings) {
+    if (settings.lod == LodMode::off) return {};
+    const auto drawn = [&] {
+        renderer_->start(planned(settings));
+        while (renderer_->advance()) {
+        }
+        return renderer_->image();
+    };
+    const auto withThresholdsFor = [&](std::uint32_t samples) {
+        const LodThresholds thresholds = chosenThresholds(settings.thresholds, settings.metric, samples);
+        RenderSettings levels = settings;
+        levels.thresholds = {thresholds.blur, thresholds.size};
+        return levels;
+    };
+    settings.sampleCount = LevelError::drawn;
+    const RenderSettings coarse = withThresholdsFor(LevelError::coarse);
+    const RenderSettings fine = withThresholdsFor(LevelError::fine);
+    settings.lod = LodMode::off;
+    const Image full = drawn();
+    LevelError error;
+    settings = coarse;
+    error.atCoarse = encodedDifference(full, drawn());
+    settings = fine;
+    error.atFine = encodedDifference(full, drawn());
+    return error;
+}
+
+FramePlan FrameRun::planned(const RenderSettings& settings) {
+    const Clock::time_point begin = Clock::now();
+    FramePlan plan = planFrame(*world_, view_, settings);
+    planMilliseconds_ += millisecondsSince(begin);
+    return plan;
+}
+
+void FrameRun::startBlock(bool first) {
+    FramePlan plan = planned(schedule_->nextBlock());
+    if (first)
+        renderer_->start(plan);
+    else
+        renderer_->continueWith(plan);
+    plan.trianglesDrawn += plan_.trianglesDrawn;
+    plan.trianglesFacingAway += plan_.trianglesFacingAway;
+    plan.trianglesOutside += plan_.trianglesOutside;
+    plan.trianglesAtFullDetail += plan_.trianglesAtFullDetail;
+    plan_ = std::move(plan);
+}
+
+bool FrameRun::advance() {
+    if (renderer_->advance()) return true;
+    if (!schedule_ || schedule_->stopped()) return false;
+    const bool more =
+        schedule_->endBlock(plan_, millisecondsSince(begin_) / 1000, [this] { return renderer_->image(); });
+    if (!more) return false;
+    const RenderStats block = renderer_->stats();
+    before_.renderMilliseconds += block.renderMilliseconds;
+    before_.setupMilliseconds += block.setupMilliseconds;
+    before_.gpuMilliseconds += block.gpuMilliseconds;
+    startBlock(false);
+    return true;
+}
+
+std::uint32_t FrameRun::sampleTotal() const {
+    return schedule_ ? std::max(schedule_->expectedSamples(), samples()) : renderer_->sampleTotal();
+}
+
+RenderStats FrameRun::stats() const {
+    RenderStats stats = renderer_->stats();
+    if (!schedule_) return stats;
+    stats.renderMilliseconds += before_.renderMilliseconds;
+    stats.setupMilliseconds += before_.setupMilliseconds;
+    stats.gpuMilliseconds += before_.gpuMilliseconds;
+    stats.stopped = schedule_->stopped().value_or(StopReason::sampleCount);
+    stats.estimatedError = schedule_->estimatedError();
+    return stats;
+}
+
+}  // namespace defocus

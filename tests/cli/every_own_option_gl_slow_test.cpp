@@ -1,0 +1,228 @@
+// Every option of a command's own acts, as every_option_gl_slow_test.cpp has it for settings; and all options of all
+// commands have a case in one of the two.
+
+#include <set>
+
+#include "cli/bench_commands.h"
+#include "cli/option_test.h"
+#include "cli/own_option_cases.h"
+#include "core/error.h"
+#include "eval/scaling/scaling.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// ---- all have a case ------------------------------------------------------------------------------------------------
+
+// What the tests below go through one by one.
+const std::set<std::string> triedAlone = {
+    " --version",
+    " --quiet",
+    " --verbose",
+    " --shader-dir",
+    "bench speedup --allow-changed",
+    "bench popping --allow-changed",
+    "bench convergence --allow-changed",
+    "bench scaling --allow-changed",
+    "bench stability --allow-changed",
+    "bench scaling --axes",
+    "bench scaling --large",
+    "bench scaling --runs",
+    "bench scaling --output",
+    "bench scaling --report",
+    "bench stability --output",
+    "bench stability --report",
+};
+
+// "", "render", "bench", "bench speedup" …
+void collectCommands(const CLI::App& app, const std::string& names, Words& commands) {
+    commands.push_back(names);
+    for (const CLI::App* command : app.get_subcommands(nullptr))
+        collectCommands(*command, names.empty() ? command->get_name() : names + " " + command->get_name(), commands);
+}
+
+TEST(OptionsOfAllCommands, haveACase) {
+    Words commands;
+    collectCommands(commandNamed(""), "", commands);
+    std::set<std::string> own;
+    for (const std::string& command : commands)
+        for (const CLI::Option* option : optionsOffered(command)) {
+            const std::string name = command + " " + nameOf(*option);
+            if (ownOptionCases().contains(name))
+                own.insert(name);
+            else if (const Setting* setting = settingOf(*option))
+                EXPECT_TRUE(settingCases().contains(setting->name)) << name;
+            else if (const MethodSetting* ofMethod = methodSettingOf(*option))
+                EXPECT_TRUE(methodSettingCases().contains(ofMethod->name)) << name;
+            else if (command != "view")  // tests/view
+                own.insert(name);
+        }
+    for (const std::string& option : own)
+        EXPECT_TRUE(ownOptionCases().contains(option) != triedAlone.contains(option)) << option;
+    for (const auto& [option, tried] : ownOptionCases()) EXPECT_TRUE(own.contains(option)) << option;
+    for (const std::string& option : triedAlone) EXPECT_TRUE(own.contains(option)) << option;
+}
+
+// ---- two lines each -------------------------------------------------------------------------------------------------
+
+class OwnOption : public OptionTest {
+protected:
+    void SetUp() override {
+        OptionTest::SetUp();
+        fs::copy(folder() / "sky.hdr", folder() / "one.exr");
+        Image image = readImage(folder() / "one.exr");
+        for (float& value : image.pixels) value *= 1.1f;
+        writeImage(folder() / "two.exr", image);
+        for (float& value : image.pixels) value = 1 - value;
+        writeImage(folder() / "three.exr", image);
+        const fs::path source = DEFOCUS_SOURCE_DIR;
+        fs::copy(source / "meshes/fish.glb", folder() / "other.glb");
+        json result = jsonIn(source / "bench/results/llvmpipe-popping.json");
+        write("one.json", result);
+        write("two.json", result);
+        for (json& row : result.at("rows")) row.at("stepRmse").at("worst") = 1;
+        write("three.json", result);
+        fs::copy(source / "docs/shot.schema.json", folder() / "schema.json");
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder()))
+            given_.insert(entry.path().filename());
+    }
+
+    // Whatever is there that no test put there, and what was said.
+    [[nodiscard]] std::string leftBy(const Words& line) const {
+        const Outcome outcome = run(line);
+        std::string text = std::to_string(outcome.exitCode) + " ";
+        std::set<fs::path> files;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder()))
+            if (!given_.contains(*fs::relative(entry.path(), folder()).begin())) files.insert(entry.path());
+        for (const fs::path& path : files) {
+            text += path.string() + " ";
+            if (path.extension() == ".exr" || path.extension() == ".png") text += pixelsIn(path);
+            if (path.parent_path().filename() == "result" && path.extension() == ".json")
+                text += withoutTimes(jsonIn(path).at("rows")).dump();
+        }
+        if (line.front() == "bench" && line.at(1) != "diff") return text;  // its table has times
+        static const std::regex times("[0-9.]+ m?s\\b|\"buildSeconds\": [0-9.e-]+");
+        text += std::regex_replace(outcome.out, times, "");
+        return text + (outcome.err.find("there before") != std::string::npos ? "kept" : "");
+    }
+
+    [[nodiscard]] std::string leftByCase(const std::string& command, const OwnOptionCase& tried, bool with) const {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder()))
+            if (!given_.contains(entry.path().filename())) fs::remove_all(entry.path());
+        for (const Words& line : tried.before) EXPECT_EQ(run(line).exitCode, 0) << shownLine(line);
+        return leftBy(lineOfOwnCase(command, tried, with));
+    }
+
+private:
+    std::set<fs::path> given_;
+};
+
+class EveryOwnOption : public OwnOption, public testing::WithParamInterface<std::string> {};
+
+TEST_P(EveryOwnOption, acts) {
+    const std::string& command = GetParam();
+    for (const auto& [name, tried] : ownOptionCases()) {
+        if (name.substr(0, name.rfind(' ')) != command) continue;
+        const std::string without = leftByCase(command, tried, false);
+        EXPECT_TRUE(without != leftByCase(command, tried, true))
+            << name << " changes nothing in " << shownLine(lineOfOwnCase(command, tried, true));
+    }
+}
+
+TEST_P(EveryOwnOption, isAllThatDiffers) {
+    const OwnOptionCase nothing;
+    EXPECT_TRUE(leftByCase(GetParam(), nothing, false) == leftByCase(GetParam(), nothing, false));
+}
+
+std::vector<std::string> commandsWithCases() {
+    std::set<std::string> commands;
+    for (const auto& [name, tried] : ownOptionCases()) commands.insert(name.substr(0, name.rfind(' ')));
+    return {commands.begin(), commands.end()};
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, EveryOwnOption, testing::ValuesIn(commandsWithCases()),
+                         [](const auto& each) { return lettersOf(each.param); });
+
+// ---- one by one -----------------------------------------------------------------------------------------------------
+
+const Words quickRender = {"render", "ball.glb", "--size", "16x12", "--samples", "4"};
+
+TEST_F(OwnOption, globalOnesAct) {
+    const Outcome usual = run(quickRender);
+    EXPECT_FALSE(usual.err.empty());
+    EXPECT_EQ(run(joined(quickRender, {"--quiet"})).err, "");
+    EXPECT_GT(run(joined(quickRender, {"--verbose"})).err.size(), usual.err.size());
+    EXPECT_TRUE(run({"--version"}).out.starts_with("defocus "));
+}
+
+TEST_F(OwnOption, shaderFolderIsReadOrRefused) {
+    fs::create_directories(folder() / "shaders" / "accumulation");
+    std::ofstream(folder() / "shaders" / "accumulation" / "object.frag") << "#version 450\nnot a shader\n";
+    const auto with = [](const Words& line) { return joined(line, {"--shader-dir", "shaders"}); };
+    for (const char* command : {"render", "capture", "bench speedup", "bench popping", "bench convergence"}) {
+        const Outcome outcome = run(with(usualLine(command)));
+        EXPECT_EQ(outcome.exitCode, 1) << command;
+        EXPECT_NE(outcome.err.find("accumulation/object.frag"), std::string::npos) << command << outcome.err;
+    }
+    const Outcome sheet = run(with({"pyramid", "ball.glb", "--no-measure", "--turntable", "sheet.png"}));
+    EXPECT_NE(sheet.err.find("accumulation/object.frag"), std::string::npos) << sheet.err;
+    for (const Words& line : std::vector<Words>{usualLine("plan"),
+                                                usualLine("info"),
+                                                usualLine("pyramid"),
+                                                usualLine("merge"),
+                                                usualLine("compare"),
+                                                usualLine("bench diff"),
+                                                {"bench", "stability"},
+                                                {"cache", "list"},
+                                                {"settings"}}) {
+        const Outcome outcome = run(with(line));
+        expectOneLine(outcome, 2);
+        EXPECT_NE(outcome.err.find("--shader-dir"), std::string::npos) << outcome.err;
+    }
+}
+
+// The program is built from changed sources or not: so much of it shows in either case.
+TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
+    EXPECT_THROW(refuseChangedSources("out", false, "0123-changed"), Error);
+    EXPECT_NO_THROW(refuseChangedSources("out", true, "0123-changed"));
+    const bool changed = programCommit().ends_with("-changed");
+    for (const char* command : {"bench speedup", "bench popping", "bench convergence"}) {
+        const Words line = withoutOption(usualLine(command), "--allow-changed");
+        EXPECT_EQ(run(line).exitCode, changed ? 1 : 0) << command;
+        fs::remove_all(folder() / "result");
+        EXPECT_EQ(run(joined(line, {"--allow-changed"})).exitCode, 0) << command;
+        fs::remove_all(folder() / "result");
+    }
+}
+
+// Its shortest axis takes seconds: what two runs leave shows all options but --large, whose triangles take minutes.
+TEST_F(OwnOption, scalingGoesAlongItsAxis) {
+    const Words line = {"bench", "scaling", "--axes", "blur", "--allow-changed"};
+    ASSERT_EQ(run(joined(line, {"--runs", "1", "-o", "once"})).exitCode, 0);
+    ASSERT_EQ(run(joined(line, {"--runs", "2", "--report", "twice"})).exitCode, 0);
+    for (const auto& [made, runs] : std::map<std::string, int>{{"once", 1}, {"twice", 2}}) {
+        const json result = jsonIn(folder() / made / "scaling.json");
+        ASSERT_FALSE(result.at("rows").empty());
+        for (const json& row : result.at("rows")) EXPECT_EQ(row.at("axis"), "blur");
+        EXPECT_EQ(result.at("runs"), runs);
+    }
+    const Outcome large = run(joined(line, {"--large"}));
+    expectOneLine(large, 2);
+    EXPECT_NE(large.err.find("--large"), std::string::npos) << large.err;
+    EXPECT_GT(scalingPoints(ScalingAxis::triangles, true).size(), scalingPoints(ScalingAxis::triangles, false).size());
+}
+
+// All its cases take minutes: the file is tried before the first.
+TEST_F(OwnOption, stabilityWritesWhereItIsTold) {
+    for (const Words& output : std::vector<Words>{{"-o", "ball.glb/none.json"}, {"--report", "ball.glb/none"}}) {
+        const Outcome outcome = run(joined({"bench", "stability", "--allow-changed"}, output));
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find("ball.glb/none"), std::string::npos) << outcome.err;
+    }
+}
+
+}  // namespace
+}  // namespace defocus

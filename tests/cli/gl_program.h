@@ -1,0 +1,44 @@
+#pragma once
+// Runs the program where it can draw; elsewhere its tests skip and say why.
+
+#include "cli/program.h"
+#include "core/error.h"
+#include "gl/context.h"
+
+namespace defocus {
+
+class GlProgramTest : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        if (const std::string reason = whyNoContext(); !reason.empty()) GTEST_SKIP() << reason;
+    }
+
+private:
+    // Empty where there is a context. A process of its own asks: the threads that a driver begins would keep run() from
+    // copying this one.
+    static std::string whyNoContext() {
+        int ends[2];
+        if (::pipe(ends) != 0) return "no pipe";
+        const pid_t child = ::fork();
+        if (child == 0) {
+            try {
+                createHeadlessContext();
+            } catch (const Error& error) {
+                const std::string reason = error.what();
+                if (::write(ends[1], reason.data(), reason.size()) < 0) ::_exit(1);
+            }
+            ::_exit(0);
+        }
+        ::close(ends[1]);
+        std::string reason;
+        char letter = 0;
+        while (::read(ends[0], &letter, 1) == 1) reason += letter;
+        ::close(ends[0]);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        return status == 0 ? reason : "no context: " + reason;
+    }
+};
+
+}  // namespace defocus

@@ -1,0 +1,313 @@
+#pragma once
+// Every setting of the table and of the methods with a value that must change what a command says, draws or measures,
+// and the small scene on which it does.
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "frame/settings.h"
+#include "image/image_io.h"
+#include "render/methods.h"
+#include "scene/gltf/builder.h"
+#include "small_world.h"
+
+namespace defocus {
+
+using Words = std::vector<std::string>;
+
+inline Words joined(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+// What is given, and what must be given with it so that it can act, as far as the command takes that.
+struct OptionCase {
+    Words words;
+    Words with;
+    bool still = false;  // on a fish of the school; else on the ball that moves
+};
+
+namespace option_cases {
+
+// A ball of 700 triangles that goes away from the camera within 2 s, and turns to its right half-way, before a board. A
+// second clip holds it still, and a second camera stands closer.
+inline std::string movingBall() {
+    const Mesh ball = bumpySphere(24, 16, 0);
+    GltfBuilder builder;
+    std::vector<float> corners;
+    for (const glm::vec3& p : ball.vertices.positions) corners.insert(corners.end(), {p.x, p.y, p.z});
+    const std::vector<std::uint32_t>& wide = ball.primitives.front().indices;
+    const int ballPositions = builder.positions(corners);
+    const int ballIndices = builder.indices(std::vector<std::uint16_t>(wide.begin(), wide.end()));
+    builder.mesh({{{"attributes", {{"POSITION", ballPositions}}}, {"indices", ballIndices}}}, {{"name", "Ball"}});
+    const int positions = builder.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
+    const int indices = builder.indices({0, 1, 2, 0, 2, 3});
+    builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}},
+                 {{"name", "Board"}, {"translation", {-1.5, 0.5, -9}}, {"scale", {2, 2, 1}}});
+    builder.json["cameras"] = {
+        {{"name", "Far"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"znear", 0.1}}}},
+        {{"name", "Near"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    builder.add("nodes", {{"camera", 0}});
+    builder.add("nodes", {{"camera", 1}, {"translation", {0.2, 0, -0.5}}});
+    const int times = builder.floats({0, 1, 2}, "SCALAR", 1);
+    const int away = builder.floats({0, 0, -3, 0.2, 0.3, -3.5, 1.5, 0, -6}, "VEC3", 3);
+    const int still = builder.floats({0, 0, -3, 0, 0, -3, 0, 0, -3}, "VEC3", 3);
+    const auto clip = [&](const char* name, int output) {
+        return nlohmann::json{{"name", name},
+                              {"samplers", {{{"input", times}, {"output", output}}}},
+                              {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}};
+    };
+    builder.json["animations"] = {clip("Away", away), clip("Still", still)};
+    return builder.glb();
+}
+
+inline const Words blurred = {"--fstop", "0.5"};
+inline const Words moving = {"--shutter", "1", "--time", "1"};
+inline const Words threeBlades = {"--fstop", "0.5", "--blades", "3"};
+inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
+inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
+
+// All that one of the two names but the other doesn't is `only` its own.
+inline Words only(const char* method) {
+    return {"--method", method, "--fstop", "0.5"};
+}
+
+}  // namespace option_cases
+
+// Writes ball.glb, sky.hdr and half.png, which the cases name.
+inline void writeOptionScene(const std::filesystem::path& folder) {
+    GltfBuilder::save(folder / "ball.glb", option_cases::movingBall());
+    Image sky(8, 4, 3);
+    for (std::size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = static_cast<float>(i % 7) * 0.3f;
+    writeImage(folder / "sky.exr", sky);
+    std::filesystem::rename(folder / "sky.exr", folder / "sky.hdr");  // told apart by content
+    Image half(8, 8, 1);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 4; ++x) *half.at(x, y) = 1;
+    writeImage(folder / "half.png", half);
+}
+
+// By the setting's name in the table.
+inline const std::map<std::string, OptionCase>& settingCases() {
+    using namespace option_cases;
+    static const std::map<std::string, OptionCase> table = {
+        {"scene", {{"ball.glb"}, {}, true}},
+        {"fishCount", {{"--fish", "3"}, {}, true}},
+        {"trianglesPerFish", {{"--fish-triangles", "1500"}, {}, true}},
+        {"time", {{"--time", "1"}, {}}},
+        {"clip", {{"--clip", "Still"}, {"--time", "1"}}},
+        {"loop", {{"--loop"}, {"--time", "2.5"}}},
+        {"shutter", {{"--shutter", "0.5"}, {"--time", "1"}}},
+        {"shutterPosition", {{"--shutter-position", "start"}, moving}},
+        {"motionSegments", {{"--motion-segments", "2"}, moving}},
+        {"environment", {{"--environment", "sky.hdr"}, {}}},
+        {"background", {{"--background", "none"}, {}}},
+        {"camera", {{"--camera", "Near"}, {}}},
+        {"cameraPosition", {{"--camera-position", "0.5,0,0"}, {"--focus-auto"}}},
+        {"cameraTarget", {{"--camera-target", "0.5,0,-3"}, {"--focus-auto"}}},
+        {"cameraUp", {{"--camera-up", "1,1,0"}, {"--focus-auto"}}},
+        {"size", {{"--size", "40x36"}, {}}},
+        {"focalLength", {{"--focal-length", "70"}, {}}},
+        {"fStop", {{"--fstop", "0.7"}, {"--focus-distance", "1"}}},
+        {"focusDistance", {{"--focus-distance", "4"}, blurred}},
+        {"focusNode", {{"--focus-node", "Board"}, blurred}},
+        {"focusPixel", {{"--focus-pixel", "24,18"}, {"--fstop", "0.5", "--time", "1", "--camera", "Near"}}},
+        {"focusPoints", {{"--focus-points", "10,16,24,18,26,8"}, blurred}},
+        {"focusAuto", {{"--focus-auto"}, blurred}},
+        {"horizontalAperture", {{"--horizontal-aperture", "50"}, blurred}},
+        {"dofEnabled", {{"--no-dof"}, blurred}},
+        {"blurScale", {{"--blur-scale", "3"}, blurred}},
+        {"focusBreathing", {{"--focus-breathing"}, {"--focus-distance", "0.2"}}},
+        {"exposureTime", {{"--exposure-time", "1/20"}, {}}},
+        {"iso", {{"--iso", "800"}, {"--exposure-time", "1/20"}}},
+        {"bladeCount", {{"--blades", "3"}, blurred}},
+        {"bladeRotation", {{"--blade-rotation", "30"}, threeBlades}},
+        {"bladeCurvature", {{"--blade-curvature", "0.5"}, threeBlades}},
+        {"anamorphicRatio", {{"--anamorphic-ratio", "2"}, blurred}},
+        {"obstruction", {{"--obstruction", "0.5"}, blurred}},
+        {"sphericalAberration", {{"--spherical-aberration", "0.8"}, blurred}},
+        {"catEye", {{"--cat-eye", "0.8"}, blurred}},
+        {"axialChromaticAberration", {{"--axial-chromatic-aberration", "0.3"}, blurred}},
+        {"foregroundLimit", {{"--foreground-limit", "0"}, farFocus}},
+        {"backgroundLimit", {{"--background-limit", "0"}, nearFocus}},
+        {"focusRangeFront", {{"--focus-range-front", "1"}, farFocus}},
+        {"focusRangeBehind", {{"--focus-range-behind", "5"}, nearFocus}},
+        {"focusTilt", {{"--focus-tilt", "40"}, blurred}},
+        {"focusSwing", {{"--focus-swing", "40"}, blurred}},
+        {"fieldCurvature", {{"--field-curvature", "2"}, blurred}},
+        {"radialBlurGain", {{"--radial-blur-gain", "3"}, blurred}},
+        {"nodeBlur", {{"--node-blur", "Board=0"}, nearFocus}},
+        {"apertureImage", {{"--aperture-image", "half.png"}, blurred}},
+        {"samples", {{"--samples", "9"}, {}}},
+        {"targetError", {{"--target-error", "0.5"}, {"--samples", "256", "--fstop", "0.5"}}},
+        {"timeLimit", {{"--time-limit", "0.001"}, {"--samples", "256", "--fstop", "0.5"}}},
+        {"sequence", {{"--sequence", "r2"}, blurred}},
+        {"seed", {{"--seed", "5"}, blurred}},
+        {"lod", {{"--lod", "off"}, {"--fstop", "0.3"}, true}},
+        {"blurThreshold",
+         {{"--blur-threshold", "0"}, {"--fstop", "0.1", "--size-threshold", "0", "--focus-distance", "0.5"}, true}},
+        {"sizeThreshold", {{"--size-threshold", "0"}, {"--blur-threshold", "0"}, true}},
+        {"cacheFolder", {{"--cache-dir", "kept"}, {}, true}},
+        {"noCache", {{"--no-cache"}, {}, true}},
+        {"method", {{"--method", "circular"}, blurred}},
+        {"layerFormat", {{"--layer-format", "rgba8"}, {}}},
+        {"lodMetric", {{"--lod-metric", "error"}, {"--fstop", "0.3"}, true}},
+        {"lodCoc",
+         {{"--lod-coc", "centre"},
+          {"--fstop", "0.5", "--focal-length", "1500", "--size-threshold", "0", "--blur-threshold", "30",
+           "--focus-distance", "1.95"},
+          true}},
+        {"cocTolerance", {{"--coc-tolerance", "0.01"}, {"--fstop", "0.5", "--field-curvature", "2"}}},
+        {"keepAll", {{"--keep-all"}, {"--focal-length", "1500", "--lod", "off"}, true}},
+        {"wave", {{"--wave", "1"}, {}, true}},
+        {"toneMap", {{"--tonemap", "agx"}, {}}},
+        {"exposure", {{"--exposure", "1"}, {}}},
+    };
+    return table;
+}
+
+// By the setting's name in its method.
+inline const std::map<std::string, OptionCase>& methodSettingCases() {
+    using namespace option_cases;
+    static const std::map<std::string, OptionCase> table = {
+        {"near-components", {{"--near-components", "3"}, joined(only("circular"), {"--focus-distance", "8"})}},
+        {"far-components", {{"--far-components", "4"}, joined(only("circular"), {"--focus-distance", "1"})}},
+        {"resolution", {{"--resolution", "half"}, only("circular")}},
+        {"kernel-taps", {{"--kernel-taps", "eight"}, joined(only("circular"), {"--focus-distance", "1"})}},
+        {"storage", {{"--storage", "float"}, only("circular")}},
+        {"fields", {{"--fields", "combined"}, joined(only("circular"), {"--near-components", "2"})}},
+        {"blend-bias", {{"--blend-bias", "3"}, joined(only("circular"), {"--focus-distance", "8"})}},
+        {"convolution", {{"--convolution", "direct"}, only("circular")}},
+        {"pinholes", {{"--pinholes", "1"}, only("circular")}},
+        {"coc", {{"--coc", "thin-lens"}, only("scheuermann")}},
+        {"taps", {{"--taps", "24"}, only("scheuermann")}},
+        {"max-coc",
+         {{"--max-coc", "unlimited"},
+          {"--method", "scheuermann", "--coc", "thin-lens", "--fstop", "0.05", "--focus-distance", "1"}}},
+    };
+    return table;
+}
+
+// ---- the commands ---------------------------------------------------------------------------------------------------
+
+// "bench speedup" → its App, in a program of its own that lives as long as the tests.
+inline const CLI::App& commandNamed(const std::string& names) {
+    struct AllCommands {
+        CLI::App app;
+        GlobalOptions global;
+        AllCommands() { addCommands(app, global); }
+    };
+    static AllCommands program;
+    CLI::App* found = &program.app;
+    for (std::size_t begin = 0; begin < names.size();) {
+        const std::size_t end = std::min(names.find(' ', begin), names.size());
+        found = found->get_subcommand(names.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return *found;
+}
+
+// "--fstop", "SCENE", "-o": what --help lists it by.
+inline std::string nameOf(const CLI::Option& option) {
+    if (!option.get_lnames().empty()) return "--" + option.get_lnames().front();
+    return option.get_single_name();
+}
+
+// All options of a command but --help.
+inline std::vector<const CLI::Option*> optionsOffered(const std::string& command) {
+    std::vector<const CLI::Option*> options = commandNamed(command).get_options();
+    std::erase_if(options, [](const CLI::Option* option) { return nameOf(*option) == "--help"; });
+    return options;
+}
+
+// Null where the option isn't a row of the table of settings, whatever it is called.
+inline const Setting* settingOf(const CLI::Option& option) {
+    for (const Setting& setting : settings())
+        if (setting.option == nameOf(option) && setting.help == option.get_description()) return &setting;
+    return nullptr;
+}
+
+// Null where the option isn't a setting of a method.
+inline const MethodSetting* methodSettingOf(const CLI::Option& option) {
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings)
+            if (nameOf(option) == "--" + setting.name && option.get_description() == setting.description)
+                return &setting;
+    return nullptr;
+}
+
+// The rows of one group of the table that a command offers.
+inline std::vector<const Setting*> settingsOffered(const std::string& command, SettingGroup group) {
+    std::vector<const Setting*> offered;
+    for (const CLI::Option* option : optionsOffered(command))
+        if (const Setting* setting = settingOf(*option); setting != nullptr && setting->group == group)
+            offered.push_back(setting);
+    return offered;
+}
+
+// The names of the settings of methods that a command offers.
+inline Words methodSettingsOffered(const std::string& command) {
+    Words names;
+    for (const CLI::Option* option : optionsOffered(command))
+        if (const MethodSetting* setting = methodSettingOf(*option)) names.push_back(setting->name);
+    return names;
+}
+
+// A command and what it is given anyway.
+struct CommandLine {
+    std::string name;
+    Words command;
+    Words ball = {"ball.glb"};                                // picks the ball that moves
+    Words fish = {"--fish", "1", "--fish-triangles", "900"};  // picks the fish; options, unless a shot does
+    std::string size = "48x36";
+    Words rest;
+};
+
+// The options among `words` that the command takes, each with its value.
+inline Words taken(const std::string& command, const Words& words) {
+    Words known;
+    for (const CLI::Option* option : optionsOffered(command))
+        if (settingOf(*option) != nullptr || methodSettingOf(*option) != nullptr) known.push_back(nameOf(*option));
+    Words result;
+    bool takes = false;
+    for (const std::string& word : words) {
+        if (word.starts_with("--")) takes = std::ranges::find(known, word) != known.end();
+        if (takes) result.push_back(word);
+    }
+    return result;
+}
+
+// With or without the option of a case, on the case's scene.
+inline Words lineOfCase(const CommandLine& given, const std::string& name, const OptionCase& tried, bool with) {
+    Words line = given.command;
+    const auto add = [&](const Words& words) { line.insert(line.end(), words.begin(), words.end()); };
+    const bool shot = given.fish.size() == 1;
+    if (name == "scene")
+        add(with ? Words{} : given.fish);
+    else if (name == "fishCount" && !shot)
+        add(with ? Words{"--fish-triangles", "900"} : given.fish);
+    else if (name == "trianglesPerFish" && !shot)
+        add(with ? Words{"--fish", "1"} : given.fish);
+    else
+        add(tried.still ? given.fish : given.ball);
+    if (!given.size.empty() && (name != "size" || !with)) add({"--size", given.size});
+    add(taken(given.name, tried.with));
+    if (with) add(tried.words);
+    const bool ownSamples = std::ranges::find(line, "--samples") != line.end();
+    for (std::size_t i = 0; i < given.rest.size(); ++i)
+        if (ownSamples && given.rest[i] == "--samples")
+            ++i;
+        else
+            line.push_back(given.rest[i]);
+    // The school has no camera of that name.
+    if (std::ranges::find(line, "ball.glb") == line.end())
+        std::ranges::replace(line, std::string("--camera=Near"), std::string("--camera=auto"));
+    return line;
+}
+
+}  // namespace defocus

@@ -1,0 +1,165 @@
+#pragma once
+// For each option of a command's own, two command lines that differ by it. The settings of the table and of the methods
+// have theirs in option_cases.h.
+
+#include "cli/option_cases.h"
+
+namespace defocus {
+
+struct OwnOptionCase {
+    Words words;                     // the option with its value
+    Words more = {};                 // what both lines need besides
+    Words without = {};              // options of the command's usual line that neither line has
+    std::vector<Words> before = {};  // lines that are run first
+};
+
+// A line of each command that ends soon, without the words of the command. What a case gives takes the place of the
+// same option here.
+inline const std::map<std::string, Words>& usualLines() {
+    static const Words ball = {"ball.glb", "--size", "16x12", "--fstop", "0.5"};
+    static const Words written = {"-o", "result", "--allow-changed"};
+    static const std::map<std::string, Words> table = {
+        {"render", joined(ball, {"--samples", "4"})},
+        {"capture", {"shot.json"}},
+        {"merge", {"a.exr", "b.exr"}},
+        {"plan", ball},
+        {"info", {"ball.glb"}},
+        {"pyramid", {"ball.glb"}},
+        {"compare", {"one.exr", "two.exr"}},
+        {"bench speedup", joined(joined(ball, {"--counts", "2", "--runs", "1", "--reference-samples", "0"}), written)},
+        {"bench popping", joined(joined(ball, {"--counts", "2", "--frames", "2", "--path-frames", "6"}), written)},
+        {"bench convergence", joined(joined(ball, {"--methods", "accumulation", "--counts", "2", "--threshold-factors",
+                                                   "1", "--runs", "1", "--shading", "lit", "--reference-samples", "4"}),
+                                     written)},
+        {"bench diff", {"one.json", "two.json"}},
+        {"settings", {}},
+    };
+    return table;
+}
+
+inline Words usualLine(const std::string& command) {
+    Words line;
+    for (std::size_t begin = 0; begin < command.size();) {
+        const std::size_t end = std::min(command.find(' ', begin), command.size());
+        line.push_back(command.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    const auto found = usualLines().find(command);
+    return found == usualLines().end() ? line : joined(line, found->second);
+}
+
+// Leaves out an option with what follows it up to the next one.
+inline Words withoutOption(Words line, const std::string& option) {
+    const auto begin = std::ranges::find(line, option);
+    if (begin == line.end()) return line;
+    line.erase(begin, std::find_if(begin + 1, line.end(), [](const std::string& word) { return word[0] == '-'; }));
+    return line;
+}
+
+// The line of a case. An option without a dash, "A" or "SHOT", stands for the words in its place: the case gives all.
+inline Words lineOfOwnCase(const std::string& command, const OwnOptionCase& tried, bool with) {
+    Words line = usualLine(command);
+    for (const std::string& option : tried.without) line = withoutOption(line, option);
+    line = joined(withoutOption(line, tried.more.empty() ? "" : tried.more.front()), tried.more);
+    if (!with) return line;
+    if (tried.words.front()[0] == '-') return joined(withoutOption(line, tried.words.front()), tried.words);
+    const std::size_t ofCommand = command.empty() ? 0 : 1 + static_cast<std::size_t>(std::ranges::count(command, ' '));
+    line.resize(ofCommand);
+    return joined(line, tried.words);
+}
+
+// "render -o" → its case. An option of the program itself begins with a space.
+inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
+    static const Words part = {"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--samples", "128"};
+    static const std::vector<Words> parts = {joined(part, {"--sample-range", "0:64", "-o", "a.exr"}),
+                                             joined(part, {"--sample-range", "64:128", "-o", "b.exr"}),
+                                             joined(part, {"--sample-range", "0:128", "-o", "c.exr", "--seed", "4"})};
+    static const std::vector<Words> converged = {usualLine("bench convergence")};
+    static const std::map<std::string, OwnOptionCase> table = {
+        {"render --output", {.words = {"-o", "other.png"}}},
+        {"render --aov", {.words = {"--aov", "depth"}}},
+        {"render --sample-range", {.words = {"--sample-range", "0:64"}, .more = {"--samples", "128"}}},
+        {"render --stats", {.words = {"--stats", "stats.json"}}},
+
+        {"capture SHOT", {.words = {"other.json"}}},
+        {"capture --set", {.words = {"--set", "/lens/fStop=0.7"}}},
+        {"capture --scene", {.words = {"--scene", "other.glb"}}},
+        {"capture --range", {.words = {"--range", "1:2"}}},
+        {"capture --frame-rate", {.words = {"--frame-rate", "1"}}},
+        {"capture --speed", {.words = {"--speed", "3"}}},
+        {"capture --animate-seed", {.words = {"--animate-seed"}}},
+        {"capture --output", {.words = {"-o", "film/#.exr"}}},
+        {"capture --video", {.words = {"--video", "film.gif"}}},
+        {"capture --resume", {.words = {"--resume"}, .before = {{"capture", "shot.json"}}}},
+        {"capture --shard", {.words = {"--shard", "1/2"}}},
+        {"capture --sample-range", {.words = {"--sample-range", "0:64"}, .more = {"--samples", "128"}}},
+        {"capture --dry-run", {.words = {"--dry-run"}}},
+
+        {"merge PART", {.words = {"c.exr"}, .before = parts}},
+        {"merge --output", {.words = {"-o", "other.exr"}, .before = parts}},
+        {"merge --exposure", {.words = {"--exposure", "1"}, .more = {"-o", "m.png"}, .before = parts}},
+        {"merge --tonemap", {.words = {"--tonemap", "agx"}, .more = {"-o", "m.png"}, .before = parts}},
+
+        {"plan --json", {.words = {"--json"}}},
+
+        {"info --json", {.words = {"--json"}}},
+        {"info --camera", {.words = {"--camera"}}},
+        {"info --depths", {.words = {"--depths", "1,2"}, .more = {"--camera"}}},
+        {"info --acceptable-coc", {.words = {"--acceptable-coc", "0.1"}, .more = {"--camera"}}},
+
+        {"pyramid --mesh", {.words = {"--mesh", "(mesh 1)"}}},
+        {"pyramid --points", {.words = {"--points", "100"}}},
+        {"pyramid --no-measure", {.words = {"--no-measure"}}},
+        {"pyramid --export", {.words = {"--export", "levels"}}},
+        {"pyramid --turntable", {.words = {"--turntable", "sheet.png"}}},
+        {"pyramid --cache-dir", {.words = {"--cache-dir", "kept"}}},
+        {"pyramid --json", {.words = {"--json"}}},
+
+        {"compare A", {.words = {"three.exr", "two.exr"}}},
+        {"compare B", {.words = {"one.exr", "three.exr"}}},
+        {"compare --json", {.words = {"--json"}}},
+        {"compare --error-map", {.words = {"--error-map", "map.png"}}},
+        {"compare --hdr", {.words = {"--hdr"}}},
+        {"compare --start-exposure", {.words = {"--start-exposure", "-8"}, .more = {"--hdr"}}},
+        {"compare --stop-exposure", {.words = {"--stop-exposure", "6"}, .more = {"--hdr"}}},
+        {"compare --exposures", {.words = {"--exposures", "1"}, .more = {"--hdr"}}},
+        {"compare --fail-above", {.words = {"--fail-above", "mae=0"}}},
+
+        {"bench speedup --counts", {.words = {"--counts", "3"}}},
+        {"bench speedup --fstops", {.words = {"--fstops", "4"}}},
+        {"bench speedup --focus-distances", {.words = {"--focus-distances", "4"}}},
+        {"bench speedup --runs", {.words = {"--runs", "2"}}},
+        {"bench speedup --reference-samples", {.words = {"--reference-samples", "4"}}},
+        {"bench speedup --output", {.words = {"-o", "other"}}},
+        {"bench speedup --report", {.words = {"--report", "page"}, .without = {"-o"}}},
+
+        {"bench popping --counts", {.words = {"--counts", "3"}}},
+        {"bench popping --frames", {.words = {"--frames", "3"}}},
+        {"bench popping --path-frames", {.words = {"--path-frames", "9"}}},
+        {"bench popping --output", {.words = {"-o", "other"}}},
+        {"bench popping --report", {.words = {"--report", "page"}, .without = {"-o"}}},
+
+        {"bench convergence --methods", {.words = {"--methods", "circular"}}},
+        {"bench convergence --counts", {.words = {"--counts", "3"}}},
+        {"bench convergence --lod", {.words = {"--lod", "nearest"}}},
+        {"bench convergence --metrics", {.words = {"--metrics", "error"}}},
+        {"bench convergence --threshold-factors", {.words = {"--threshold-factors", "3"}}},
+        {"bench convergence --shading", {.words = {"--shading", "unlit"}}},
+        {"bench convergence --runs", {.words = {"--runs", "2"}}},
+        {"bench convergence --reference-samples", {.words = {"--reference-samples", "6"}}},
+        {"bench convergence --output", {.words = {"-o", "other"}}},
+        {"bench convergence --resume", {.words = {"--resume"}, .before = converged}},
+        {"bench convergence --overwrite", {.words = {"--overwrite"}, .before = converged}},
+        {"bench convergence --report", {.words = {"--report", "page"}}},
+
+        {"bench diff OLD", {.words = {"three.json", "two.json"}}},
+        {"bench diff NEW", {.words = {"one.json", "three.json"}}},
+
+        {"settings --json", {.words = {"--json"}}},
+        {"settings --markdown", {.words = {"--markdown"}}},
+        {"settings --shot-schema", {.words = {"--shot-schema", "schema.json"}}},
+    };
+    return table;
+}
+
+}  // namespace defocus

@@ -1,0 +1,94 @@
+#pragma once
+// Stops a child process at a chosen call that changes a file, by ptrace(2): what a test does then happens at a point of
+// the child's work and never at a time.
+
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace defocus {
+
+class TracedChild {
+public:
+    // `run` is what the child does, exec among it; writes to files of the folder called `folder` count, and all that
+    // give a file another name.
+    TracedChild(const std::function<void()>& run, std::string folder) : folder_("/" + std::move(folder) + "/") {
+        child_ = ::fork();
+        if (child_ == 0) {
+            ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+            ::raise(SIGSTOP);  // until the parent has said what it wants to see
+            run();
+            ::_exit(97);
+        }
+        int status = 0;
+        ::waitpid(child_, &status, 0);
+        const long options = PTRACE_O_TRACESYSGOOD | PTRACE_O_TRACECLONE | PTRACE_O_EXITKILL;
+        traced_ = WIFSTOPPED(status) && ::ptrace(PTRACE_SETOPTIONS, child_, nullptr, options) == 0;
+        if (traced_) ::ptrace(PTRACE_SYSCALL, child_, nullptr, nullptr);
+    }
+    TracedChild(const TracedChild&) = delete;
+    TracedChild& operator=(const TracedChild&) = delete;
+    ~TracedChild() {
+        if (exitCode_ >= 0) return;
+        ::kill(child_, SIGKILL);
+        ::waitpid(child_, nullptr, __WALL);
+    }
+
+    [[nodiscard]] bool traced() const { return traced_; }  // false where the system doesn't allow it
+    [[nodiscard]] int calls() const { return calls_; }     // that count, so far
+
+    // Goes on to the child's end. Before its `call`th call that counts, from 1, is carried out, it gets `signal`.
+    // Returns its exit code, or 128 + number of the signal that ended it.
+    int end(int call = 0, int signal = 0) {
+        while (exitCode_ < 0) {
+            int status = 0;
+            const pid_t thread = ::waitpid(-1, &status, __WALL);
+            if (thread < 0) break;
+            if (!WIFSTOPPED(status)) {
+                if (thread == child_) exitCode_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+                continue;
+            }
+            const int reason = WSTOPSIG(status);
+            const bool atCall = reason == (SIGTRAP | 0x80);
+            if (atCall && counts(thread) && ++calls_ == call) ::kill(child_, signal);
+            const bool own = atCall || reason == SIGTRAP || reason == SIGSTOP;  // of tracing; others are for the child
+            ::ptrace(PTRACE_SYSCALL, thread, nullptr, own ? 0 : static_cast<long>(reason));
+        }
+        return exitCode_;
+    }
+
+private:
+    [[nodiscard]] bool counts(pid_t thread) const {
+        __ptrace_syscall_info info{};
+        const auto size = reinterpret_cast<void*>(sizeof info);
+        if (::ptrace(PTRACE_GET_SYSCALL_INFO, thread, size, &info) <= 0 || info.op != PTRACE_SYSCALL_INFO_ENTRY)
+            return false;
+        constexpr std::array writes = {SYS_write, SYS_pwrite64, SYS_writev};
+        constexpr std::array moves = {SYS_renameat, SYS_renameat2};
+        const auto call = static_cast<long>(info.entry.nr);
+#ifdef SYS_rename
+        if (call == SYS_rename) return true;
+#endif
+        if (std::ranges::find(moves, call) != moves.end()) return true;
+        if (std::ranges::find(writes, call) == writes.end()) return false;
+        std::error_code ignored;
+        const std::string link = "/proc/" + std::to_string(thread) + "/fd/" + std::to_string(info.entry.args[0]);
+        return std::filesystem::read_symlink(link, ignored).string().find(folder_) != std::string::npos;
+    }
+
+    std::string folder_;
+    pid_t child_ = -1;
+    bool traced_ = false;
+    int calls_ = 0;
+    int exitCode_ = -1;
+};
+
+}  // namespace defocus

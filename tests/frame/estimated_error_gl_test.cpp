@@ -1,0 +1,194 @@
+// The estimated error of frames against their true one, from a converged reference at full detail: on the project's own
+// scenes, the school of fish and two public models. Levels of detail are on: their error is part of the true one.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "defocus/defocus.h"
+#include "frame/prepared_frame.h"
+#include "frame/reference_image.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "models.h"
+#include "render/frame_run.h"
+
+namespace defocus {
+namespace {
+
+constexpr std::uint32_t referenceSamples = 2048;
+constexpr double agreement = 1.5;
+
+struct StoppedFrame {
+    Image image;
+    RenderStats stats;
+};
+
+StoppedFrame stoppedFrame(const PreparedFrame& frame, Renderer& renderer, const StopSettings& stop) {
+    FrameRun run(frame.world, renderer);
+    run.start(frame.view, frame.settings, stop);
+    while (run.advance()) {
+    }
+    return {renderer.image(), run.stats()};
+}
+
+class EstimatedError : public testing::TestWithParam<std::string> {
+protected:
+    void SetUp() override {
+        try {
+            context_ = createHeadlessContext();
+        } catch (const Error& error) {
+            GTEST_SKIP() << error.what();
+        }
+        Request request;
+        request.width = 96;
+        request.height = 72;
+        request.trianglesPerFish = 2'000;
+        request.noCache = true;
+        request.lens.fStop = 0.95;
+        if (GetParam() != "school") request.scene = modelPath(GetParam());
+        if (!request.scene.empty() && !std::filesystem::exists(request.scene))
+            GTEST_SKIP() << request.scene << " is not there";
+        frame_ = prepareFrame(request);
+        renderer_ = methodNamed("accumulation").make(frame_.world, {});
+    }
+
+    std::unique_ptr<GlContext> context_;
+    PreparedFrame frame_;
+    std::unique_ptr<Renderer> renderer_;
+};
+
+TEST_P(EstimatedError, isWithinAFactorOfOneAndAHalfOfTheTrueOne) {
+    ReferenceOptions options;
+    options.samples = referenceSamples;
+    const ReferenceImage reference = renderedReference(frame_.world, frame_.view, options);
+    const double first = stoppedFrame(frame_, *renderer_, {.targetError = 1, .timeLimit = {}, .sampleLimit = 128})
+                             .stats.estimatedError.value();
+    int judged = 0;
+    fmt::print("{}: target, samples, RMSE estimated and true\n", GetParam());
+    for (const double share : {1.0, 0.7, 0.5, 0.4}) {
+        const double target = share * first;
+        const StoppedFrame frame =
+            stoppedFrame(frame_, *renderer_, {.targetError = target, .timeLimit = {}, .sampleLimit = 768});
+        const double difference = compareImages(reference.image, frame.image, {}).rmse;
+        if (reference.remaining.rmse > 0.5 * difference) continue;  // no judge of an image that is so close to it
+        const double truth = std::sqrt(difference * difference - std::pow(reference.remaining.rmse, 2));
+        const double ratio = frame.stats.estimatedError.value() / truth;
+        fmt::print("{:>9.5f} {:>6} {:>9.5f} {:>9.5f} {:>6.2f}\n", target, frame.stats.samples,
+                   *frame.stats.estimatedError, truth, ratio);
+        EXPECT_GT(ratio, 1 / agreement) << frame.stats.samples;
+        EXPECT_LT(ratio, agreement) << frame.stats.samples;
+        ++judged;
+    }
+    EXPECT_GE(judged, 2);
+}
+
+TEST_P(EstimatedError, targetIsReachedWithTheSameSamplesEachTime) {
+    const StoppedFrame some = stoppedFrame(frame_, *renderer_, {.targetError = 1, .timeLimit = {}, .sampleLimit = 128});
+    const double target = 0.8 * some.stats.estimatedError.value();
+    const StopSettings stop{.targetError = target, .timeLimit = {}, .sampleLimit = 4096};
+    const StoppedFrame once = stoppedFrame(frame_, *renderer_, stop);
+    EXPECT_EQ(once.stats.stopped, StopReason::targetError);
+    EXPECT_LE(once.stats.estimatedError.value(), target);
+    EXPECT_GE(once.stats.samples, 128u);
+    EXPECT_LE(once.stats.samples, 1024u);
+    const StoppedFrame again = stoppedFrame(frame_, *renderer_, stop);
+    EXPECT_EQ(again.stats.samples, once.stats.samples);
+    EXPECT_EQ(again.stats.trianglesDrawn, once.stats.trianglesDrawn);
+    EXPECT_TRUE(again.image.pixels == once.image.pixels);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EstimatedError,
+                         testing::Values("school", "meshes/bokeh.gltf", "meshes/chess.glb", "meshes/thicket.gltf",
+                                         "meshes/staircase.gltf", "meshes/swimmers.glb"),
+                         [](const auto& scene) { return testNameOf(scene.param); });
+
+// ---- what ends a frame, and what cannot ---------------------------------------------------------------------------
+
+Request twoFish() {
+    Request request;
+    request.fishCount = 2;
+    request.trianglesPerFish = 2'000;
+    request.noCache = true;
+    request.width = 64;
+    request.height = 48;
+    request.lens.fStop = 1;
+    return request;
+}
+
+class StoppedRender : public testing::Test {
+protected:
+    void SetUp() override {
+        try {
+            static_cast<void>(createHeadlessContext());
+        } catch (const Error& error) {
+            GTEST_SKIP() << error.what();
+        }
+    }
+};
+
+TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
+    Request request = twoFish();
+    SceneRenderer renderer(request);
+    static_cast<void>(renderer.render());
+    EXPECT_EQ(renderer.statistics().samples, 64u);
+    EXPECT_EQ(renderer.statistics().stopped, StopReason::sampleCount);
+    EXPECT_FALSE(renderer.statistics().estimatedError);
+
+    request.stop.targetError = 0.05;
+    static_cast<void>(renderer.render(request));
+    EXPECT_EQ(renderer.statistics().samples, 128u);
+    EXPECT_EQ(renderer.sampleTotal(), 128u);
+    EXPECT_EQ(renderer.statistics().stopped, StopReason::targetError);
+    EXPECT_LE(renderer.statistics().estimatedError.value(), 0.05);
+    EXPECT_GT(renderer.statistics().trianglesDrawn, 0u);
+
+    request.stop = {.targetError = {}, .timeLimit = 1e-3, .sampleLimit = mostSamples};
+    static_cast<void>(renderer.render(request));
+    EXPECT_EQ(renderer.statistics().samples, 64u) << "one block at least, and the next would end too late";
+    EXPECT_EQ(renderer.statistics().stopped, StopReason::timeLimit);
+
+    request.stop = {.targetError = 1e-6, .timeLimit = {}, .sampleLimit = 256};
+    request.lens.dofEnabled = false;
+    static_cast<void>(renderer.render(request));
+    EXPECT_EQ(renderer.statistics().stopped, StopReason::nothingBlurred);
+    EXPECT_LT(renderer.statistics().samples, 64u);
+}
+
+// Full detail: the blocks of an open number of samples are those of a fixed one, bit for bit.
+TEST_F(StoppedRender, blocksMakeTheImageOfAsManySamples) {
+    Request request = twoFish();
+    request.settings.lod = LodMode::off;
+    request.settings.sampleCount = 200;
+    const Image fixed = render(request);
+    request.stop.targetError = 1e-6;
+    request.stop.sampleLimit = 200;
+    EXPECT_TRUE(render(request).pixels == fixed.pixels);
+}
+
+TEST_F(StoppedRender, whatCannotBeFollowedIsRefused) {
+    Request request = twoFish();
+    request.stop.targetError = 0.01;
+    request.method = "circular";
+    EXPECT_THROW(static_cast<void>(render(request)), UsageError);
+    request = twoFish();
+    request.stop.timeLimit = 1;
+    request.shutter.seconds = 0.1;
+    request.shutter.exactMotion = true;
+    EXPECT_THROW(static_cast<void>(render(request)), UsageError);
+    for (const double wrong : {0.0, -1.0, 2.0, std::nan("")}) {
+        request = twoFish();
+        request.stop.targetError = wrong;
+        EXPECT_THROW(static_cast<void>(render(request)), UsageError) << wrong;
+    }
+    request = twoFish();
+    request.stop.sampleLimit = 0;
+    EXPECT_THROW(static_cast<void>(render(request)), UsageError);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,77 @@
+// How long the normals of coarser levels are: as much as the normals that they stand for agree with them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+
+#include "lod/pyramid/pyramid.h"
+#include "lod/shapes.h"
+
+namespace defocus {
+namespace {
+
+// Over every fifth of a ball's own vertices: the mean cosine of their normals with those of a level, and the mean
+// length of the latter where the ray from the ball's middle through the vertex meets the level.
+struct Agreement {
+    double cosine = 0;
+    double length = 0;
+};
+
+Agreement agreementOf(const Mesh& ball, const Pyramid& pyramid, std::size_t number) {
+    const PyramidLevel& level = pyramid.levels[number];
+    const IndexRange& range = level.primitives[0];
+    Agreement sum;
+    double count = 0;
+    for (std::size_t v = 0; v < ball.vertices.count(); v += 5) {
+        for (std::uint32_t i = range.first; i < range.first + range.count; i += 3) {
+            const std::uint32_t* const corner = &pyramid.indices[i];
+            const glm::dmat3 corners(level.positions[corner[0]], level.positions[corner[1]],
+                                     level.positions[corner[2]]);
+            const glm::dvec3 along = glm::inverse(corners) * glm::dvec3(ball.vertices.positions[v]);
+            if (!(std::min({along.x, along.y, along.z}) >= 0)) continue;
+            const glm::dvec3 weights = along / (along.x + along.y + along.z);
+            glm::dvec3 normal(0);
+            double length = 0;
+            for (int k = 0; k < 3; ++k) {
+                normal += weights[k] * glm::dvec3(level.normals[corner[k]]);
+                length += weights[k] * glm::length(glm::dvec3(level.normals[corner[k]]));
+            }
+            sum.cosine += glm::dot(glm::normalize(normal), glm::dvec3(ball.vertices.normals[v]));
+            sum.length += length;
+            ++count;
+            break;
+        }
+    }
+    EXPECT_GT(count, 0.19 * static_cast<double>(ball.vertices.count())) << "level " << number;
+    return {sum.cosine / count, sum.length / count};
+}
+
+// What a level interpolates differs from a smooth ball's normals by little, whatever the angle between its corners' is:
+// it stays a mirror.
+TEST(LevelNormals, ofASmoothBallStayWhole) {
+    Mesh ball = sphere(96, 48);
+    for (std::size_t v = 0; v < ball.vertices.count(); ++v)
+        ball.vertices.normals[v] = glm::normalize(ball.vertices.positions[v]);
+    const Pyramid pyramid = buildPyramid(ball);
+    ASSERT_GT(pyramid.levels.size(), 5u);
+    for (std::size_t l = 1; l <= 5; ++l) {
+        for (const glm::vec3& normal : pyramid.levels[l].normals) ASSERT_GT(glm::length(normal), 0.99) << "level " << l;
+        EXPECT_GT(agreementOf(ball, pyramid, l).length, 0.9995) << "level " << l;
+    }
+}
+
+// With bumps that coarse levels can't have.
+TEST(LevelNormals, ofABumpyBallAreAsLongAsTheyAgree) {
+    const Mesh ball = sphere(96, 48, 0.04);
+    const Pyramid pyramid = buildPyramid(ball);
+    ASSERT_GT(pyramid.levels.size(), 5u);
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+        const Agreement agreement = agreementOf(ball, pyramid, l);
+        EXPECT_NEAR(agreement.length, agreement.cosine, 0.005) << "level " << l;
+    }
+    EXPECT_LT(agreementOf(ball, pyramid, pyramid.levels.size() - 1).length, 0.995);
+}
+
+}  // namespace
+}  // namespace defocus

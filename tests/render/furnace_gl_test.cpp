@@ -1,0 +1,84 @@
+// Surfaces in a white furnace: light 1 from everywhere. None throws back more than it receives, none less than nothing.
+
+#include <gtest/gtest.h>
+
+#include "render/lit_wall.h"
+
+namespace defocus {
+namespace {
+
+using Furnace = LitWall;
+
+// A wall whose normal has about this cosine to the view's axis, wide enough to fill the frame.
+std::unique_ptr<SmallWorld> furnaceWall(const Material& material, double cosine) {
+    auto small = litWall(material);
+    const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
+    small->world.pose.objects[0].worldFromObject = glm::scale(turned, glm::dvec3(1000));
+    small->world.environment.zenith = glm::vec3(1);
+    return small;
+}
+
+struct Extremes {
+    double least = 1e9;
+    double most = -1e9;
+};
+
+Extremes furnaceRadiance(const Material& material, double cosine) {
+    const Image image = wallImage(*furnaceWall(material, cosine));
+    Extremes extremes;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                extremes.least = std::min<double>(extremes.least, image.at(x, y)[c]);
+                extremes.most = std::max<double>(extremes.most, image.at(x, y)[c]);
+            }
+    return extremes;
+}
+
+Material furnaceMaterial(float base, float metallic, float roughness) {
+    Material material;
+    material.baseColorFactor = {base, base, base, 1};
+    material.metallicFactor = metallic;
+    material.roughnessFactor = roughness;
+    return material;
+}
+
+constexpr double rounding = 1e-5;
+constexpr float roughnesses[] = {0, 0.1f, 0.3f, 0.5f, 0.7f, 0.9f, 1};
+constexpr double cosines[] = {1, 0.8, 0.5, 0.2, 0.05};  // the frame adds 20° to either side
+
+// What its coat doesn't reflect, its base does.
+TEST_F(Furnace, aWhiteDielectricThrowsBackAllOfTheLight) {
+    for (const float roughness : roughnesses)
+        for (const double cosine : cosines) {
+            const Extremes radiance = furnaceRadiance(furnaceMaterial(1, 0, roughness), cosine);
+            EXPECT_NEAR(radiance.least, 1, rounding) << roughness << ' ' << cosine;
+            EXPECT_NEAR(radiance.most, 1, rounding) << roughness << ' ' << cosine;
+        }
+}
+
+TEST_F(Furnace, noSurfaceThrowsBackMoreThanItReceivesOrLessThanNothing) {
+    for (const float base : {0.0f, 0.5f, 1.0f})
+        for (const float metallic : {0.0f, 0.5f, 1.0f})
+            for (const float roughness : roughnesses)
+                for (const double cosine : cosines) {
+                    const Extremes radiance = furnaceRadiance(furnaceMaterial(base, metallic, roughness), cosine);
+                    EXPECT_GE(radiance.least, 0) << base << ' ' << metallic << ' ' << roughness << ' ' << cosine;
+                    EXPECT_LE(radiance.most, 1 + rounding)
+                        << base << ' ' << metallic << ' ' << roughness << ' ' << cosine;
+                }
+}
+
+// Single scattering between rough facets loses light, more the rougher they are; a mirror loses none.
+TEST_F(Furnace, aWhiteMetalLosesLightWithItsRoughnessAlone) {
+    double before = 1;
+    for (const float roughness : roughnesses) {
+        const double radiance = furnaceRadiance(furnaceMaterial(1, 1, roughness), 1).least;
+        EXPECT_LE(radiance, before + rounding) << roughness;
+        before = radiance;
+    }
+    EXPECT_NEAR(furnaceRadiance(furnaceMaterial(1, 1, 0), 0.5).least, 1, 1e-3);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,98 @@
+// Draco and meshopt against the scenes that were compressed (tests/data/compressed).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "models.h"
+#include "scene/gltf/gltf.h"
+#include "scene/posed_mesh.h"
+
+namespace defocus {
+namespace {
+
+// The first object as its pose has it, in world space.
+struct Posed {
+    Mesh mesh;
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::vec3> normals;
+    Bounds bounds;
+};
+
+Posed posedAt(const std::filesystem::path& path, double time) {
+    const Scene scene = loadGltf(path);
+    const Pose pose = poseAt(scene, time);
+    const Object& object = pose.objects.at(0);
+    Posed posed{scene.meshes.at(static_cast<std::size_t>(object.mesh)), {}, {}, pose.bounds};
+    posed.positions = posedPositions(posed.mesh, object);
+    posed.normals = posedNormals(posed.mesh, object);
+    return posed;
+}
+
+double areaOf(const Posed& posed) {
+    double area = 0;
+    for (const Primitive& primitive : posed.mesh.primitives)
+        for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            const glm::dvec3& a = posed.positions[primitive.indices[i]];
+            area += 0.5 * glm::length(glm::cross(posed.positions[primitive.indices[i + 1]] - a,
+                                                 posed.positions[primitive.indices[i + 2]] - a));
+        }
+    return area;
+}
+
+// How far the most distant vertex of `from` is from the nearest of `to` that has its colour, at most two of 255 off in
+// any channel, and its normal, at most three degrees off: seams have several vertices in one place.
+double farthest(const Posed& from, const Posed& to) {
+    double most = 0;
+    for (std::size_t i = 0; i < from.positions.size(); ++i) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < to.positions.size(); ++k) {
+            const glm::ivec4 a(glm::round(255.0f * from.mesh.vertices.colors[i]));
+            const glm::ivec4 b(glm::round(255.0f * to.mesh.vertices.colors[k]));
+            const int apart = std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+            if (apart <= 2 && glm::dot(from.normals[i], to.normals[k]) > 0.9986f)
+                least = std::min(least, glm::length(from.positions[i] - to.positions[k]));
+        }
+        most = std::max(most, least);
+    }
+    return most;
+}
+
+struct CompressedCase {
+    const char* file;
+    const char* original;
+};
+
+class Compressed : public testing::TestWithParam<CompressedCase> {};
+
+// glTF-Transform keeps 14 bits of a position over the longest side: the rounding of a corner is at most √3/2 of a step.
+// A skin's matrices, which undo the steps, and a morph target's offsets are rounded too.
+TEST_P(Compressed, isTheOriginalToItsPrecision) {
+    const std::filesystem::path path = modelPath(std::filesystem::path("tests/data/compressed") / GetParam().file);
+    const std::filesystem::path originalPath = modelPath(std::filesystem::path("meshes") / GetParam().original);
+    for (const double time : {0.0, 0.3, 1.0}) {
+        const Posed compressed = posedAt(path, time);
+        const Posed original = posedAt(originalPath, time);
+        ASSERT_EQ(compressed.mesh.triangleCount(), original.mesh.triangleCount());
+        const glm::dvec3 size = original.bounds.size();
+        const double step = std::max({size.x, size.y, size.z}) / ((1 << 14) - 1);
+        const bool bends = deformed(poseAt(loadGltf(originalPath), time).objects.at(0));
+        const double most = (bends ? 4 : 0.9) * step;
+        EXPECT_LT(farthest(compressed, original), most) << time;
+        EXPECT_LT(farthest(original, compressed), most) << time;
+        EXPECT_NEAR(areaOf(compressed), areaOf(original), 1e-3 * areaOf(original)) << time;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Gltf, Compressed,
+                         testing::Values(CompressedCase{"fish-draco.glb", "fish.glb"},
+                                         CompressedCase{"fish-draco-sequential.glb", "fish.glb"},
+                                         CompressedCase{"fish-meshopt.glb", "fish.glb"},
+                                         CompressedCase{"reed-meshopt.glb", "reed.glb"}),
+                         [](const auto& tested) { return testNameOf(tested.param.file); });
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,101 @@
+// Every option that `defocus view` takes is in what the window starts with: its own, the settings of the table and
+// those of the methods.
+
+#include <map>
+#include <set>
+
+#include "cli/option_cases.h"
+#include "image/image_io.h"
+#include "view/view_program.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class OptionsOfView : public ViewProgram {
+protected:
+    void SetUp() override {
+        ViewProgram::SetUp();
+        if (!IsSkipped()) writeOptionScene(folder());
+    }
+
+    // The state after one frame with the scene.
+    json stateAfter(const Words& line) {
+        start(line);
+        EXPECT_EQ(ended(), 0) << textOf("stderr");
+        return state();
+    }
+
+    // The command that renders the picture, which has all that differs from what is standard; what is drawn at once;
+    // and whether there is a cache.
+    const std::string& seenOf(const Words& line) {
+        const auto known = seen_.find(line);
+        if (known != seen_.end()) return known->second;
+        const fs::path cache = folder() / "cache" / "defocus";
+        for (const fs::path& made : {cache, folder() / "kept"}) fs::remove_all(made);
+        const json state = stateAfter(line);
+        std::string text = state.at("command").get<std::string>() + " " + state.at("wave").dump();
+        if (fs::exists(cache)) text += " cache";
+        if (fs::exists(folder() / "kept")) text += " kept";
+        return seen_.emplace(line, text).first->second;
+    }
+
+    void expectActs(const std::string& name, OptionCase tried) {
+        if (name == "size") tried.words = {"--size", "300x200"};  // windows have a least size
+        for (Words* words : {&tried.words, &tried.with})
+            std::ranges::replace(*words, "10,16,24,18,26,8", "100,90,120,90,120,60");
+        const CommandLine view = {.name = "view", .command = {}, .size = "240x180", .rest = {"--frames", "1"}};
+        const std::string& without = seenOf(lineOfCase(view, name, tried, false));
+        EXPECT_NE(without, seenOf(lineOfCase(view, name, tried, true))) << name << " changes nothing";
+    }
+
+private:
+    std::map<Words, std::string> seen_;
+};
+
+TEST_F(OptionsOfView, haveACase) {
+    const std::set<std::string> own = {"--frames", "--screenshot", "--stats"};  // see the last test
+    for (const CLI::Option* option : optionsOffered("view"))
+        if (const Setting* setting = settingOf(*option))
+            EXPECT_TRUE(settingCases().contains(setting->name)) << setting->name;
+        else if (const MethodSetting* ofMethod = methodSettingOf(*option))
+            EXPECT_TRUE(methodSettingCases().contains(ofMethod->name)) << ofMethod->name;
+        else
+            EXPECT_TRUE(own.contains(nameOf(*option))) << nameOf(*option);
+}
+
+class SettingsOfView : public OptionsOfView, public testing::WithParamInterface<SettingGroup> {};
+
+TEST_P(SettingsOfView, areInWhatTheWindowStartsWith) {
+    for (const Setting* setting : settingsOffered("view", GetParam()))
+        expectActs(setting->name, settingCases().at(setting->name));
+}
+
+INSTANTIATE_TEST_SUITE_P(Group, SettingsOfView,
+                         testing::Values(SettingGroup::scene, SettingGroup::camera, SettingGroup::lens,
+                                         SettingGroup::samples, SettingGroup::method, SettingGroup::display,
+                                         SettingGroup::developer),
+                         [](const auto& each) {
+                             std::string name = groupTitle(each.param);
+                             std::erase(name, ' ');
+                             return name;
+                         });
+
+TEST_F(OptionsOfView, ofMethodsAreInWhatTheWindowStartsWith) {
+    for (const std::string& name : methodSettingsOffered("view")) expectActs(name, methodSettingCases().at(name));
+}
+
+// The helper gives --stats itself.
+TEST_F(OptionsOfView, framesScreenshotAndState) {
+    const Words scene = {"ball.glb", "--size", "240x180"};
+    const json three = stateAfter(joined(scene, {"--frames", "3"}));
+    EXPECT_GE(three.at("frames").get<int>(), 3);
+    EXPECT_FALSE(fs::exists(folder() / "window.png"));
+    stateAfter(joined(scene, {"--screenshot", "window.png"}));
+    EXPECT_EQ(readImage(folder() / "window.png").height, 180);
+}
+
+}  // namespace
+}  // namespace defocus
