@@ -3,9 +3,9 @@
 // says what is measured).
 //
 // One sample's step is √(c/w)/N of a whole level's for a blur of c px and a level's deviation of w px, here at most
-// about 30/0.4: 8.7/N. Samples that change in the same frame add up like noise: k of them make √k of it. Movements of
-// 480 frames change at most three samples of 64 a frame, a walk at 24 frames a second at most twelve of 128: 0.23 of a
-// level's pop.
+// about 30/0.4: 8.7/N. Samples of an object that change in the same frame add up like noise: k of them make √k of it.
+// Movements of 480 frames change at most three samples of 64 a frame, a walk at 24 frames a second at most twelve of
+// 128: 0.23 of a level's pop.
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,7 @@
 
 #include "image/metrics.h"
 #include "image/tone_map.h"
+#include "plan/visibility.h"
 #include "render/aov/aov.h"
 
 namespace defocus {
@@ -51,23 +52,47 @@ bool sameDraw(const LevelDraw& a, const LevelDraw& b) {
            (a.sampleCount == 0 || (a.level == b.level && a.firstSample == b.firstSample));
 }
 
+struct HeldPlan {
+    FramePlan plan;
+    std::vector<const ObjectPlan*> changed;  // of the plan that was held
+};
+
 // `plan` at the levels of the frame before, as far as that had its objects; none where nothing differs.
-std::optional<FramePlan> atLevelsOf(const FramePlan& plan, const FramePlan& before) {
+std::optional<HeldPlan> atLevelsOf(const FramePlan& plan, const FramePlan& before) {
     if (plan.samples.size() != before.samples.size()) return {};
-    FramePlan held = plan;
-    bool differs = false;
-    for (ObjectPlan& object : held.objects) {
+    HeldPlan held{plan, {}};
+    for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+        ObjectPlan& object = held.plan.objects[i];
         const ObjectPlan* earlier = objectOf(before, object.object);
         if (earlier == nullptr) continue;
-        differs |= !sameDraw(object.coarse, earlier->coarse) || !sameDraw(object.fine, earlier->fine) ||
-                   object.boundaryShare != earlier->boundaryShare;
+        if (!sameDraw(object.coarse, earlier->coarse) || !sameDraw(object.fine, earlier->fine) ||
+            object.boundaryShare != earlier->boundaryShare)
+            held.changed.push_back(&plan.objects[i]);
         object.coarse = earlier->coarse;
         object.fine = earlier->fine;
         object.boundaryShare = earlier->boundaryShare;
     }
-    if (!differs) return {};
-    markUsed(held);
+    if (held.changed.empty()) return {};
+    markUsed(held.plan);
     return held;
+}
+
+// Of the pixels in `objects`, those that the boxes of `changed` can touch, with their blur.
+Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& plan, const Image& objects) {
+    Image pixels(objects.width, objects.height, 1);
+    const auto bounded = [](double place, int size) { return static_cast<int>(std::clamp<double>(place, 0, size)); };
+    for (const ObjectPlan* object : changed) {
+        CocBox box{.ndcLeast = glm::dvec2(-1), .ndcMost = glm::dvec2(1)};
+        if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, 1, 1, plan);
+        const double reach = 0.5 * object->coc.largest + 1;  // an edge lies half a pixel beside a pixel's middle
+        const int left = bounded(0.5 * (1 + box.ndcLeast.x) * objects.width - reach, objects.width);
+        const int right = bounded(0.5 * (1 + box.ndcMost.x) * objects.width + reach + 1, objects.width);
+        const int top = bounded(0.5 * (1 - box.ndcMost.y) * objects.height - reach, objects.height);
+        const int bottom = bounded(0.5 * (1 - box.ndcLeast.y) * objects.height + reach + 1, objects.height);
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x) *pixels.at(x, y) = *objects.at(x, y);
+    }
+    return pixels;
 }
 
 double largestSpeed(const FramePlan& plan, const FramePlan& before) {
@@ -159,8 +184,9 @@ PoppingFrame frameOf(Renderer& renderer, const ModeState& before, const ModeStat
     PoppingFrame frame;
     frame.speed = largestSpeed(now.plan, before.plan);
     frame.change = popBetween(expected, now.image, objects);
-    if (const std::optional<FramePlan> held = atLevelsOf(now.plan, before.plan))
-        frame.step = popBetween(displayColours(rendered(renderer, *held)), now.image, objects);
+    if (const std::optional<HeldPlan> held = atLevelsOf(now.plan, before.plan))
+        frame.step = popBetween(displayColours(rendered(renderer, held->plan)), now.image,
+                                pixelsOf(held->changed, now.plan, objects));
     return frame;
 }
 
