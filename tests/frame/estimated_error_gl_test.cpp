@@ -10,6 +10,7 @@
 #include <string>
 
 #include "defocus/defocus.h"
+#include "frame/own_context.h"
 #include "frame/prepared_frame.h"
 #include "frame/reference_image.h"
 #include "gl/context.h"
@@ -120,16 +121,7 @@ Request twoFish() {
     return request;
 }
 
-class StoppedRender : public testing::Test {
-protected:
-    void SetUp() override {
-        try {
-            static_cast<void>(createHeadlessContext());
-        } catch (const Error& error) {
-            GTEST_SKIP() << error.what();
-        }
-    }
-};
+class StoppedRender : public OwnContextTest {};
 
 TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     Request request = twoFish();

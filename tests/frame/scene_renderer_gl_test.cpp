@@ -11,6 +11,7 @@
 
 #include "cli/two_quads.h"
 #include "defocus/defocus.h"
+#include "frame/own_context.h"
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "image/scratch_folder.h"
@@ -40,15 +41,8 @@ Request movedRequest() {
     return request;
 }
 
-class SceneRendererTest : public testing::Test {
+class SceneRendererTest : public OwnContextTest {
 protected:
-    void SetUp() override {
-        try {
-            static_cast<void>(createHeadlessContext());
-        } catch (const Error& error) {
-            GTEST_SKIP() << error.what();
-        }
-    }
     ScratchFolder folder_;
 };
 

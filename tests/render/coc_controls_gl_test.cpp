@@ -11,6 +11,7 @@
 #include "lens/circle_of_confusion.h"
 #include "render/aov/aov.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -36,10 +37,7 @@ Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance 
     const MethodUse use = parseMethodUse(method);
     options.settings = completeSettings(use.method->name, use.method->settings, use.settings);
     const auto renderer = use.method->make(small.world, options);
-    renderer->start(planFrame(small.world, small.view, settings));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageOf(*renderer, planFrame(small.world, small.view, settings));
 }
 
 double rootMeanSquare(const Image& a, const Image& b) {

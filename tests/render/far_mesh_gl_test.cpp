@@ -6,6 +6,7 @@
 #include "image/metrics.h"
 #include "render/gpu_scene.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -55,13 +56,7 @@ Image shiftedImage(SmallWorld& small, double cameraX) {
     RenderSettings settings;
     settings.sampleCount = 16;
     settings.lod = LodMode::off;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const auto renderer = methodNamed("accumulation").make(small.world, options);
-    renderer->start(planFrame(small.world, small.view, settings));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 
 // Half a millimetre of the camera's way moves the picture as much as it does for a mesh around its origin.

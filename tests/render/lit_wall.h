@@ -11,6 +11,7 @@
 #include "gl/context.h"
 #include "plan/frame_plan.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -46,13 +47,7 @@ inline FramePlan wallPlan(const SmallWorld& small) {
 }
 
 inline Image wallImage(const SmallWorld& small) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const auto renderer = methodNamed("accumulation").make(small.world, options);
-    renderer->start(wallPlan(small));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageInFloats(small.world, wallPlan(small));
 }
 
 // What a pixel's one sample meets on the wall. Directions and places are the world's.

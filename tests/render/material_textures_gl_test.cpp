@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "render/lit_wall.h"
+#include "render/rendered.h"
 
 namespace defocus {
 namespace {
@@ -308,13 +309,7 @@ TEST_F(MaterialTextures, fittedVertexColoursAreNotClamped) {
     plan.objects[0].fine.level = 1;
     plan.levelsUsed[0].assign(2, false);
     plan.levelsUsed[0][1] = true;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const auto renderer = methodNamed("accumulation").make(small->world, options);
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
-    const Image image = renderer->image();
+    const Image image = imageInFloats(small->world, plan);
     for (const WallPoint& point : wallPoints(*small))
         expectRadiance(image, point, {0.75, 0.25, -0.125}, glm::dvec3(1e-6));
 }

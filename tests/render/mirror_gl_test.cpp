@@ -4,6 +4,7 @@
 
 #include "gl/context.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -46,13 +47,7 @@ std::unique_ptr<SmallWorld> mirrorBall(float roughness) {
 }
 
 Image ballImage(const SmallWorld& small, const RenderSettings& settings) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const auto renderer = methodNamed("accumulation").make(small.world, options);
-    renderer->start(planFrame(small.world, small.view, settings));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageInFloats(small.world, planFrame(small.world, small.view, settings));
 }
 
 // ∫ L dΩ over the image, of its red.

@@ -12,6 +12,7 @@
 #include "models.h"
 #include "posed_world.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 
 namespace defocus {
 namespace {
@@ -33,13 +34,7 @@ RenderSettings fullDetailFor(std::uint32_t samples) {
 }
 
 Image renderedInFloat(const World& world, const View& view, const RenderSettings& settings) {
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const auto renderer = methodNamed("accumulation").make(world, options);
-    renderer->start(planFrame(world, view, settings));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageInFloats(world, planFrame(world, view, settings));
 }
 
 // Of a sample, as the plan has it.
@@ -119,10 +114,7 @@ TEST_F(Motion, postProcessMethodsDrawTheMiddle) {
     const auto small = fiveSpheres();
     const auto circular = [&] {
         const auto renderer = methodNamed("circular").make(small->world, {});
-        renderer->start(planFrame(small->world, small->view, fullDetailFor(4)));
-        while (renderer->advance()) {
-        }
-        return renderer->image();
+        return imageOf(*renderer, planFrame(small->world, small->view, fullDetailFor(4)));
     };
     const Image still = circular();
     small->world.shutter.poses.assign(2, small->world.pose);

@@ -8,6 +8,7 @@
 #include "posed_world.h"
 #include "render/aov/aov.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 
 namespace defocus {
 namespace {
@@ -24,10 +25,7 @@ Image renderedInHalf(const SmallWorld& small, const RenderSettings& settings, co
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba16f;
     const auto renderer = methodNamed(method).make(small.world, options);
-    renderer->start(planFrame(small.world, small.view, settings));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageOf(*renderer, planFrame(small.world, small.view, settings));
 }
 
 RenderSettings levelZeroSettings() {

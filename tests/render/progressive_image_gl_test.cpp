@@ -12,6 +12,7 @@
 #include "likeness.h"
 #include "render/display/display_pass.h"
 #include "render/progressive_image.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -44,10 +45,7 @@ protected:
         settings.sampleCount = samples;
         settings.lod = lod;
         const auto renderer = methodNamed("accumulation").make(small_->world, options());
-        renderer->start(planFrame(small_->world, small_->view, settings));
-        while (renderer->advance()) {
-        }
-        return renderer->image();
+        return imageOf(*renderer, planFrame(small_->world, small_->view, settings));
     }
 
     ProgressiveImage progressive(const char* method = "accumulation") const {

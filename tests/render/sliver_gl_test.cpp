@@ -4,6 +4,7 @@
 
 #include "gl/context.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -70,10 +71,7 @@ TEST(Sliver, noSampleHasAColorThatItsCornersDoNotAllow) {
         settings.sampleCount = 1;
         settings.seed = seed;
         settings.lod = LodMode::off;
-        renderer->start(planFrame(small.world, small.view, settings));
-        while (renderer->advance()) {
-        }
-        const Image image = renderer->image();
+        const Image image = imageOf(*renderer, planFrame(small.world, small.view, settings));
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 if (image.at(x, y)[3] == 0) continue;

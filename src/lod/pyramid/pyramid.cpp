@@ -16,6 +16,7 @@
 #include "lod/pyramid/clusters.h"
 #include "lod/pyramid/surface_distance.h"
 #include "lod/pyramid/vertex_order.h"
+#include "lod/simplify/conserve.h"
 #include "lod/simplify/level_fit.h"
 #include "lod/simplify/simplify.h"
 #include "lod/simplify/weld.h"

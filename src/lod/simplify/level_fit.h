@@ -6,13 +6,9 @@
 // gradients, Hestenes and Stiefel 1952).
 
 #include <cstdint>
-#include <vector>
 
-#include "core/bounds.h"
-#include "lod/simplify/outline.h"
+#include "lod/simplify/fit_source.h"
 #include "lod/simplify/triangle_set.h"
-#include "lod/simplify/weld.h"
-#include "scene/mesh.h"
 
 namespace defocus {
 
@@ -52,45 +48,10 @@ struct LevelFit {
     Numbered<LevelVertexNumber, glm::vec2> uv0, uv1;  // empty without texture coordinates
 };
 
-// What all levels of a mesh are fitted to.
-struct FitSource {
-    const Vertices& vertices;
-    const WeldedPositions& positions;
-    const VertexGroups& smoothing;                   // vertices of one share a normal
-    VertexGroups shades;                             // vertices of one share a colour; empty without colours
-    VertexGroups charts;                             // and here texture coordinates; empty without
-    Numbered<MeshVertexNumber, std::uint8_t> seams;  // 1: others at its position have other ones; empty without
-    Numbered<MeshVertexNumber, float> areas;  // the share of level 0's surface that each vertex stands for, mean 1
-    Bounds bounds;                            // of level 0's triangles
-    // What level 0 has of what levels keep: see the functions below.
-    glm::dvec4 meanColor{0};
-    std::vector<CoverGrid> outlines;
-};
-
-// Prepares the fit; `triangles` are level 0's. Keeps references to the other three.
-FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
-                     const TriangleSet<MeshVertexNumber>& triangles);
-
 // Fits a level. Each vertex of the mesh counts by its area, foreshortened on its anchor's
 // triangle; vertices that no anchor names keep the values they have from the mesh. The fit turns no triangle by more
 // than 60° and leaves no part of them outside level 0's box. Vertices at one position stay at one; those whose normals
 // agree within a degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
-
-// Corrects a fitted level until it keeps what a wide blur would show of level 0:
-// - the area that it covers, where it is so coarse that it may lose any: what lies at its outlines moves (outline.h);
-// - the mean colour over its area, alpha included: all colours are shifted alike.
-// What fitLevel promises of places and of normals that are shared still holds; a triangle turns by at most 60° more.
-void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
-
-// The means of the colours over a level's area, and those of what its anchors stand for in level 0: of each patch of
-// the level's triangles, which are numbered from 0. A patch that no anchor names has an area of 0 there.
-struct PatchMeans {
-    std::vector<double> areas, areas0;  // the second in means of all vertices' areas
-    std::vector<glm::dvec4> colors, colors0;
-};
-PatchMeans patchMeans(const FitSource& source, const LevelMesh& level, const LevelFit& fit,
-                      const Numbered<MeshVertexNumber, Anchor>& anchors,
-                      const Numbered<TriangleNumber, std::uint32_t>& patchOf);
 
 }  // namespace defocus

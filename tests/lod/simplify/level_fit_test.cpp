@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "lod/numbered.h"
+#include "lod/simplify/conserve.h"
 
 namespace defocus {
 namespace {

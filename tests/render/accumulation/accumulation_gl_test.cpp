@@ -12,6 +12,7 @@
 #include "likeness.h"
 #include "render/aov/aov.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -35,10 +36,7 @@ RenderSettings settingsFor(std::uint32_t samples, LodMode lod = LodMode::fractio
 
 Image rendered(const SmallWorld& small, const RenderSettings& settings, const RendererOptions& options = {}) {
     const auto renderer = methodNamed("accumulation").make(small.world, options);
-    renderer->start(planFrame(small.world, small.view, settings));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageOf(*renderer, planFrame(small.world, small.view, settings));
 }
 
 // A green quad that fills the frame at `depth`, in front of a uniform red background.

@@ -8,6 +8,7 @@
 #include "gl/context.h"
 #include "likeness.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -32,10 +33,7 @@ RenderSettings continuousFor(std::uint32_t samples) {
 Image renderedPlan(const SmallWorld& small, const FramePlan& plan, RendererOptions options = {}) {
     if (options.layerFormat == LayerFormat::automatic) options.layerFormat = LayerFormat::rgba32f;
     const auto renderer = methodNamed("accumulation").make(small.world, options);
-    renderer->start(plan);
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageOf(*renderer, plan);
 }
 
 int sharingObjects(const FramePlan& plan) {

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "render/methods.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -35,10 +36,7 @@ Image rendered(const SmallWorld& small, const char* method, const RendererOption
     RendererOptions complete = options;
     complete.settings = use.settings;
     const auto renderer = use.method->make(small.world, complete);
-    renderer->start(planFrame(small.world, small.view, settingsOf()));
-    while (renderer->advance()) {
-    }
-    return renderer->image();
+    return imageOf(*renderer, planFrame(small.world, small.view, settingsOf()));
 }
 
 double largestDifferenceInColumns(const Image& a, const Image& b, int left = 0,

@@ -1,0 +1,109 @@
+#include "lod/simplify/fit_source.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "lod/simplify/surface_mean.h"
+
+namespace defocus {
+
+namespace {
+
+// Bounds of a vertex's area, in means of all: they keep the equations well conditioned.
+constexpr double leastArea = 1e-3;
+constexpr double largestArea = 1e3;
+
+// Within the smoothing groups, vertices of one colour.
+VertexGroups colorGroups(const VertexGroups& smoothing, const std::vector<glm::vec4>& colors) {
+    if (colors.empty()) return {};
+    Numbered<MeshVertexNumber, std::uint8_t> shared(colors.size(), 0);  // 1: more than one vertex is of the group
+    for (const MeshVertexNumber v : shared.numbers())
+        if (smoothing[v] != v) shared[smoothing[v]] = 1;
+    std::map<std::pair<MeshVertexNumber, std::array<float, 4>>, MeshVertexNumber> leaders;
+    VertexGroups groups(colors.size());
+    for (const MeshVertexNumber v : groups.numbers()) {
+        groups[v] = v;
+        if (shared[smoothing[v]] == 0) continue;
+        const glm::vec4& c = colors[v.value];
+        groups[v] = leaders.try_emplace({smoothing[v], {c.r, c.g, c.b, c.a}}, v).first->second;
+    }
+    return groups;
+}
+
+// Vertices at one position with the same texture coordinates.
+VertexGroups chartGroups(const Vertices& vertices, const WeldedPositions& positions) {
+    if (vertices.uv0.empty() && vertices.uv1.empty()) return {};
+    VertexGroups groups(vertices.count());
+    Numbered<PositionNumber, std::uint8_t> shared(positions.first.size(), 0);
+    for (const MeshVertexNumber v : groups.numbers())
+        if (positions.first[positions.id[v]] != v) shared[positions.id[v]] = 1;
+    std::map<std::pair<PositionNumber, std::array<float, 4>>, MeshVertexNumber> leaders;
+    for (const MeshVertexNumber v : groups.numbers()) {
+        groups[v] = v;
+        if (shared[positions.id[v]] == 0) continue;
+        const auto [uv0, uv1] = coordinatesOf(vertices, v);
+        groups[v] = leaders.try_emplace({positions.id[v], {uv0.x, uv0.y, uv1.x, uv1.y}}, v).first->second;
+    }
+    return groups;
+}
+
+Numbered<MeshVertexNumber, std::uint8_t> seamVertices(const VertexGroups& charts, const WeldedPositions& positions) {
+    Numbered<PositionNumber, std::uint8_t> atSeam(positions.first.size(), 0);
+    for (const MeshVertexNumber v : charts.numbers())
+        if (charts[v] != charts[positions.first[positions.id[v]]]) atSeam[positions.id[v]] = 1;
+    Numbered<MeshVertexNumber, std::uint8_t> seams;
+    seams.reserve(charts.size());
+    for (const MeshVertexNumber v : charts.numbers()) seams.push_back(atSeam[positions.id[v]]);
+    return seams;
+}
+
+Numbered<MeshVertexNumber, float> vertexAreas(const std::vector<glm::vec3>& positions,
+                                              const TriangleSet<MeshVertexNumber>& triangles) {
+    Numbered<MeshVertexNumber, double> areas(positions.size(), 0);
+    double sum = 0;
+    for (const TriangleNumber t : triangles.numbers()) {
+        const auto corners = triangles.corners(t);
+        const double area = glm::length(triangleCross(corners, [&](MeshVertexNumber v) { return positions[v.value]; }));
+        if (!std::isfinite(area)) continue;
+        for (const MeshVertexNumber v : corners) areas[v] += area;
+        sum += 3 * area;
+    }
+    const double mean = sum / static_cast<double>(positions.size());
+    Numbered<MeshVertexNumber, float> relative(positions.size(), 1);
+    if (!(mean > 0)) return relative;
+    for (const MeshVertexNumber v : areas.numbers())
+        relative[v] = static_cast<float>(std::clamp(areas[v] / mean, leastArea, largestArea));
+    return relative;
+}
+
+}  // namespace
+
+Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v) {
+    Coordinates result;
+    if (!vertices.uv0.empty()) result.uv0 = vertices.uv0[v.value];
+    if (!vertices.uv1.empty()) result.uv1 = vertices.uv1[v.value];
+    return result;
+}
+
+FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
+                     const TriangleSet<MeshVertexNumber>& triangles) {
+    FitSource source{vertices, positions, smoothing, {}, {}, {}, {}, {}, glm::dvec4(0), {}};
+    source.shades = colorGroups(source.smoothing, vertices.colors);
+    source.charts = chartGroups(vertices, positions);
+    source.seams = seamVertices(source.charts, positions);
+    source.areas = vertexAreas(vertices.positions, triangles);
+    for (const MeshVertexNumber v : triangles.indices)
+        if (isFinite(vertices.positions[v.value])) source.bounds.extend(glm::dvec3(vertices.positions[v.value]));
+    if (!vertices.colors.empty())
+        source.meanColor = areaMean(
+            triangles, [&](MeshVertexNumber v) { return vertices.positions[v.value]; },
+            [&](MeshVertexNumber v) { return vertices.colors[v.value]; });
+    const std::vector<std::uint32_t> corners = plainCorners(triangles);
+    source.outlines = outlinesOf(vertices.positions, corners, source.bounds);
+    return source;
+}
+
+}  // namespace defocus
