@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -37,6 +38,43 @@ bool isKept(int descriptor) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
     struct stat status {};
     return ::fstat(descriptor, &status) != 0 || status.st_nlink > 0;
+}
+
+// Where `path` leads. A link stays a link, and what it names is written.
+fs::path followed(fs::path path) {
+    std::error_code status;
+    for (int links = 0; links < 40 && fs::is_symlink(path, status); ++links) {
+        const fs::path next = fs::read_symlink(path, status);
+        if (status) break;
+        path = next.is_absolute() ? next : path.parent_path() / next;
+    }
+    return path;
+}
+
+// Whether what is written to `path` flows on (a device, a pipe, a descriptor of this process): it can't be replaced.
+bool isStream(const fs::path& path) {
+    std::error_code status;
+    const fs::file_type type = fs::status(path, status).type();
+    if (type == fs::file_type::not_found || type == fs::file_type::directory || type == fs::file_type::none)
+        return false;
+    const fs::path top = *std::next(path.begin(), path.is_absolute() ? 1 : 0);
+    return type != fs::file_type::regular || top == "dev" || top == "proc";
+}
+
+void writeStream(const fs::path& from, const fs::path& to) {
+    const std::vector<std::byte> bytes = readFile(from);
+    FileHandle stream = openFile(to, "wb");
+    const bool written =
+        stream && (bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) == bytes.size());
+    if (!written || std::fclose(stream.release()) != 0) fail("{}: cannot be written: {}", to.string(), reason(errno));
+}
+
+// What a folder lists is on the disk, too. Some file systems can't do that for folders, and then do without.
+void syncFolder(const fs::path& folder) {
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    ::fsync(descriptor);
+    ::close(descriptor);
 }
 
 }  // namespace
@@ -78,10 +116,11 @@ void writeFile(const fs::path& path, std::string_view text) {
     writeFile(path, std::as_bytes(std::span(text)));
 }
 
-PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
+PendingFile::PendingFile(fs::path target) : target_(std::move(target)), stream_(isStream(target_)) {
     static std::atomic<unsigned> counter = 0;
+    if (!stream_) target_ = followed(target_);
     while (descriptor_ < 0) {
-        temporary_ = target_;
+        temporary_ = stream_ ? fs::temp_directory_path() / target_.filename() : target_;
         temporary_.replace_filename(
             fmt::format(".{}.{}-{}{}", target_.stem().string(), ::getpid(), counter++, target_.extension().string()));
         // A process of the same number on another machine may have made that file: only a new one is ours.
@@ -98,10 +137,15 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::commit() {
+    if (stream_) return writeStream(temporary_, target_);
+    // A file system without room may say so only now.
+    if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+        fail("{}: cannot be written: {}", target_.string(), reason(errno));
     std::error_code status;
     fs::rename(temporary_, target_, status);
     if (status) fail("{}: cannot be written: {}", target_.string(), status.message());
     committed_ = true;
+    syncFolder(target_.parent_path());
 }
 
 void removeAbandoned(const fs::path& temporary) {

@@ -1,7 +1,9 @@
 #pragma once
-// Whole-file reads and writes that never leave half a file: data goes to a temporary name beside the target and is
-// renamed over it once complete, so a crash or a full disk destroys nothing. Of several processes that write the same
-// file, each has a temporary file of its own, and the last to rename wins with a whole one.
+// Whole-file reads and writes that never leave half a file: data goes to a temporary name beside the target, is flushed
+// to the disk and renamed over the target once complete, so that a crash, a full disk or a loss of power destroys
+// nothing. Of several processes that write the same file, each has a temporary file of its own, and the last to rename
+// wins with a whole one. A link stays, and the file that it names is replaced. Devices, pipes and what lies below /dev
+// or /proc (/dev/stdout) are never replaced: the complete data is copied into them.
 
 #include <cstddef>
 #include <filesystem>
@@ -33,11 +35,13 @@ public:
     PendingFile& operator=(const PendingFile&) = delete;
 
     [[nodiscard]] const std::filesystem::path& temporaryPath() const { return temporary_; }
-    // Renames the temporary file over the target. Throws Error when that fails.
+    // Flushes the temporary file to the disk and renames it over the target, or copies it into a device or a pipe.
+    // Throws Error when that fails.
     void commit();
 
 private:
     std::filesystem::path target_;
+    bool stream_ = false;  // the target can't be replaced
     std::filesystem::path temporary_;
     int descriptor_ = -1;  // locked while the file is pending
     bool committed_ = false;

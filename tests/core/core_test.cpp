@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -92,6 +93,65 @@ TEST_F(Files, onlyAbandonedTemporaryFilesAreRemoved) {
     EXPECT_FALSE(fs::exists(left));
     EXPECT_TRUE(fs::exists(path));
     removeAbandoned(folder_ / "missing");
+}
+
+std::string textOf(const fs::path& path) {
+    const std::vector<std::byte> bytes = readFile(path);
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST_F(Files, aLinkStaysAndWhatItNamesIsReplaced) {
+    fs::create_directory(folder_ / "far");
+    for (const char* name : {"there.txt", "not yet.txt"}) {
+        const fs::path link = folder_ / fmt::format("link to {}", name);
+        fs::create_symlink(fs::path("far") / name, link);
+        if (std::string(name) == "there.txt") writeFile(folder_ / "far" / name, std::string_view("before"));
+        writeFile(link, std::string_view("after"));
+        EXPECT_TRUE(fs::is_symlink(link));
+        EXPECT_EQ(textOf(folder_ / "far" / name), "after");
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "far"), fs::directory_iterator()), 2) << "nothing is left";
+}
+
+TEST_F(Files, aPipeGetsAllBytesAndStaysAPipe) {
+    const fs::path pipe = folder_ / "pipe.json";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const std::string sent(100'000, 'x');
+    std::string received;
+    std::thread reader([&] {
+        std::ifstream stream(pipe, std::ios::binary);
+        received.assign(std::istreambuf_iterator<char>(stream), {});
+    });
+    writeFile(pipe, std::string_view(sent));
+    reader.join();
+    EXPECT_EQ(received, sent);
+    EXPECT_TRUE(fs::is_fifo(pipe));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+// As root, a rename would replace the device itself, for everybody.
+TEST_F(Files, aDeviceStaysADevice) {
+    if (!fs::is_character_file("/dev/null")) GTEST_SKIP() << "no /dev/null";
+    writeFile("/dev/null", std::string_view("gone"));
+    fs::create_symlink("/dev/null", folder_ / "link");
+    writeFile(folder_ / "link", std::string_view("gone too"));
+    ASSERT_TRUE(fs::is_character_file("/dev/null"));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+    if (!fs::is_character_file("/dev/full")) return;
+    EXPECT_NE(messageOf([] { writeFile("/dev/full", std::string_view("lost")); }).find("No space"), std::string::npos);
+}
+
+// What the shell gave as a descriptor is written there: its file is not replaced behind the shell's back.
+TEST_F(Files, aDescriptorIsWrittenWhereItLeads) {
+    const int descriptor = ::open((folder_ / "kept.txt").c_str(), O_CREAT | O_RDWR, 0600);
+    ASSERT_GE(descriptor, 0);
+    const fs::path path = fmt::format("/proc/self/fd/{}", descriptor);
+    if (!fs::exists(path)) GTEST_SKIP() << "no /proc";
+    writeFile(path, std::string_view("words"));
+    char words[6] = {};
+    EXPECT_EQ(::pread(descriptor, words, 5, 0), 5);
+    EXPECT_STREQ(words, "words");
+    ::close(descriptor);
 }
 
 // As if a process of this number, on another machine that shares the folder, wrote the same file.
