@@ -80,7 +80,8 @@ public:
     // Writes an image of this renderer's frame with its metadata, tone-mapped and exposed as the request says where the
     // file is a PNG or JPEG.
     void write(const std::filesystem::path& path, const ImageView& image) const;
-    // What is worth knowing of the file and the request, a line each: damage, values that aren't used.
+    // What is worth knowing of the file, the request and the frame that was started, a line each: damage, what isn't
+    // drawn, values that aren't used, a lens that blurs nothing, samples too few for the blur.
     [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] SceneHandle scene() const;
 

@@ -24,6 +24,7 @@
 #include "core/file.h"
 #include "core/message.h"
 #include "core/stopwatch.h"
+#include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "gl/context.h"
@@ -208,6 +209,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (!allThere && use.method->needsGl && !arguments.dryRun) context = createHeadlessContext();
     if (!allThere || arguments.dryRun) addPyramids(prepared, progress);
     printFrameWarnings(prepared, global);
+    printWarnings(ignoredWarnings(*prepared.scene), global);
     if (arguments.dryRun) {
         progress = {};
         return printPlan(arguments, prepared, base, film);

@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/request_options.h"
+#include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "plan/frame_plan.h"
 #include "plan/plan_text.h"
@@ -25,6 +26,8 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
     printFrameWarnings(frame, global);
+    printWarnings(ignoredWarnings(*frame.scene), global);
+    printWarnings(planWarnings(plan, true), global);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
+#include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "gl/context.h"
@@ -219,6 +220,8 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
         writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
     if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
     printFrameWarnings(frame, global);
+    printWarnings(ignoredWarnings(*frame.scene), global);
+    printWarnings(planWarnings(plan, method.usesLensSamples), global);
     if (global.verbose) printChoices(context.get(), plan, report);
     if (!global.quiet) printSummary(arguments, report);
 }

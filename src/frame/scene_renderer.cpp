@@ -5,6 +5,7 @@
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "defocus/renderer.h"
+#include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "gl/context.h"
@@ -56,7 +57,7 @@ public:
     [[nodiscard]] Aovs aovs();
     [[nodiscard]] std::string planText() const;
     void write(const std::filesystem::path& path, const ImageView& image) const;
-    [[nodiscard]] std::vector<std::string> warnings() const { return frameWarnings(frame_); }
+    [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] const Request& first() const { return first_; }
     [[nodiscard]] SceneHandle scene() const { return scene_; }
 
@@ -220,6 +221,14 @@ Aovs SceneRenderer::State::aovs() {
     const InContext use(*context_);
     AovImages images = renderAovs(frame_.world, run_->plan());
     return {std::move(images.depth), std::move(images.coc), std::move(images.level)};
+}
+
+std::vector<std::string> SceneRenderer::State::warnings() const {
+    std::vector<std::string> lines = frameWarnings(frame_);
+    const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
+    add(ignoredWarnings(*frame_.scene));
+    if (run_) add(planWarnings(run_->plan(), chosenMethod(request_).method->usesLensSamples));
+    return lines;
 }
 
 std::string SceneRenderer::State::planText() const {

@@ -160,7 +160,8 @@ double largestBlur(const FramePlan& plan, const World& world) {
 }
 
 void leaveOutLens(FramePlan& plan, const World& world) {
-    const double blur = largestBlur(plan, world);
+    plan.largestBlur = largestBlur(plan, world);
+    const double blur = plan.largestBlur;
     if (plan.settings.keepAll || blur >= leastBlur) return;
     const bool still = plan.moments.empty();
     const std::uint32_t kept =

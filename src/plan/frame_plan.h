@@ -91,6 +91,9 @@ struct FramePlan {
     LodThresholds thresholds;  // of settings, what they leave open by the number of samples
     double tanHalfHorizontal = 0;
     double apertureDiameter = 0;  // m; 0 if the lens is left out
+    // px, over what may be drawn, and that of an endless background where it isn't the same everywhere. It stands here
+    // even if the lens is left out. Boxes bound it: an object that reaches the near plane makes it infinite.
+    double largestBlur = 0;
     ClipCircleOfConfusion coc;
     std::vector<LensSample> samples;    // the samples to draw, in order
     std::vector<SampleMoment> moments;  // one for each sample; empty if nothing moves during the exposure

@@ -1,8 +1,11 @@
 // glTF 2.0 specification, 3.8 (textures) and 3.9 (materials); KHR_texture_transform, KHR_materials_emissive_strength,
-// KHR_materials_unlit.
+// KHR_materials_unlit, KHR_materials_pbrSpecularGlossiness.
 #include "scene/gltf/material.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <mutex>
 
 #include "core/parallel.h"
@@ -11,6 +14,9 @@
 namespace defocus::gltf {
 
 namespace {
+
+constexpr double dielectricReflectance = 0.04;  // at normal incidence
+constexpr double leastShare = 1e-6;             // of a part of the colour that can be solved for
 
 // ---- materials ----------------------------------------------------------------------------------
 
@@ -63,6 +69,50 @@ void readMetallicRoughness(Source& source, const nlohmann::json& json, Material&
     material.metallicRoughness = textureUse(source, json, "metallicRoughnessTexture");
 }
 
+glm::dvec3 colorOf(const nlohmann::json& json, const char* name) {
+    glm::dvec3 color(1);
+    if (json.contains(name))
+        for (glm::length_t i = 0; i < 3; ++i) color[i] = json[name][static_cast<std::size_t>(i)].get<double>();
+    return color;
+}
+
+// The metalness with which a dielectric's and a metal's colour meet: of b = d·(1 − max s) / ((1 − 0.04)(1 − m)) and
+// s = 0.04·(1 − m) + b·m, taken of the brightness of the diffuse d and the specular s (Khronos, "Convert between
+// workflows", KHR_materials_pbrSpecularGlossiness).
+double metalnessOf(const glm::dvec3& diffuse, const glm::dvec3& specular, double left) {
+    const auto brightness = [](const glm::dvec3& c) {
+        return std::sqrt(glm::dot(glm::dvec3(0.299, 0.587, 0.114), c * c));
+    };
+    const double reflected = brightness(specular);
+    if (reflected <= dielectricReflectance) return 0;
+    const double b = brightness(diffuse) * left / (1 - dielectricReflectance) + reflected - 2 * dielectricReflectance;
+    const double root =
+        std::sqrt(std::max(b * b - 4 * dielectricReflectance * (dielectricReflectance - reflected), 0.0));
+    return std::clamp((root - b) / (2 * dielectricReflectance), 0.0, 1.0);
+}
+
+// The metallic-roughness material that looks alike: exactly, where the diffuse and the specular colour are one grey or
+// the specular is a dielectric's. A texture of specular colours is not used; such a surface is taken for a dielectric.
+void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material& material) {
+    const glm::dvec3 diffuse = colorOf(json, "diffuseFactor");
+    glm::dvec3 specular = colorOf(json, "specularFactor");
+    if (json.contains("specularGlossinessTexture")) {
+        ignore(source, "texture of specular colours and glossiness", "drawn as a dielectric");
+        specular = glm::dvec3(dielectricReflectance);
+    }
+    const double left = 1 - std::max({specular.r, specular.g, specular.b});
+    const double metalness = metalnessOf(diffuse, specular, left);
+    const glm::dvec3 fromDiffuse = diffuse * (left / (1 - dielectricReflectance) / std::max(1 - metalness, leastShare));
+    const glm::dvec3 fromSpecular =
+        (specular - dielectricReflectance * (1 - metalness)) / std::max(metalness, leastShare);
+    const glm::dvec3 base = glm::clamp(glm::mix(fromDiffuse, fromSpecular, metalness * metalness), 0.0, 1.0);
+    const double alpha = json.contains("diffuseFactor") ? json["diffuseFactor"][3].get<double>() : 1.0;
+    material.baseColorFactor = {toFloat(base.r), toFloat(base.g), toFloat(base.b), toFloat(alpha)};
+    material.metallicFactor = toFloat(metalness);
+    material.roughnessFactor = toFloat(1 - std::clamp(json.value("glossinessFactor", 1.0), 0.0, 1.0));
+    material.baseColor = textureUse(source, json, "diffuseTexture");
+}
+
 AlphaMode alphaModeOf(const Source& source, const std::string& name, const std::string& label) {
     if (name == "OPAQUE") return AlphaMode::opaque;
     if (name == "MASK") return AlphaMode::mask;
@@ -74,7 +124,10 @@ Material readMaterial(Source& source, std::size_t index) {
     const nlohmann::json& json = source.document.json["materials"][index];
     Material material;
     material.name = json.value("name", std::string());
-    if (json.contains("pbrMetallicRoughness")) readMetallicRoughness(source, json["pbrMetallicRoughness"], material);
+    if (const nlohmann::json* extension = findExtension(json, "KHR_materials_pbrSpecularGlossiness"))
+        readSpecularGlossiness(source, *extension, material);
+    else if (json.contains("pbrMetallicRoughness"))
+        readMetallicRoughness(source, json["pbrMetallicRoughness"], material);
 
     material.normal = textureUse(source, json, "normalTexture");
     if (json.contains("normalTexture")) material.normalScale = numberOf(json["normalTexture"], "scale", 1.0);

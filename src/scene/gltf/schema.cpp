@@ -122,8 +122,14 @@ constexpr Property metallicRoughnessProperties[] = {numbers("baseColorFactor", 4
                                                     {"roughnessFactor", Kind::number},
                                                     object("metallicRoughnessTexture", textureInfoProperties)};
 constexpr Property emissiveStrengthProperties[] = {{"emissiveStrength", Kind::number}};
+constexpr Property specularGlossinessProperties[] = {numbers("diffuseFactor", 4),
+                                                     object("diffuseTexture", textureInfoProperties),
+                                                     numbers("specularFactor", 3),
+                                                     {"glossinessFactor", Kind::number},
+                                                     object("specularGlossinessTexture", textureInfoProperties)};
 constexpr Property unlitProperties[] = {nameProperty};
 constexpr Property materialExtensions[] = {object("KHR_materials_emissive_strength", emissiveStrengthProperties),
+                                           object("KHR_materials_pbrSpecularGlossiness", specularGlossinessProperties),
                                            object("KHR_materials_unlit", unlitProperties)};
 constexpr Property materialProperties[] = {nameProperty,
                                            object("pbrMetallicRoughness", metallicRoughnessProperties),

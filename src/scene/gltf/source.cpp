@@ -15,15 +15,22 @@ namespace defocus::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 10> supportedExtensions = {
-    "EXT_camera_physical",        "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_animation_pointer",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_mesh_quantization",      "KHR_texture_transform",
+constexpr std::array<std::string_view, 11> supportedExtensions = {
+    "EXT_camera_physical",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
 };
 
 // What a person sees instead, for extensions that are often met.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> fallbackLooks = {{
-    {"KHR_materials_pbrSpecularGlossiness", "not supported; drawn with the material's metallic-roughness values"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> fallbackLooks = {{
     {"KHR_materials_transmission", "not supported; drawn without transmission"},
     {"KHR_materials_volume", "not supported; drawn without volume absorption"},
     {"KHR_materials_clearcoat", "not supported; drawn without clear coat"},

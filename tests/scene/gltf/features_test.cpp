@@ -269,6 +269,47 @@ TEST(GltfMaterial, factorsAndModes) {
     EXPECT_TRUE(material.unlit);
 }
 
+// Where both colours are greys there is a metallic-roughness material that reflects the same:
+// s = 0.04·(1 − m) + b·m and d·(1 − s) = (1 − 0.04)·b·(1 − m).
+TEST(GltfMaterial, specularGlossinessKeepsBothReflections) {
+    for (const double diffuse : {0.0, 0.1, 0.5, 0.8})
+        for (const double specular : {0.04, 0.1, 0.5, 0.9}) {
+            GltfBuilder builder;
+            builder.json["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness"};
+            builder.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}},
+                                          {"extensions",
+                                           {{"KHR_materials_pbrSpecularGlossiness",
+                                             {{"diffuseFactor", {diffuse, diffuse, diffuse, 0.5}},
+                                              {"specularFactor", {specular, specular, specular}},
+                                              {"glossinessFactor", 0.75}}}}}}};
+            const Scene scene = builder.load();
+            const Material& material = scene.materials.at(0);
+            const double base = material.baseColorFactor.g;
+            const double metalness = material.metallicFactor;
+            EXPECT_NEAR(0.04 * (1 - metalness) + base * metalness, specular, 2e-6) << diffuse << ' ' << specular;
+            EXPECT_NEAR(0.96 * base * (1 - metalness), diffuse * (1 - specular), 2e-6) << diffuse << ' ' << specular;
+            EXPECT_EQ(material.baseColorFactor.a, 0.5f);
+            EXPECT_EQ(material.roughnessFactor, 0.25f);
+            EXPECT_TRUE(scene.ignored.empty());
+        }
+}
+
+// A dielectric keeps its colour, and so does a metal.
+TEST(GltfMaterial, specularGlossinessKeepsColours) {
+    const auto materialOf = [](const nlohmann::json& extension) {
+        GltfBuilder builder;
+        builder.json["materials"] = {{{"extensions", {{"KHR_materials_pbrSpecularGlossiness", extension}}}}};
+        return builder.load().materials.at(0);
+    };
+    const Material leaf = materialOf({{"diffuseFactor", {0.1, 0.6, 0.2, 1}}, {"specularFactor", {0.04, 0.04, 0.04}}});
+    EXPECT_LT(glm::distance(leaf.baseColorFactor, glm::vec4(0.1f, 0.6f, 0.2f, 1)), 1e-5f);
+    EXPECT_EQ(leaf.metallicFactor, 0.0f);
+    EXPECT_EQ(leaf.roughnessFactor, 0.0f) << "the standard's glossiness is 1";
+    const Material gold = materialOf({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1, 0.77, 0.34}}});
+    EXPECT_LT(glm::distance(gold.baseColorFactor, glm::vec4(1, 0.77f, 0.34f, 1)), 1e-5f);
+    EXPECT_NEAR(gold.metallicFactor, 1, 1e-6);
+}
+
 TEST(GltfScene, theDefaultSceneIsTakenWithItsNodesOnly) {
     GltfBuilder builder;
     const int positions = builder.positions(unitTriangle);

@@ -1,0 +1,81 @@
+#include "frame/plan_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/number_text.h"
+#include "defocus/settings.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double visibleShare = 0.02;  // of the image's width: a blur that shows at a glance
+constexpr double mostGap = 16;         // px between the images of a point that a disk may show
+constexpr double goodGap = 8;
+
+// 1, 2 or 5 times a power of ten, near `value`.
+double roundNumber(double value) {
+    const double power = std::pow(10, std::floor(std::log10(value)));
+    const double digit = value / power;
+    return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
+}
+
+std::string nothingBlurred(const FramePlan& plan) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const ObjectPlan& object : plan.objects) nearest = std::min(nearest, object.nearestDepth);
+    const double scale = plan.view.lens.blurScale * visibleShare * plan.view.width / plan.largestBlur;
+    return fmt::format(
+        "nothing is blurred: at most {:.2g} px, as what is seen lies {:.3g} m away or farther (focus at {:.3g} m, "
+        "f/{:g}); "
+        "try --blur-scale {:g}, or a wider aperture",
+        plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, roundNumber(scale));
+}
+
+// Of the objects whose boxes lie before the camera as a whole: the others' boxes say too much.
+double largestBoundedBlur(const FramePlan& plan) {
+    double largest = 0;
+    for (const ObjectPlan& object : plan.objects)
+        if (object.nearestDepth > plan.view.nearPlane) largest = std::max(largest, object.coc.largest);
+    return largest;
+}
+
+std::string copiesShow(const FramePlan& plan, double blur) {
+    const auto count = static_cast<double>(plan.samples.size());
+    const double needed = std::numbers::pi / 4 * blur * blur / (goodGap * goodGap);
+    const double scale = plan.view.lens.blurScale * goodGap / blur * std::sqrt(4 * count / std::numbers::pi);
+    const std::string more = needed <= mostSamples
+                                 ? fmt::format("about {} samples fill it, ",
+                                               grouped(64 * static_cast<std::uint64_t>(std::ceil(needed / 64))))
+                                 : std::string();
+    return fmt::format(
+        "up to {:.0f} px of blur from {} samples: points may show as copies; {}--blur-scale {:g} narrows it", blur,
+        grouped(plan.samples.size()), more, roundNumber(scale));
+}
+
+}  // namespace
+
+std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill) {
+    std::vector<std::string> lines;
+    if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
+    if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
+    const double blur = largestBoundedBlur(plan);
+    const double gap = blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(plan.samples.size())));
+    if (samplesFill && std::isfinite(blur) && gap > mostGap) lines.push_back(copiesShow(plan, blur));
+    return lines;
+}
+
+std::vector<std::string> ignoredWarnings(const Scene& scene) {
+    std::vector<std::string> lines;
+    for (const Ignored& ignored : scene.ignored)
+        if (!ignored.damage)
+            lines.push_back(fmt::format("{}{}: {}", ignored.count > 1 ? grouped(ignored.count) + " x " : "",
+                                        ignored.what, ignored.reason));
+    return lines;
+}
+
+}  // namespace defocus

@@ -1,0 +1,96 @@
+#include "frame/plan_warnings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+// Quads of 2 m at these depths, before a uniform background, focused at 4 m.
+std::unique_ptr<SmallWorld> quadsAt(const std::vector<double>& depths) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+    small->scene.meshes.push_back(quad(0));
+    for (const double depth : depths) place(*small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -depth)));
+    small->world.environment.type = EnvironmentType::uniform;
+    small->view.width = 320;
+    small->view.height = 240;
+    small->view.lens.focusDistance = 4;
+    finish(*small);
+    return small;
+}
+
+std::vector<std::string> warningsOf(const SmallWorld& small, std::uint32_t samples = 64) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    return planWarnings(planFrame(small.world, small.view, settings), true);
+}
+
+double numberAfter(const std::string& text, const std::string& words) {
+    const std::size_t at = text.find(words);
+    return at == std::string::npos ? std::nan("") : std::strtod(text.c_str() + at + words.size(), nullptr);
+}
+
+TEST(PlanWarnings, thereAreNoneForABlurThatShowsAndIsFilled) {
+    const auto small = quadsAt({4, 8});
+    small->view.lens.fStop = 1.4;
+    EXPECT_TRUE(warningsOf(*small).empty());
+}
+
+TEST(PlanWarnings, anOpenLensThatBlursNothingIsNamedWithAScaleThatHelps) {
+    const auto small = quadsAt({227, 240});
+    small->view.lens.fStop = 1.4;
+    small->view.lens.focusDistance = 230;
+    const std::vector<std::string> lines = warningsOf(*small);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("227 m away"), std::string::npos) << lines[0];
+    small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
+    RenderSettings settings;
+    const double blur = planFrame(small->world, small->view, settings).largestBlur;
+    EXPECT_GT(blur, 0.02 * small->view.width / 1.7);  // rounded to 1, 2 or 5
+    EXPECT_LT(blur, 0.02 * small->view.width * 1.7);
+    EXPECT_TRUE(warningsOf(*small).empty());
+}
+
+TEST(PlanWarnings, aClosedLensNeedsNone) {
+    const auto small = quadsAt({227});
+    small->view.lens.dofEnabled = false;
+    EXPECT_TRUE(warningsOf(*small).empty());
+}
+
+TEST(PlanWarnings, copiesAreNamedWithANumberOfSamplesAndAScaleThatFill) {
+    const auto small = quadsAt({0.5, 4});
+    small->view.lens.fStop = 0.2;
+    const std::vector<std::string> lines = warningsOf(*small, 32);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NEAR(numberAfter(lines[0], "up to "), planFrame(small->world, small->view, {}).largestBlur, 0.5);
+    const double enough = numberAfter(lines[0], "about ");
+    ASSERT_GT(enough, 32);
+    EXPECT_TRUE(warningsOf(*small, static_cast<std::uint32_t>(enough)).empty());
+    small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
+    EXPECT_TRUE(warningsOf(*small, 32).empty());
+}
+
+TEST(PlanWarnings, anObjectAroundTheCameraSaysNothingOfItsBlur) {
+    auto small = quadsAt({4});
+    small->view.lens.fStop = 1.4;
+    place(*small, 0,
+          glm::rotate(glm::scale(glm::dmat4(1), glm::dvec3(100)), 0.5 * std::numbers::pi, glm::dvec3(1, 0, 0)));
+    EXPECT_TRUE(std::isinf(planFrame(small->world, small->view, {}).largestBlur));
+    EXPECT_TRUE(warningsOf(*small).empty());
+}
+
+TEST(PlanWarnings, whatIsIgnoredIsNamedAndDamageIsNot) {
+    Scene scene;
+    scene.ignored = {
+        {"extension KHR_x", "not supported"}, {"lines", "only triangles are drawn", 3}, {"a", "b", 1, true}};
+    EXPECT_EQ(ignoredWarnings(scene),
+              (std::vector<std::string>{"extension KHR_x: not supported", "3 x lines: only triangles are drawn"}));
+}
+
+}  // namespace
+}  // namespace defocus
