@@ -122,9 +122,10 @@ std::deque<Subject> subjectsOf(std::span<const SpeedupForm> forms, const std::ve
             add(form, accumulation, LodMode::fractional, one);
         for (std::size_t i = first; i < subjects.size(); ++i) subjects[i].fullDetail = &subjects[first];
     }
+    const Subject& lastFullDetail = *subjects.back().fullDetail;
     for (const MethodUse& use : methods) {
-        add(forms[0], use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, Thresholds::both);
-        subjects.back().fullDetail = &subjects.front();
+        add(forms.back(), use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, Thresholds::both);
+        subjects.back().fullDetail = &lastFullDetail;
     }
     return subjects;
 }
