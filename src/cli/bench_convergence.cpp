@@ -74,8 +74,8 @@ std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, co
     const RenderSettings& plan = options.plan;
     const std::string text =
         fmt::format("{} {} {} {} {} {} {} {} {} {} {}", bench.program, bench.commit, bench.device, bench.driver,
-                    sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, levelVerticesName(plan.levelVertices), plan.keepAll,
-                    static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
+                    sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, levelVerticesName(plan.levelVertices),
+                    plan.keepAll, static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
     return hashBytes(std::as_bytes(std::span(text)), reference);
 }
 
@@ -292,8 +292,8 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
         bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
     // Not what the bench goes through by itself; and images are compared at EV 0.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"preset", "samples", "targetError", "timeLimit", "lod", "blurThreshold", "sizeThreshold",
-                                         "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
+                settingsOf(frameGroups, {"preset", "samples", "targetError", "timeLimit", "lod", "blurThreshold",
+                                         "sizeThreshold", "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
     addDeveloperSettings(*command, arguments->request, {"lodMetric"});

@@ -80,8 +80,8 @@ private:
 
     bool named_;  // the scene, by the request
     Request first_, request_;
-    std::shared_ptr<Scene> scene_;  // shared with others and never written to
-    PreparedFrame frame_;           // of request_; the renderer refers to its world
+    std::shared_ptr<Scene> scene_;                                  // shared with others and never written to
+    PreparedFrame frame_;                                           // of request_; the renderer refers to its world
     std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // that frames before had; the frame's own is empty
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;

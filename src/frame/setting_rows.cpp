@@ -329,9 +329,9 @@ Setting presetSetting() {
         names.push_back(preset.name);
         lines.push_back(fmt::format("{}: {}", preset.name, preset.description));
     }
-    Setting setting = row(SettingKind::choice, "preset", "--preset", fmt::format("{}", fmt::join(names, "|")),
-                          fmt::format("Settings that belong together; what is given beside it wins. {}",
-                                      fmt::join(lines, "; ")));
+    Setting setting =
+        row(SettingKind::choice, "preset", "--preset", fmt::format("{}", fmt::join(names, "|")),
+            fmt::format("Settings that belong together; what is given beside it wins. {}", fmt::join(lines, "; ")));
     setting.choices = names;
     setting.set = [names](Request& request, const std::string& text) {
         applyPreset(presets()[parseChoice(text, names)], request);

@@ -100,8 +100,8 @@ std::string planTable(const FramePlan& plan) {
     std::string text = fmt::format(
         "{} x {} px, {} samples of {}, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
         "level of detail: {}, {} metric, blur threshold {:.4g}, size threshold {:.4g} px, {}, {} vertices\n\n",
-        plan.view.width, plan.view.height, plan.samples.size(), sequenceName(plan.settings.sequence), lens.focalLength, lens.fStop, lens.focusDistance,
-        plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
+        plan.view.width, plan.view.height, plan.samples.size(), sequenceName(plan.settings.sequence), lens.focalLength,
+        lens.fStop, lens.focusDistance, plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
         lodMetricName(plan.settings.metric), plan.thresholds.blur, plan.thresholds.size,
         plan.settings.lodCocAtCentre ? "blur at the centre" : "smallest blur",
         levelVerticesName(plan.settings.levelVertices));

@@ -80,8 +80,8 @@ std::string speedupHeader() {
         "{:<9} {:>7} {:>7} {:>7} {:<10} {:<10} {:>9} {:>17} {:>6} {:>6} {:>6} {:>7} {:>8} {:>9}  {:>7} {:>6} {:>7}  "
         "{:>7} {:>7} {:>6} {:>7}\n",
         "", "", "", "focus", "", "", "frame", "10-90 %", "times", "size", "blur", "set-up", "pyramids", "triangles",
-        "from full detail", "from reference", "sweep", "samples", "f-stop", "m", "preset", "levels", "ms", "ms",
-        "fast", "only", "only", "ms", "ms", "millions", "PSNR", "SSIM", "FLIP", "samples", "PSNR", "SSIM", "FLIP");
+        "from full detail", "from reference", "sweep", "samples", "f-stop", "m", "preset", "levels", "ms", "ms", "fast",
+        "only", "only", "ms", "ms", "millions", "PSNR", "SSIM", "FLIP", "samples", "PSNR", "SSIM", "FLIP");
 }
 
 std::string speedupLine(const SpeedupRow& row) {
@@ -95,7 +95,7 @@ std::string speedupLine(const SpeedupRow& row) {
     const bool fullDetail = row.mode == LodMode::off && row.method == "accumulation";
     if (fullDetail && !row.fromReference) return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
     line += fullDetail ? fmt::format("{:>22}", "")
-                                     : fmt::format("{:>7.2f} {:>6.4f} {:>7.4f}", full.psnr, full.ssim, full.flip);
+                       : fmt::format("{:>7.2f} {:>6.4f} {:>7.4f}", full.psnr, full.ssim, full.flip);
     if (row.fromReference)
         line += fmt::format("  {:>7} {:>7.2f} {:>6.4f} {:>7.4f}{}", row.referenceSamples, row.fromReference->psnr,
                             row.fromReference->ssim, row.fromReference->flip,
@@ -130,7 +130,8 @@ std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& su
         "scene, camera, lens, lens samples, image size, layers drawn at once, renderer, process; runs alternate "
         "between the modes, presets and methods; neither set-up nor pyramids are in a frame's time";
     document["parts"] =
-        "sizeOnly: fractional levels with a blur threshold of 0; blurOnly: with a size threshold of 0; each against the "
+        "sizeOnly: fractional levels with a blur threshold of 0; blurOnly: with a size threshold of 0; each against "
+        "the "
         "same full detail";
     document["rows"] = ordered_json::array();
     for (const SpeedupRow& row : rows) document["rows"].push_back(rowJson(row));

@@ -48,7 +48,7 @@ struct PyramidFileHeader {
     std::uint32_t repairedFaces = 0;
     std::uint32_t end = 0;       // PyramidEnd
     std::uint32_t vertices = 0;  // LevelVertices
-    double minimum[3] = {};  // bounds
+    double minimum[3] = {};      // bounds
     double maximum[3] = {};
 };
 

@@ -247,13 +247,12 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         std::vector<FittedLevel> coarser(
             std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
         Tasks tasks(helpers);
-        simplification = simplify(vertices, positions, smoothing, levels[0].triangles,
-                                  {options.leastTriangles, options.mostLevels - 1, fits}, tasks,
-                                  [&](std::uint32_t l, SimplifiedLevel level) {
-                                      if (fits) std::call_once(prepared, prepare);
-                                      coarser[l] = fits ? fitted(*source, std::move(level))
-                                                        : surviving(vertices, std::move(level));
-                                  });
+        simplification = simplify(
+            vertices, positions, smoothing, levels[0].triangles, {options.leastTriangles, options.mostLevels - 1, fits},
+            tasks, [&](std::uint32_t l, SimplifiedLevel level) {
+                if (fits) std::call_once(prepared, prepare);
+                coarser[l] = fits ? fitted(*source, std::move(level)) : surviving(vertices, std::move(level));
+            });
         tasks.wait();
         if (simplification.levelCount > 0) diagonal = diagonalOf(vertices, levels[0].triangles);
         coarser.resize(simplification.levelCount);

@@ -2,8 +2,8 @@
 // Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
 //
 // All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
-// together), so level l uses the prefix [0, vertexCount[l]): joints, weights, tangents and morph targets are those of the
-// surviving vertices. Positions, normals, colours and texture coordinates are each level's own, fitted to level 0
+// together), so level l uses the prefix [0, vertexCount[l]): joints, weights, tangents and morph targets are those of
+// the surviving vertices. Positions, normals, colours and texture coordinates are each level's own, fitted to level 0
 // (level_fit.h), or with LevelVertices::surviving those of the surviving vertices, too.
 
 #include <cstdint>
@@ -45,8 +45,8 @@ struct PyramidLevel {
     std::uint32_t triangleCount = 0;
     std::vector<Cluster> clusters;  // their ranges follow each other over those of the primitives
     // These are fitted to level 0 (there, and of vertices that survive: the mesh's own) and lie inside its bounds;
-    // vertices at one position stay at one. Fitted normals have a length of at most 1: the shorter one is, the more the normals that it stands for differ, and
-    // the less light a matt surface throws back.
+    // vertices at one position stay at one. Fitted normals have a length of at most 1: the shorter one is, the more the
+    // normals that it stands for differ, and the less light a matt surface throws back.
     std::vector<glm::vec3> positions;  // vertexCount
     std::vector<glm::vec3> normals;    // vertexCount
     std::vector<glm::vec4> colors;     // vertexCount; empty without colours. A fitted one may lie outside [0, 1].
