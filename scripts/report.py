@@ -62,7 +62,7 @@ def label_of(method, setting):
     if values.get("lod") == "off":
         words.append("full detail")
     elif "lod" in values:
-        by_error = " by error" if values.get("metric") == "error" else ""
+        by_error = {"error": " by error", "halving": " in steps of half"}.get(values.get("metric"), "")
         words.append(f"{values['lod']} levels{by_error} ×{values.get('thresholds', '1')}")
     rest = [name + sign + value for name, sign, value in parts if name not in ("lod", "metric", "thresholds", "standard")]
     return ", ".join(words + [" ".join(rest)] if rest else words)
@@ -262,27 +262,63 @@ def error_plot(results, series, error_of, name, axis_label, front_key):
     return as_svg(figure, name, f"{axis_label} against the time of a frame, both logarithmic. " + "; ".join(described))
 
 
-def speedup_plot(rows):
-    """Speed-up against lens samples; empty without such rows."""
-    figure, axes = new_plot(right=0.8)
+def speedup_series(rows):
+    """(label, rows over the lens samples) of each preset, method and mode."""
+    series = {}
+    for row in rows:
+        if row["sweep"] == "samples":
+            series.setdefault(drawn_text(row), []).append(row)
+    return [(label, sorted(lines, key=lambda row: row["samples"])) for label, lines in series.items()]
+
+
+def drawn_text(row, part=""):
+    """'jeong2011, fractional levels': what a row of `bench speedup` draws, or a part of it."""
+    method = row.get("method", "accumulation")
+    drawn = part or (MODES[row["lod"]][0] if method == "accumulation" else method)
+    return f"{row['preset']}, {drawn}" if row.get("preset") else drawn
+
+
+def samples_plot(name, axis_label, lines, text, limits):
+    """Values of `bench speedup` against lens samples, lines of (label, [(samples, value)]); empty without any."""
+    if not lines:
+        return ""
+    figure, axes = new_plot(right=0.74)
     axes.set_xscale("log", base=2)
     ends, described = [], []
-    for mode, (label, _) in MODES.items():
-        points = sorted((row["samples"], row["speedUp"]) for row in rows if (row["sweep"], row["lod"]) == ("samples", mode))
-        if points:
-            ends.append(draw_mode(axes, mode, points))
-            described.append(f"{label}: {points[0][1]:.2f} at {points[0][0]} samples, {points[-1][1]:.2f} at {points[-1][0]}")
-    if not ends:
-        plt.close(figure)
-        return ""
-    axes.set_ylim(0, None)
-    axes.set_xticks(sorted({row["samples"] for row in rows if row["sweep"] == "samples"}))
+    for index, (label, points) in enumerate(lines):
+        colour, marker = STAND_INS[index % len(STAND_INS)], MARKERS[index % len(MARKERS)]
+        axes.plot(*zip(*points), color=colour, marker=marker, markersize=6, linewidth=1.6)
+        ends.append((*points[-1], label, colour, marker))
+        described.append(f"{label}: {text(points[0][1])} at {points[0][0]} samples, {text(points[-1][1])} at {points[-1][0]}")
+    limits(axes)
+    axes.set_xticks(sorted({samples for _, points in lines for samples, _ in points}))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("lens samples")
-    axes.set_ylabel("times as fast as full detail")
+    axes.set_ylabel(axis_label)
     label_beside(axes, ends)
-    return as_svg(figure, "speedup", "Speed-up against lens samples. " + "; ".join(described))
+    return as_svg(figure, name, f"{axis_label} against lens samples. " + "; ".join(described))
+
+
+def frame_time_plot(rows):
+    def limits(axes):
+        axes.set_yscale("log")
+        logarithmic(axes.yaxis, time_text)
+    lines = [(label, [(row["samples"], row["milliseconds"]["median"]) for row in line]) for label, line in speedup_series(rows)]
+    return samples_plot("frametimes", "a frame, wall clock", lines, time_text, limits)
+
+
+def speedup_plot(rows):
+    lines = []
+    for label, line in speedup_series(rows):
+        if all(row["speedUp"] == 1 for row in line):  # full detail itself
+            continue
+        lines.append((label, [(row["samples"], row["speedUp"]) for row in line]))
+        for part, name in (("sizeOnly", "size only"), ("blurOnly", "blur only")):
+            points = [(row["samples"], row[part]["speedUp"]) for row in line if row.get(part)]
+            lines += [(drawn_text(line[0], name), points)] if points else []
+    return samples_plot("speedup", "times as fast as full detail", lines, lambda value: f"{value:.2f}",
+                        lambda axes: axes.set_ylim(0, None))
 
 
 def popping_plot(rows, samples):
@@ -661,18 +697,20 @@ def speedup_section(results):
     lines = []
     for row in results["rows"]:
         time = row["milliseconds"]
-        lines.append([MODES[row["lod"]][0], row["samples"], f"{row['fStop']:g}", f"{row['focusDistance']:.3g}",
-                      f"{time['median']:.1f}", spread_text(time), f"{row['speedUp']:.2f}", f"{row['triangles'] / 1e6:.2f}",
+        parts = [f"{row[part]['speedUp']:.2f}" if row.get(part) else "" for part in ("sizeOnly", "blurOnly")]
+        lines.append([html.escape(drawn_text(row)), row["samples"], f"{row['fStop']:g}", f"{row['focusDistance']:.3g}",
+                      f"{time['median']:.1f}", spread_text(time), f"{row['speedUp']:.2f}", *parts, f"{row['triangles'] / 1e6:.2f}",
                       f"{row['gpuBytes'] / 2**20:.0f}", f"{row['setupMilliseconds']:.0f}", f"{row['pyramidMilliseconds']:.0f}"]
                      + [cell for key, _ in truths for cell in differences(row[key])] + reference_cells(row))
     header = ["levels", "lens samples", "f-number", "focus, m", "frame, ms", "10–90 %, ms", "times as fast",
-              "triangles, millions", "GPU, MiB", "set-up, ms", "pyramids, ms"] + [
+              "size only", "blur only", "triangles, millions", "GPU, MiB", "set-up, ms", "pyramids, ms"] + [
                   f"{name} from {truth}" for _, truth in truths for name in ("PSNR, dB,", "SSIM", "FLIP")] + [
                   "the reference’s samples", ""]
-    plot = speedup_plot(results["rows"])
-    figure = (f'<figure class="plot">{plot}<figcaption>Frame time at full detail over frame time with levels, at the same lens '
-              "samples (Figure 2 of Jeong, Kim and Lee 2011).</figcaption></figure>") if plot else ""
-    return ["<h2>Speed-up</h2>", figure, table(header, lines), facts(results)]
+    captions = [(frame_time_plot(results["rows"]), "Time of a frame, both axes logarithmic (Figure 2 of Jeong, Kim and Lee 2011)."),
+                (speedup_plot(results["rows"]), "Frame time at full detail over frame time with levels, at the same lens samples. "
+                 "Size only: with a blur threshold of 0; blur only: with a size threshold of 0.")]
+    figures = [f'<figure class="plot">{plot}<figcaption>{caption}</figcaption></figure>' for plot, caption in captions if plot]
+    return ["<h2>Speed-up</h2>", *figures, table(header, lines), facts(results)]
 
 
 def popping_section(results, path):

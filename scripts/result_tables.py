@@ -72,9 +72,15 @@ def source_of(name):
 # ---- speed ----------------------------------------------------------------------------------------------------------
 
 
-def samples_sweep(name):
+def accumulation_rows(name, preset=""):
+    """What `bench speedup` measured with a preset, or without one, of no other method."""
+    return [row for row in results_of(name)["rows"]
+            if (row.get("preset", ""), row.get("method", "accumulation")) == (preset, "accumulation")]
+
+
+def samples_sweep(name, preset=""):
     """(samples, {mode: row}) of the view's own lens."""
-    rows = [row for row in results_of(name)["rows"] if row["sweep"] == "samples"]
+    rows = [row for row in accumulation_rows(name, preset) if row["sweep"] == "samples"]
     counts = sorted({row["samples"] for row in rows})
     return [(count, {row["lod"]: row for row in rows if row["samples"] == count}) for count in counts]
 
@@ -113,14 +119,30 @@ def helmets():
     return speed_table("speedup-helmets")
 
 
+def published():
+    """The published algorithm beside this program's own: frame times over lens samples, as in the paper's Figure 2."""
+    above, below = source_of("speedup-jeong2011")
+    own = dict(samples_sweep("speedup-jeong2011"))
+    rows = []
+    for count, theirs in samples_sweep("speedup-jeong2011", "jeong2011"):
+        for name, modes in (("`jeong2011`, Halton", theirs), ("defaults, Sobol", own[count])):
+            full, levels = modes["off"], modes["fractional"]
+            rows.append([str(count), name, f"{seconds(full):.2f} s", f"{seconds(levels):.2f} s", f"{levels['speedUp']:.1f}",
+                         f"{levels['sizeOnly']['speedUp']:.1f}", f"{levels['blurOnly']['speedUp']:.1f}",
+                         f"{full['fromReference']['rmse']:.4f}", f"{levels['fromReference']['rmse']:.4f}", missed(error_ratio(modes), 1.2)])
+    header = ["lens samples", "settings", "full detail", "levels", "times as fast", "size only", "blur only", "RMSE, full detail",
+              "RMSE, levels", "times the error"]
+    return above + table(header, rows) + below
+
+
 def lenses():
     above, below = source_of("speedup-fish")
-    results = results_of("speedup-fish")
+    measured = accumulation_rows("speedup-fish")
     rows = []
-    for row in results["rows"]:
+    for row in measured:
         if row["lod"] != "fractional" or row["samples"] != 64:
             continue
-        (full,) = [other for other in results["rows"] if other["lod"] == "off" and
+        (full,) = [other for other in measured if other["lod"] == "off" and
                    all(other[key] == row[key] for key in ("sweep", "samples", "fStop", "focusDistance"))]
         rows.append([f"f/{row['fStop']:g}", f"{row['focusDistance']:g} m", f"{seconds(full):.2f} s", f"{seconds(row):.2f} s",
                      f"{row['speedUp']:.1f}", f"{row['fromFullDetail']['psnr']:.1f} dB"])
@@ -345,6 +367,6 @@ def parts():
 
 
 PRINTED = {"wave": "waves", "cluster": "clusters", "elision": "elisions", "post-process": "post-process"}
-TABLES = {"speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "lenses": lenses, "helmets": helmets, "scaling": scaling,
+TABLES = {"speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "published": published, "lenses": lenses, "helmets": helmets, "scaling": scaling,
           "popping": popping, "pyramids": pyramids, "truth": truth, "stability": stability, "honesty": honesty,
           "sequences": sequences, "parts": parts}

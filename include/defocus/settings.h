@@ -29,8 +29,15 @@ enum class LodMode {
 
 // What levels are chosen by.
 enum class LodMetric {
-    size,   // target edge length in px
-    error,  // target deviation in px
+    size,     // target edge length in px, against the edges that the levels have
+    error,    // target deviation in px
+    halving,  // target edge length in px, as if each level had exactly half the triangles (Jeong, Kim and Lee 2011)
+};
+
+// What coarser levels of a mesh are made of.
+enum class LevelVertices {
+    fitted,     // vertices with positions, normals, colours and texture coordinates that are fitted to full detail
+    surviving,  // vertices of full detail with their own values, as published
 };
 
 // The target is max(blur · c, size) px for a circle of confusion of c px. What isn't given follows the number of
@@ -48,6 +55,7 @@ struct RenderSettings {
     LodMode lod = LodMode::fractional;
     LodMetric metric = LodMetric::size;
     bool lodCocAtCentre = false;  // c at the box's centre (the paper) instead of the smallest over the box
+    LevelVertices levelVertices = LevelVertices::fitted;
     GivenThresholds thresholds;
     double cocTolerance = 0.5;  // px by which C may differ from its interpolation inside a triangle, > 0
     bool keepAll = false;       // leave nothing out: the image must be the same

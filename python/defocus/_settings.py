@@ -74,7 +74,8 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
         set_value(request, "scene", scene)
     elif scene is not None and not isinstance(scene, _defocus.Scene):
         raise _defocus.UsageError(f"scene: {scene!r} is neither a path nor a Scene")
-    for keyword, value in given.items():
+    # A preset first: what is given beside it wins.
+    for keyword, value in sorted(given.items(), key=lambda item: item[0] != "preset"):
         set_value(request, keyword, value)
     return request
 

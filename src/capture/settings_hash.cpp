@@ -52,15 +52,17 @@ void addPose(HashedText& hashed, const Pose& pose) {
 }
 
 // Samples, levels and method, by their names; where the pyramids are kept, how many samples are drawn at once
-// and how long the film may take change nothing.
+// and how long the film may take change nothing. What a preset stands for counts, not its name.
 void addSettings(HashedText& hashed, const Request& request) {
     for (const Setting& setting : settings()) {
         const bool counts = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
                             setting.group == SettingGroup::developer;
         if (!counts || setting.kind == SettingKind::path || setting.name == "noCache" || setting.name == "wave" ||
-            setting.name == "timeLimit")
+            setting.name == "timeLimit" || setting.name == "preset")
             continue;
-        if (setting.name == "targetError" && !request.stop.targetError) continue;  // frames of before stay valid
+        // Frames of before these settings stay valid.
+        const bool later = setting.name == "targetError" || setting.name == "levelVertices";
+        if (later && !changedText(setting, request)) continue;
         hashed.add(setting.name, setting.text(request).value_or(""));
     }
     if (request.stop.targetError) hashed.add(request.stop.sampleLimit);

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_text.h"
+#include "frame/presets.h"
 #include "lens/lens_fields.h"
 #include "render/methods.h"
 
@@ -238,6 +239,8 @@ void readSettings(const JsonReader& reader, Shot& shot) {
         if (!value) continue;
         setting.set(shot.request, relativeToShot(setting, settingText(setting, *value), shot));
         shot.given.insert(setting.name);
+        if (setting.name != "preset") continue;
+        for (const PresetValue& each : presetNamed(*setting.text(shot.request)).values) shot.given.insert(each.setting);
     }
     if (const auto exact = findPlace(reader, "/shutter/exact"); exact && exact->truth()) {
         settingNamed("motionSegments")->set(shot.request, "exact");
@@ -258,11 +261,11 @@ void readOutput(const JsonReader& reader, Shot& shot) {
 
 Shot shotOf(const json& document, const fs::path& file) {
     const JsonReader reader(document, file.string());
-    reader.requireObject({"$schema",   "scene",         "fish",          "environment", "background",  "frameRate",
-                          "range",     "animation",     "shutter",       "sequence",    "camera",      "focus",
-                          "lens",      "size",          "samples",       "seed",        "animateSeed", "lod",
-                          "lodMetric", "blurThreshold", "sizeThreshold", "method",      "layerFormat", "output",
-                          "exposure",  "toneMap",       "video"});
+    reader.requireObject({"$schema",   "scene",         "fish",          "environment", "background",   "frameRate",
+                          "range",     "animation",     "shutter",       "sequence",    "camera",       "focus",
+                          "lens",      "size",          "samples",       "seed",        "animateSeed",  "lod",
+                          "lodMetric", "blurThreshold", "sizeThreshold", "method",      "layerFormat",  "output",
+                          "exposure",  "toneMap",       "video",         "preset",      "levelVertices"});
     Shot shot;
     shot.file = file;
     if (const auto schema = reader.find("$schema")) static_cast<void>(schema->text());

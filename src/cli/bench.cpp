@@ -10,11 +10,14 @@
 #include "cli/bench_commands.h"
 #include "cli/bench_report.h"
 #include "cli/command.h"
+#include "cli/method_list.h"
+#include "cli/option_text.h"
 #include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "eval/speedup/text.h"
 #include "frame/prepared_frame.h"
+#include "frame/presets.h"
 #include "frame/program_facts.h"
 #include "gl/context.h"
 
@@ -24,11 +27,16 @@ namespace {
 
 struct SpeedupArguments {
     Request request;
+    std::string preset;  // as it was given, whatever else was given beside it; empty: none
     SpeedupOptions speedup;
     std::filesystem::path folder;  // empty: only the table
     std::filesystem::path report;  // empty: none
     bool allowChanged = false;
 };
+
+SpeedupForm formOf(const PreparedFrame& frame, const std::string& preset) {
+    return {preset, &frame.world, frame.settings, frame.pyramidMilliseconds};
+}
 
 void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) {
     const std::filesystem::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
@@ -40,13 +48,19 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     PreparedFrame frame = placeFrame(scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);
+    std::vector<SpeedupForm> forms = {formOf(frame, arguments.preset)};
+    PreparedFrame plain;  // what a preset is seen beside
+    if (!arguments.preset.empty()) {
+        clearPreset(presetNamed(arguments.preset), scene);
+        plain = placeFrame(frame.scene, scene, &frame.world.environment);
+        addPyramids(plain, progress);
+        forms.push_back(formOf(plain, ""));
+    }
 
     SpeedupOptions options = arguments.speedup;
-    options.plan = frame.settings;
     options.renderer.layerFormat = arguments.request.layerFormat;
     options.renderer.wave = arguments.request.wave;
     options.renderer.shaderFolder = global.shaderDir;
-    options.pyramidMilliseconds = frame.pyramidMilliseconds;
     const BenchSubject subject = benchSubject(*context, global, frame, options.runs);
     fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
                subject.runs, subject.device, speedupHeader());
@@ -54,7 +68,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
     // Each row is kept as it comes: a run that is cut off loses nothing.
     std::vector<SpeedupRow> rows;
     measureSpeedup(
-        frame.world, frame.view, options,
+        forms, frame.view, options,
         [&](const SpeedupRow& row) {
             rows.push_back(row);
             fmt::print("{}", speedupLine(row));
@@ -89,6 +103,10 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
         ->check(CLI::PositiveNumber)
         ->type_name("M,M,…")
         ->group(group);
+    addParsed(*command, "--methods", "NAME,NAME,…",
+              "Further methods, each with its settings, as in scheuermann,circular:far-components=2",
+              [&options](const std::string& text) { options.methods = parseMethods(text); })
+        ->group(group);
     command->add_option("--runs", options.runs, "Runs of each mode; the median counts")
         ->check(CLI::Range(1, 1000))
         ->type_name("N")
@@ -116,8 +134,14 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     command->footer(
         "Examples:\n"
         "  defocus bench speedup --counts 16,64 -o bench-fish\n"
-        "  defocus bench speedup scene.glb --fstops 1.4,2.8,5.6 --reference-samples 1024");
-    command->callback([arguments, &global] { runSpeedup(*arguments, global); });
+        "  defocus bench speedup scene.glb --fstops 1.4,2.8,5.6 --reference-samples 1024\n"
+        "  defocus bench speedup --preset jeong2011 --report figure-2\n"
+        "With a preset, all is measured twice: with what the preset sets, and with what a call without it has.");
+    command->callback([arguments, command, &global] {
+        const CLI::Option& preset = *command->get_option("--preset");
+        if (!preset.empty()) arguments->preset = preset.results().front();
+        runSpeedup(*arguments, global);
+    });
 }
 
 }  // namespace

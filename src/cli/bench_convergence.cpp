@@ -14,6 +14,7 @@
 
 #include "cli/bench_commands.h"
 #include "cli/bench_report.h"
+#include "cli/method_list.h"
 #include "cli/option_text.h"
 #include "cli/request_options.h"
 #include "core/error.h"
@@ -72,9 +73,9 @@ std::string textIn(const fs::path& path) {
 std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const ConvergenceOptions& options) {
     const RenderSettings& plan = options.plan;
     const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {}", bench.program, bench.commit, bench.device, bench.driver,
-                    sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, plan.keepAll,
-                    static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {}", bench.program, bench.commit, bench.device, bench.driver,
+                    sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, levelVerticesName(plan.levelVertices),
+                    plan.keepAll, static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
     return hashBytes(std::as_bytes(std::span(text)), reference);
 }
 
@@ -212,33 +213,6 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
 
 // ---- options --------------------------------------------------------------------------------------------------------
 
-std::vector<std::string> partsOf(const std::string& text) {
-    std::vector<std::string> parts;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        parts.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return parts;
-}
-
-// "a:x=1,y=2,b" is a with two settings, and b: what has a "=" and no name of its own belongs to the method before it.
-std::vector<MethodUse> parseMethods(const std::string& text) {
-    std::vector<std::string> names;
-    for (const std::string& part : partsOf(text)) {
-        const std::size_t equals = part.find('=');
-        const bool more = equals != std::string::npos && part.find(':') > equals;
-        if (more && !names.empty())
-            names.back() += "," + part;
-        else
-            names.push_back(part);
-    }
-    std::vector<MethodUse> uses;
-    uses.reserve(names.size());
-    for (const std::string& name : names) uses.push_back(parseMethodUse(name));
-    return uses;
-}
-
 template <typename Value, typename Parse>
 void addList(CLI::App& command, const std::string& name, const std::string& type, std::vector<Value>& target,
              const std::string& standard, const std::string& description, Parse parse) {
@@ -267,10 +241,10 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional, LodMode::continuous};
                 return modes[parseChoice(part, {"off", "nearest", "fractional", "continuous"})];
             });
-    addList(command, "--metrics", "size,error", options.metrics, "size", "What levels are chosen by",
+    addList(command, "--metrics", "size,error,halving", options.metrics, "size", "What levels are chosen by",
             [](const std::string& part) {
-                constexpr std::array metrics = {LodMetric::size, LodMetric::error};
-                return metrics[parseChoice(part, {"size", "error"})];
+                constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving};
+                return metrics[parseChoice(part, {"size", "error", "halving"})];
             });
     addList(command, "--threshold-factors", "F,F,…", options.thresholdFactors, "0.5,1,2",
             "Times the standard thresholds for each number of samples", [](const std::string& part) {
@@ -318,8 +292,8 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
         bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
     // Not what the bench goes through by itself; and images are compared at EV 0.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "blurThreshold", "sizeThreshold",
-                                         "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
+                settingsOf(frameGroups, {"preset", "samples", "targetError", "timeLimit", "lod", "blurThreshold",
+                                         "sizeThreshold", "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
     addDeveloperSettings(*command, arguments->request, {"lodMetric"});

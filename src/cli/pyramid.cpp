@@ -87,26 +87,27 @@ std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name
 
 // ---- work ---------------------------------------------------------------------------------------
 
-void buildOne(const Mesh& mesh, std::size_t helpers, MeshReport& report) {
+void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers, MeshReport& report) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    report.pyramid = buildPyramid(mesh, {}, helpers);
+    report.pyramid = buildPyramid(mesh, options, helpers);
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 // As cachedPyramids does it, mesh by mesh. Returns why one couldn't be stored; empty where nothing went wrong.
-std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, std::size_t helpers, MeshReport& report) {
-    if (folder.empty() || mesh.triangleCount() <= PyramidOptions{}.leastTriangles) {
-        buildOne(mesh, helpers, report);
+std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options, std::size_t helpers,
+                        MeshReport& report) {
+    if (folder.empty() || mesh.triangleCount() <= options.leastTriangles) {
+        buildOne(mesh, options, helpers, report);
         return {};
     }
-    if (std::optional<Pyramid> loaded = loadPyramid(mesh, folder)) {
+    if (std::optional<Pyramid> loaded = loadPyramid(mesh, folder, options)) {
         report.pyramid = std::move(*loaded);
         return {};
     }
-    buildOne(mesh, helpers, report);
+    buildOne(mesh, options, helpers, report);
     try {
-        storePyramid(report.pyramid, mesh, folder);
+        storePyramid(report.pyramid, mesh, folder, options);
     } catch (const Error& error) {
         return error.what();
     }
@@ -114,8 +115,8 @@ std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, std::size_t he
 }
 
 // Returns why a pyramid couldn't be stored; empty where nothing went wrong.
-std::string buildAll(const Scene& scene, const fs::path& folder, std::vector<MeshReport>& reports,
-                     const Progress& progress) {
+std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
+                     std::vector<MeshReport>& reports, const Progress& progress) {
     std::mutex mutex;
     std::uint64_t done = 0;
     std::string failure;
@@ -123,7 +124,7 @@ std::string buildAll(const Scene& scene, const fs::path& folder, std::vector<Mes
         const Mesh& mesh = scene.meshes[reports[i].mesh];
         const std::size_t helpers =
             reports.size() > 1 ? pyramidHelpers(mesh, scene.meshes) : pyramidHelpers(mesh, {&mesh, 1});
-        std::string failed = buildOrLoad(mesh, folder, helpers, reports[i]);
+        std::string failed = buildOrLoad(mesh, folder, options, helpers, reports[i]);
         reports[i].levels.resize(reports[i].pyramid.levels.size());
         const std::scoped_lock lock(mutex);
         if (failure.empty()) failure = std::move(failed);
@@ -340,7 +341,10 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     }
 
     printWarnings(damageWarnings(scene), global);
-    if (const std::string failure = buildAll(scene, arguments.cacheFolder, reports, progress); !failure.empty())
+    PyramidOptions options;
+    options.vertices = arguments.request.settings.levelVertices;
+    if (const std::string failure = buildAll(scene, arguments.cacheFolder, options, reports, progress);
+        !failure.empty())
         printWarnings({"a pyramid was not stored: " + failure}, global);
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;
@@ -387,6 +391,7 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
         ->type_name("FOLDER");
     command->add_flag("--json", arguments->json,
                       "JSON for programs, with distances in both directions, instead of text");
+    addSettings(*command, arguments->request, {"levelVertices"});
     command->footer(
         "Lengths are in the mesh's own units. A level's error is the 99th percentile of its distance from level 0 or\n"
         "back, whichever is larger, on the safe side; the measured figures are the larger of the two as well.\n\n"

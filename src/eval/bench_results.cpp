@@ -21,6 +21,7 @@ struct BenchKind {
     std::vector<std::string> keys;    // columns that say what was asked for
     std::vector<std::string> errors;  // columns that say how far off the image is
     bool timed = true;
+    std::vector<std::string> further = {};  // keys that older results lack; empty or "accumulation" says nothing
 };
 
 const std::vector<std::string> poppingErrors = {"changeRmse",      "changeFlip",      "stepRmse",      "stepFlip",
@@ -33,7 +34,9 @@ const std::vector<BenchKind>& kinds() {
         {"speedup",
          {"sweep", "samples", "fStop", "focusDistance", "lod"},
          {"rmseFull", "psnrFull", "ssimFull", "flipFull", "rmseReference", "psnrReference", "ssimReference",
-          "flipReference"}},
+          "flipReference"},
+         true,
+         {"preset", "method"}},
         {"scaling", {"axis", "value", "lod", "samples", "width", "height"}, {}},
         {"popping, frame by frame", {"movement", "samples", "lod", "frame"}, poppingErrors, false},
         {"popping", {"movement", "samples", "lod"}, poppingErrors, false},
@@ -77,6 +80,11 @@ BenchRow rowOf(const Cells& cells, const BenchKind& kind, const std::string& nam
         // 2.8 from CSV and from JSON are one.
         const std::optional<double> number = numberIn(cells, column);
         row.key += (row.key.empty() ? "" : " ") + (number ? fmt::format("{:.6g}", *number) : cells.at(column));
+    }
+    for (const std::string& column : kind.further) {
+        const auto cell = cells.find(column);
+        const bool usual = cell == cells.end() || cell->second.empty() || cell->second == "accumulation";
+        if (!usual) row.key += " " + cell->second;
     }
     if (kind.timed) {
         const std::array<std::optional<double>, 3> times = {numberIn(cells, "milliseconds"), numberIn(cells, "low"),

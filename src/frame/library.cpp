@@ -79,7 +79,10 @@ std::string planJson(const Request& request, const Progress& progress) {
 std::string pyramidJson(const Request& request, const Progress& progress) {
     checkRequest(request);
     const Scene scene = loadScene(request, progress);
-    const std::vector<Pyramid> pyramids = cachedPyramids(scene.meshes, pyramidFolder(request), {}, progress).pyramids;
+    PyramidOptions options;
+    options.vertices = request.settings.levelVertices;
+    const std::vector<Pyramid> pyramids =
+        cachedPyramids(scene.meshes, pyramidFolder(request), options, progress).pyramids;
     Json json = {{"meshes", Json::array()}};
     for (std::size_t i = 0; i < pyramids.size(); ++i)
         json["meshes"].push_back({{"name", scene.meshes[i].name}, {"index", i}, {"levels", levelsJson(pyramids[i])}});

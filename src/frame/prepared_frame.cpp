@@ -209,7 +209,9 @@ void addPyramids(PreparedFrame& frame, const Progress& progress) {
     if (frame.settings.lod == LodMode::off) {
         frame.world.pyramids = fullDetailPyramids(meshes, progress);
     } else {
-        CachedPyramids cached = cachedPyramids(meshes, frame.cacheFolder, {}, progress);
+        PyramidOptions options;
+        options.vertices = frame.settings.levelVertices;
+        CachedPyramids cached = cachedPyramids(meshes, frame.cacheFolder, options, progress);
         frame.world.pyramids = std::move(cached.pyramids);
         frame.pyramidsLoaded = cached.loaded;
         frame.cacheFailure = std::move(cached.failure);

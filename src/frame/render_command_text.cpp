@@ -119,13 +119,19 @@ std::string captureCommand(const std::filesystem::path& shot, const Request& opt
 
 std::string renderCommand(const RenderCommandText& text) {
     const Request request = requestOf(text);
+    // A preset says all that belongs to it.
+    const Setting& preset = *settingNamed("preset");
+    const std::optional<std::string> presetName = preset.text(request);
+    Request standard;
+    if (presetName) preset.set(standard, *presetName);
     std::string command = "defocus render";
     if (!request.scene.empty()) command += fmt::format(" {}", pathWord(request.scene.string()));
     command += fmt::format(" -o {}", pathWord(text.output));
     for (const Setting& setting : settings()) {
         if (setting.name == "scene") continue;
         const bool always = setting.name == "size" || (setting.name == "samples" && saysSamples(request));
-        if (always || changedText(setting, request)) addSetting(command, setting, request);
+        const bool changed = setting.name == preset.name || setting.text(request) != setting.text(standard);
+        if (always || changed) addSetting(command, setting, request);
     }
     return command;
 }

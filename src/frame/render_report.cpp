@@ -28,10 +28,6 @@ std::uint64_t peakMemory() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
-const char* metricName(LodMetric metric) {
-    return metric == LodMetric::size ? "size" : "error";
-}
-
 glm::dmat4 cameraFromWorld(const View& view) {
     return glm::scale(glm::dmat4(1.0), glm::dvec3(1, 1, -1)) * glm::inverse(view.worldFromCamera);
 }
@@ -126,7 +122,7 @@ std::string statsJson(const RenderReport& report) {
         {"sequence", sequenceName(settings.sequence)},
         {"seed", settings.seed},
         {"lod", lodModeName(settings.lod)},
-        {"lodMetric", metricName(settings.metric)},
+        {"lodMetric", lodMetricName(settings.metric)},
         {"blurThreshold", report.plan.thresholds.blur},
         {"sizeThreshold", report.plan.thresholds.size},
         {"lens",

@@ -33,7 +33,7 @@ void checkValue(const Setting& setting, const Request& request, Request& scratch
         for (const std::string& text : setting.texts(request)) setting.set(scratch, text);
     } else if (const std::optional<std::string> text = setting.text(request)) {
         setting.set(scratch, *text);
-    } else if (setting.kind == SettingKind::choice) {
+    } else if (setting.kind == SettingKind::choice && setting.text(Request{})) {
         fail("give one of {}", fmt::join(setting.choices, ", "));
     }
 }

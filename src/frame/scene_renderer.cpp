@@ -1,3 +1,4 @@
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -34,8 +35,11 @@ bool sameRenderer(const Request& a, const Request& b) {
            sameSurroundings(a, b);
 }
 
-bool fullDetailAlone(const Request& request) {
-    return request.settings.lod == LodMode::off;
+// The kinds of pyramids that a request may need: full detail alone, or levels of either sort of vertices.
+constexpr std::size_t pyramidKinds = 3;
+std::size_t pyramidKind(const Request& request) {
+    if (request.settings.lod == LodMode::off) return 0;
+    return request.settings.levelVertices == LevelVertices::fitted ? 1 : 2;
 }
 
 }  // namespace
@@ -70,15 +74,15 @@ private:
 
     [[nodiscard]] std::shared_ptr<Scene> blurredScene(const Request& request) const;
     void checkStarted() const;
-    void handOnPyramids(PreparedFrame& next, bool sameKind);
+    void handOnPyramids(PreparedFrame& next, std::size_t kind);
     void makeRenderer();
     void dropRenderer();
 
     bool named_;  // the scene, by the request
     Request first_, request_;
-    std::shared_ptr<Scene> scene_;        // shared with others and never written to
-    PreparedFrame frame_;                 // of request_; the renderer refers to its world
-    std::vector<Pyramid> otherPyramids_;  // full detail where the frame has levels, and the other way round; or none
+    std::shared_ptr<Scene> scene_;                                  // shared with others and never written to
+    PreparedFrame frame_;                                           // of request_; the renderer refers to its world
+    std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // that frames before had; the frame's own is empty
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;
     std::unique_ptr<GlContext> context_;
@@ -127,16 +131,17 @@ void SceneRenderer::State::checkStarted() const {
     if (!renderer_) fail("no frame was started; call start() first");
 }
 
-// The frame before hands its pyramids on, or keeps them for later where `next` needs the other kind. Nothing throws.
-void SceneRenderer::State::handOnPyramids(PreparedFrame& next, bool sameKind) {
-    if (sameKind) {
+// The frame before hands its pyramids on, or keeps them for later where `next` needs another kind. Nothing throws.
+void SceneRenderer::State::handOnPyramids(PreparedFrame& next, std::size_t kind) {
+    if (kind == pyramidKind(request_)) {
         next.world.pyramids = std::move(frame_.world.pyramids);
         next.pyramidsLoaded = frame_.pyramidsLoaded;
         next.cacheFailure = std::move(frame_.cacheFailure);
         return;
     }
-    if (next.world.pyramids.empty()) next.world.pyramids = std::move(otherPyramids_);
-    otherPyramids_ = std::move(frame_.world.pyramids);
+    if (next.world.pyramids.empty()) next.world.pyramids = std::move(otherPyramids_[kind]);
+    otherPyramids_[kind].clear();
+    otherPyramids_[pyramidKind(request_)] = std::move(frame_.world.pyramids);
 }
 
 void SceneRenderer::State::makeRenderer() {
@@ -161,9 +166,10 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
         throw UsageError("the request is of another scene; make a SceneRenderer of its own for it");
     const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
     PreparedFrame next = placeFrame(blurredScene(request), request, known);
-    const bool samePyramids = fullDetailAlone(request) == fullDetailAlone(request_);
+    const std::size_t kind = pyramidKind(request);
+    const bool samePyramids = kind == pyramidKind(request_);
     const bool same = samePyramids && sameRenderer(request, request_);
-    if (!samePyramids && otherPyramids_.empty()) {
+    if (!samePyramids && otherPyramids_[kind].empty()) {
         addPyramids(next, progress);
         pyramidMilliseconds_ += next.pyramidMilliseconds;
     }
@@ -172,7 +178,7 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
 
     // From here on the frame is the request's.
     if (!same) dropRenderer();
-    handOnPyramids(next, samePyramids);
+    handOnPyramids(next, kind);
     frame_ = std::move(next);
     request_ = std::move(asked);
     try {

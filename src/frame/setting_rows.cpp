@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "frame/presets.h"
 #include "frame/setting_kinds.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid/level_selection.h"
@@ -319,6 +320,32 @@ Rows lensRows() {
     return rows;
 }
 
+// It has no value of its own: see presets.h. Before all that it sets, so that an option beside it wins wherever it
+// stands.
+Setting presetSetting() {
+    std::vector<std::string> names;
+    std::vector<std::string> lines;
+    for (const Preset& preset : presets()) {
+        names.push_back(preset.name);
+        lines.push_back(fmt::format("{}: {}", preset.name, preset.description));
+    }
+    Setting setting =
+        row(SettingKind::choice, "preset", "--preset", fmt::format("{}", fmt::join(names, "|")),
+            fmt::format("Settings that belong together; what is given beside it wins. {}", fmt::join(lines, "; ")));
+    setting.choices = names;
+    setting.set = [names](Request& request, const std::string& text) {
+        applyPreset(presets()[parseChoice(text, names)], request);
+    };
+    setting.text = [](const Request& request) {
+        const Preset* const preset = presetOf(request);
+        return preset == nullptr ? std::nullopt : std::optional(preset->name);
+    };
+    setting.clear = [](Request& request) {
+        if (const Preset* const preset = presetOf(request)) clearPreset(*preset, request);
+    };
+    return setting;
+}
+
 Rows sampleRows() {
     std::vector<std::pair<std::string, Sequence>> sequences;
     for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence), sequence);
@@ -334,6 +361,7 @@ Rows sampleRows() {
         request.stop.sampleLimit = StopSettings{}.sampleLimit;
     };
     return {
+        inShot(presetSetting(), "/preset"),
         samples,
         inShot(
             number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(stop.targetError),
@@ -406,10 +434,20 @@ Rows displayRows() {
 // What only those need who measure or mend the program.
 Rows developerRows() {
     return {
-        inShot(choice<LodMetric>("lodMetric", "--lod-metric", {{"size", LodMetric::size}, {"error", LodMetric::error}},
-                                 MEMBER(settings.metric),
-                                 "Levels are chosen by the projected size of their edges or of their error"),
+        inShot(choice<LodMetric>(
+                   "lodMetric", "--lod-metric",
+                   {{"size", LodMetric::size}, {"error", LodMetric::error}, {"halving", LodMetric::halving}},
+                   MEMBER(settings.metric),
+                   "Levels are chosen by the projected size of their edges, of their error, or of full detail's edges "
+                   "as if each level had exactly half the triangles"),
                "/lodMetric"),
+        inShot(choice<LevelVertices>(
+                   "levelVertices", "--level-vertices",
+                   {{"fitted", LevelVertices::fitted}, {"surviving", LevelVertices::surviving}},
+                   MEMBER(settings.levelVertices),
+                   "Coarser levels are fitted to full detail, or are made of those of its vertices that survive, as "
+                   "they are"),
+               "/levelVertices"),
         choice<bool>("lodCoc", "--lod-coc", {{"smallest", false}, {"centre", true}}, MEMBER(settings.lodCocAtCentre),
                      "The blur that an object may count on: the smallest over its box, or the one at its centre"),
         withUnit(number("cocTolerance", "--coc-tolerance", "PX", 1e-3, 1e3, MEMBER(settings.cocTolerance),

@@ -98,11 +98,13 @@ json lensJson(const FramePlan& plan) {
 std::string planTable(const FramePlan& plan) {
     const Lens& lens = plan.view.lens;
     std::string text = fmt::format(
-        "{} x {} px, {} samples, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
-        "level of detail: {}, {} metric, blur threshold {:.4g}, size threshold {:.4g} px\n\n",
-        plan.view.width, plan.view.height, plan.samples.size(), lens.focalLength, lens.fStop, lens.focusDistance,
-        plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
-        plan.settings.metric == LodMetric::size ? "size" : "error", plan.thresholds.blur, plan.thresholds.size);
+        "{} x {} px, {} samples of {}, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
+        "level of detail: {}, {} metric, blur threshold {:.4g}, size threshold {:.4g} px, {}, {} vertices\n\n",
+        plan.view.width, plan.view.height, plan.samples.size(), sequenceName(plan.settings.sequence), lens.focalLength,
+        lens.fStop, lens.focusDistance, plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
+        lodMetricName(plan.settings.metric), plan.thresholds.blur, plan.thresholds.size,
+        plan.settings.lodCocAtCentre ? "blur at the centre" : "smallest blur",
+        levelVerticesName(plan.settings.levelVertices));
     if (!plan.moments.empty())
         text.insert(text.size() - 1,
                     fmt::format("shutter: {} moments, {} of {} objects move{}\n", momentCount(plan), movingCount(plan),
@@ -141,7 +143,9 @@ std::string planJson(const FramePlan& plan) {
                            {"shutter", {{"moments", momentCount(plan)}, {"movingObjects", movingCount(plan)}}},
                            {"lod",
                             {{"mode", lodModeName(plan.settings.lod)},
-                             {"metric", plan.settings.metric == LodMetric::size ? "size" : "error"},
+                             {"metric", lodMetricName(plan.settings.metric)},
+                             {"coc", plan.settings.lodCocAtCentre ? "centre" : "smallest"},
+                             {"vertices", levelVerticesName(plan.settings.levelVertices)},
                              {"blurThreshold", plan.thresholds.blur},
                              {"sizeThreshold", plan.thresholds.size}}},
                            {"objects", std::move(objects)},

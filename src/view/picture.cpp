@@ -32,6 +32,7 @@ std::vector<double> imageKey(const PictureRequest& request) {
                                settings.cocTolerance,
                                static_cast<double>(settings.metric),
                                static_cast<double>(settings.lodCocAtCentre),
+                               static_cast<double>(settings.levelVertices),
                                static_cast<double>(settings.keepAll),
                                static_cast<double>(request.fixedQuality.has_value()),
                                request.targetError.value_or(0)};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "capture/shot_options.h"
 #include "core/error.h"
 
 namespace defocus {
@@ -24,6 +25,22 @@ TEST(ShotJson, nothingSaidIsAShotOfOneFrame) {
     EXPECT_TRUE(shot.request.scene.empty());
     EXPECT_FALSE(shot.focus);
     EXPECT_EQ(shot.outputs, std::vector<std::string>{"frames/####.exr"});
+}
+
+// In whatever order: JSON has none.
+TEST(ShotJson, whatIsGivenBesideAPresetWins) {
+    for (const char* text :
+         {R"({"preset": "jeong2011", "sequence": "r2"})", R"({"sequence": "r2", "preset": "jeong2011"})"}) {
+        const Shot shot = parseShot(text, "x.json");
+        Request request;
+        applyShot(shot, request);
+        EXPECT_EQ(request.settings.sequence, Sequence::r2);
+        EXPECT_EQ(request.settings.metric, LodMetric::halving);
+        EXPECT_EQ(request.settings.levelVertices, LevelVertices::surviving);
+        EXPECT_TRUE(request.settings.lodCocAtCentre);
+        EXPECT_EQ(request.settings.thresholds.blur, 0.25);
+    }
+    EXPECT_NE(faultOf(R"({"preset": "jeong2012"})").find("jeong2011"), std::string::npos);
 }
 
 TEST(ShotJson, pathsOfTheSceneAreRelativeToTheShot) {

@@ -198,5 +198,45 @@ TEST_F(BenchConvergence, reportHasASectionForEachBench) {
     EXPECT_NE(page.find("defocus --quiet bench speedup quads.gltf --counts 2,4"), std::string::npos);
 }
 
+class BenchSpeedup : public GlProgramTest {
+protected:
+    nlohmann::json rows(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments = {"--quiet", "bench",
+                                              "speedup", "--fish",
+                                              "1",       "--fish-triangles",
+                                              "900",     "--size",
+                                              "48x36",   "--counts",
+                                              "4",       "--runs",
+                                              "1",       "-o",
+                                              "out",     "--reference-samples",
+                                              "64",      "--allow-changed"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return nlohmann::json::parse(textOf(folder() / "out/speedup.json"))["rows"];
+    }
+};
+
+// The published algorithm first, then what a call without the preset measures. What is given beside the preset is the
+// preset's: here it takes its levels away.
+TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
+    const nlohmann::json plain = rows({});
+    ASSERT_EQ(plain.size(), 3u);
+    for (const nlohmann::json& row : plain) EXPECT_EQ(row["preset"], "");
+    const nlohmann::json both =
+        rows({"--preset", "jeong2011", "--blur-threshold", "0", "--size-threshold", "0", "--methods", "scheuermann"});
+    ASSERT_EQ(both.size(), 7u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(both[i]["preset"], "jeong2011");
+        EXPECT_EQ(both[i]["triangles"], both[0]["triangles"]);
+        EXPECT_EQ(both[i]["fromFullDetail"]["rmse"], 0);
+        for (const char* same : {"preset", "lod", "triangles", "fromFullDetail", "fromReference"})
+            EXPECT_EQ(both[3 + i][same], plain[i][same]) << same;
+    }
+    EXPECT_LT(both[5]["triangles"], both[3]["triangles"]);
+    EXPECT_NE(both[0]["fromReference"]["rmse"], both[3]["fromReference"]["rmse"]);  // Halton's and Sobol's points
+    EXPECT_EQ(both[6]["method"], "scheuermann");
+}
+
 }  // namespace
 }  // namespace defocus

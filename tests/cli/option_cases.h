@@ -157,6 +157,8 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"method", {{"--method", "circular"}, blurred}},
         {"layerFormat", {{"--layer-format", "rgba8"}, {}}},
         {"lodMetric", {{"--lod-metric", "error"}, {"--fstop", "0.3"}, true}},
+        {"levelVertices", {{"--level-vertices", "surviving"}, {"--fstop", "0.3"}, true}},
+        {"preset", {{"--preset", "jeong2011"}, {"--fstop", "0.3"}, true}},
         {"lodCoc",
          {{"--lod-coc", "centre"},
           {"--fstop", "0.5", "--focal-length", "1500", "--size-threshold", "0", "--blur-threshold", "30",

@@ -128,6 +128,7 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"bench speedup --counts", {.words = {"--counts", "3"}}},
         {"bench speedup --fstops", {.words = {"--fstops", "4"}}},
         {"bench speedup --focus-distances", {.words = {"--focus-distances", "4"}}},
+        {"bench speedup --methods", {.words = {"--methods", "scheuermann"}}},
         {"bench speedup --runs", {.words = {"--runs", "2"}}},
         {"bench speedup --reference-samples", {.words = {"--reference-samples", "4"}}},
         {"bench speedup --output", {.words = {"-o", "other"}}},

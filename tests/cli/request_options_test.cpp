@@ -75,6 +75,25 @@ TEST_F(SceneOptionsTest, focusOnAPixelWithFocusBreathingHitsWhatThePictureShows)
     EXPECT_NEAR(lens("focusDistance", {"--focus-breathing", "--focus-pixel", "370,170"}), 2, 1e-6);
 }
 
+TEST_F(SceneOptionsTest, whatIsGivenBesideAPresetWinsWhereverItStands) {
+    const json preset = plan({"--preset", "jeong2011"});
+    EXPECT_EQ(preset["sequence"], "halton");
+    EXPECT_EQ(preset["lod"], json({{"mode", "fractional"},
+                                   {"metric", "halving"},
+                                   {"coc", "centre"},
+                                   {"vertices", "surviving"},
+                                   {"blurThreshold", 0.25},
+                                   {"sizeThreshold", 3.3}}));
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"--preset", "jeong2011", "--sequence", "r2", "--lod-coc", "smallest"},
+             {"--lod-coc", "smallest", "--sequence", "r2", "--preset", "jeong2011"}}) {
+        const json changed = plan(words);
+        EXPECT_EQ(changed["sequence"], "r2");
+        EXPECT_EQ(changed["lod"]["coc"], "smallest");
+        EXPECT_EQ(changed["lod"]["metric"], "halving");
+    }
+}
+
 TEST_F(SceneOptionsTest, thresholdsReplaceTheirDefaultsOneByOne) {
     const json standard = plan({})["lod"];
     const json changed = plan({"--blur-threshold", "0.125"})["lod"];

@@ -286,6 +286,26 @@ TEST(BenchDiff, readsSpeedupFromCsvAndJsonAlike) {
     EXPECT_THROW(diffBenches(csv, parseBenchResults(convergenceCsv(before), "other")), Error);
 }
 
+// Rows of a preset and of another method are their own; the rest has the key that it had before there were any.
+TEST(BenchDiff, tellsPresetsAndMethodsOfSpeedupApart) {
+    SpeedupRow row;
+    row.sweep = "samples";
+    row.samples = 64;
+    row.milliseconds = {10, 9, 11};
+    row.method = "accumulation";
+    std::vector<SpeedupRow> rows(3, row);
+    rows[1].preset = "jeong2011";
+    rows[2].method = "circular:far-components=2 resolution=half";
+    const BenchResults csv = parseBenchResults(speedupCsv(rows), "csv");
+    const BenchResults json = parseBenchResults(speedupJson(rows, {}), "json");
+    for (const BenchResults& results : {csv, json}) {
+        ASSERT_EQ(results.rows.size(), 3u);
+        EXPECT_EQ(results.rows[0].key, "samples 64 0 0 off");
+        EXPECT_EQ(results.rows[1].key, "samples 64 0 0 off jeong2011");
+        EXPECT_EQ(results.rows[2].key, "samples 64 0 0 off circular:far-components=2 resolution=half");
+    }
+}
+
 TEST(BenchDiff, tableCountsTheChanges) {
     const std::string table = benchDifferenceTable(parseBenchResults(convergenceCsv(before), "old"),
                                                    parseBenchResults(convergenceCsv(after), "new"));

@@ -202,6 +202,7 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
         [&](Request& r) { r.settings.sequence = static_cast<Sequence>(whole()); },
         [&](Request& r) { r.settings.lod = static_cast<LodMode>(whole()); },
         [&](Request& r) { r.settings.metric = static_cast<LodMetric>(whole()); },
+        [&](Request& r) { r.settings.levelVertices = static_cast<LevelVertices>(whole()); },
         [&](Request& r) { r.settings.thresholds.blur = number(); },
         [&](Request& r) { r.settings.thresholds.size = number(); },
         [&](Request& r) { r.settings.cocTolerance = number(); },

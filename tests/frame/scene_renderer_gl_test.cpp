@@ -76,7 +76,7 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
 
 // One after the other, of one renderer: each is the image of a renderer of its own.
 TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
-    std::vector<Request> requests(8, smallRequest());
+    std::vector<Request> requests(11, smallRequest());
     requests[1] = movedRequest();
     requests[2].settings.lod = LodMode::off;
     requests[4].method = "circular";
@@ -86,11 +86,30 @@ TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     requests[6].layerFormat = LayerFormat::rgba32f;
     requests[7] = movedRequest();
     requests[7].settings.lod = LodMode::off;
+    requests[8].settings.levelVertices = LevelVertices::surviving;  // other pyramids, then those of before
+    requests[10] = requests[8];
     SceneRenderer renderer(requests[0]);
     for (std::size_t i = 0; i < requests.size(); ++i)
         EXPECT_EQ(renderer.render(requests[i]).pixels, render(requests[i]).pixels) << "request " << i;
     EXPECT_NE(render(requests[0]).pixels, render(requests[1]).pixels);
     EXPECT_NE(render(requests[0]).pixels, render(requests[2]).pixels);
+    EXPECT_NE(render(requests[0]).pixels, render(requests[8]).pixels);
+}
+
+// The published levels are a picture of their own; without thresholds nothing of them is drawn.
+TEST_F(SceneRendererTest, publishedLevelsEndInFullDetail) {
+    Request published = smallRequest();
+    setSetting(published, "preset", "jeong2011");
+    Request sharp = published;
+    sharp.settings.lod = LodMode::off;
+    const Image fullDetail = render(sharp);
+    EXPECT_NE(render(published).pixels, fullDetail.pixels);
+    published.settings.thresholds = {0, 0};
+    EXPECT_EQ(render(published).pixels, fullDetail.pixels);
+    // Nor where nothing is blurred and size alone would pick levels.
+    published.lens.dofEnabled = sharp.lens.dofEnabled = false;
+    published.settings.thresholds = {0.25, 0};
+    EXPECT_EQ(render(published).pixels, render(sharp).pixels);
 }
 
 TEST_F(SceneRendererTest, pyramidsAreBuiltWhereThereAreNone) {

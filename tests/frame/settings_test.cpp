@@ -78,6 +78,7 @@ TEST(Settings, whatARowWritesItReads) {
         else
             setting.set(again, *text);
         EXPECT_EQ(setting.text(again), text);
+        if (setting.name == "preset") continue;  // it sets others: presets_test.cpp
         for (const Setting& other : settings()) {
             if (other.name == setting.name) continue;
             EXPECT_FALSE(changedText(other, request)) << other.name;

@@ -40,6 +40,14 @@ def test_values_go_as_the_command_line_has_them():
     assert texts("node_blur", {"Fish=3": 0, "Weed": 0.5}) == ["Fish=3=0", "Weed=0.5"]
 
 
+def test_what_is_given_beside_a_preset_wins():
+    small = {"fish_count": 1, "triangles_per_fish": 1000, "no_cache": True, "size": (64, 48)}
+    for given in ({"preset": "jeong2011", "sequence": "r2"}, {"sequence": "r2", "preset": "jeong2011"}):
+        plan = defocus.plan(**small, **given)
+        assert plan["sequence"] == "r2"
+        assert plan["lod"]["metric"] == "halving" and plan["lod"]["vertices"] == "surviving"
+
+
 # Every row of the table is a keyword that takes its own default.
 @pytest.mark.parametrize("setting", [s for s in defocus.settings() if s.default is not None], ids=lambda s: s.keyword)
 def test_every_setting_takes_its_default(setting):

@@ -57,7 +57,8 @@ inline Request randomOptions(Dice& dice) {
     options.settings.sequence = allSequences[static_cast<std::size_t>(dice.whole(0, 3))];
     if (dice.coin()) options.settings.seed = static_cast<std::uint32_t>(dice.whole(0, 1'000'000));
     options.settings.lod = static_cast<LodMode>(dice.whole(0, 3));
-    options.settings.metric = dice.coin() ? LodMetric::size : LodMetric::error;
+    options.settings.metric = static_cast<LodMetric>(dice.whole(0, 2));
+    options.settings.levelVertices = static_cast<LevelVertices>(dice.whole(0, 1));
     options.settings.lodCocAtCentre = dice.coin();
     if (dice.coin()) options.settings.thresholds.blur = dice.number(0, 2);
     if (dice.coin()) options.settings.thresholds.size = dice.number(0, 9);

@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "cli/render.h"
+#include "frame/presets.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
 #include "view/camera_controls.h"
@@ -186,6 +187,7 @@ void expectSameOptions(const Request& a, const Request& b) {
     EXPECT_EQ(a.settings.lod, b.settings.lod);
     EXPECT_EQ(a.settings.metric, b.settings.metric);
     EXPECT_EQ(a.settings.lodCocAtCentre, b.settings.lodCocAtCentre);
+    EXPECT_EQ(a.settings.levelVertices, b.settings.levelVertices);
     EXPECT_EQ(a.settings.thresholds.blur, b.settings.thresholds.blur);
     EXPECT_EQ(a.settings.thresholds.size, b.settings.thresholds.size);
     EXPECT_EQ(a.settings.keepAll, b.settings.keepAll);
@@ -233,6 +235,24 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
                                                          asVector(read.request.cameraUp.value_or(Vector3{0, 1, 0}))));
         expectSameView(again, view);
     }
+}
+
+// A preset says what belongs to it; one that something was changed of is said setting by setting.
+TEST(RenderCommandText, namesAPresetOrItsSettings) {
+    Request options;
+    applyPreset(presetNamed("jeong2011"), options);
+    PreparedFrame frame;
+    View view;
+    const auto command = [&] { return renderCommand({options, frame, view, 1, {}, "out.png"}); };
+    EXPECT_NE(command().find(" --preset jeong2011"), std::string::npos) << command();
+    EXPECT_EQ(command().find("--lod-"), std::string::npos) << command();
+    EXPECT_EQ(command().find("--sequence"), std::string::npos) << command();
+    expectSameOptions(argumentsOf(command()).request, options);
+
+    options.settings.sequence = Sequence::r2;
+    EXPECT_EQ(command().find("--preset"), std::string::npos) << command();
+    EXPECT_NE(command().find(" --level-vertices surviving"), std::string::npos) << command();
+    expectSameOptions(argumentsOf(command()).request, options);
 }
 
 TEST(CaptureCommand, saysWhatNoShotFileSays) {

@@ -41,10 +41,6 @@ bool drawsLevels(const Method& method) {
     return method.needsGl && method.usesLensSamples;
 }
 
-const char* metricName(LodMetric metric) {
-    return metric == LodMetric::size ? "size" : "error";
-}
-
 std::string settingOf(const MethodUse& use, const std::string& levels) {
     std::string text = settingsText(use.method->settings, use.settings);
     std::ranges::replace(text, ',', ' ');
@@ -73,7 +69,7 @@ std::vector<ConvergenceCase> casesOf(const MethodUse& use, std::uint32_t samples
                 const LodThresholds standard = defaultThresholds(metric, samples);
                 ConvergenceCase levels = fullDetailCase(use, samples, options.plan);
                 levels.setting = settingOf(use, fmt::format("lod={} metric={} thresholds={:g}", lodModeName(mode),
-                                                            metricName(metric), factor));
+                                                            lodMetricName(metric), factor));
                 levels.plan.lod = mode;
                 levels.plan.metric = metric;
                 levels.plan.thresholds = {factor * standard.blur, factor * standard.size};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <memory>
 
 #include "core/stopwatch.h"
 #include "frame/reference_image.h"
@@ -32,13 +34,6 @@ std::vector<Setting> settingsOf(const View& view, const SpeedupOptions& options)
         settings.back().view.lens.focusDistance = distance;
     }
     return settings;
-}
-
-FramePlan planOf(const World& world, const Setting& setting, LodMode mode, const SpeedupOptions& options) {
-    RenderSettings settings = options.plan;
-    settings.sampleCount = setting.samples;
-    settings.lod = mode;
-    return planFrame(world, setting.view, settings);
 }
 
 void finish(Renderer& renderer, const FramePlan& plan) {
@@ -86,7 +81,16 @@ private:
     ReferenceImage image_;
 };
 
-struct Mode {
+// By what levels are chosen.
+enum class Thresholds { both, size, blur };
+
+// One of the frames that are compared with each other.
+struct Subject {
+    const SpeedupForm* form = nullptr;
+    MethodUse use;
+    LodMode mode = LodMode::off;
+    Thresholds thresholds = Thresholds::both;
+    const Subject* fullDetail = nullptr;  // of the same form
     std::unique_ptr<Renderer> renderer;
     FramePlan plan;
     std::vector<double> milliseconds;
@@ -95,70 +99,130 @@ struct Mode {
     Image image;
 };
 
-void run(Mode& mode) {
-    finish(*mode.renderer, mode.plan);
-    const RenderStats stats = mode.renderer->stats();
-    mode.milliseconds.push_back(stats.renderMilliseconds);
-    mode.gpuMilliseconds.push_back(stats.gpuMilliseconds);
-    mode.image = mode.renderer->image();
+// Ray tracers have the meshes as they were read, and post-process methods draw pinholes, for which blur is no excuse.
+bool followsLevels(const Method& method) {
+    return method.needsGl && method.usesLensSamples;
 }
 
-SpeedupRow rowOf(const Setting& setting, LodMode lod, const Mode& mode, const Mode& fullDetail,
-                 const ReferenceImage* reference) {
+// In the order in which the rows come; what belongs to a row follows it.
+std::deque<Subject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
+    std::deque<Subject> subjects;  // their places stay
+    const auto add = [&](const SpeedupForm& form, const MethodUse& use, LodMode mode, Thresholds thresholds) {
+        Subject& subject = subjects.emplace_back();
+        subject.form = &form;
+        subject.use = use;
+        subject.mode = mode;
+        subject.thresholds = thresholds;
+    };
+    const MethodUse accumulation = parseMethodUse("accumulation");
+    for (const SpeedupForm& form : forms) {
+        const std::size_t first = subjects.size();
+        for (const LodMode mode : modes) add(form, accumulation, mode, Thresholds::both);
+        for (const Thresholds one : {Thresholds::size, Thresholds::blur})
+            add(form, accumulation, LodMode::fractional, one);
+        for (std::size_t i = first; i < subjects.size(); ++i) subjects[i].fullDetail = &subjects[first];
+    }
+    const Subject& lastFullDetail = *subjects.back().fullDetail;
+    for (const MethodUse& use : methods) {
+        add(forms.back(), use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, Thresholds::both);
+        subjects.back().fullDetail = &lastFullDetail;
+    }
+    return subjects;
+}
+
+FramePlan planOf(const Subject& subject, const Setting& setting, std::uint32_t samples) {
+    RenderSettings settings = subject.form->plan;
+    settings.sampleCount = samples;
+    settings.lod = subject.mode;
+    if (subject.thresholds == Thresholds::size) settings.thresholds.blur = 0;
+    if (subject.thresholds == Thresholds::blur) settings.thresholds.size = 0;
+    return planFrame(*subject.form->world, setting.view, settings);
+}
+
+// Shaders, uploads and the driver's own caches are ready before anything is timed.
+void prepare(Subject& subject, const Setting& setting, RendererOptions options) {
+    const Clock::time_point begin = Clock::now();
+    options.settings = subject.use.settings;
+    subject.renderer = subject.use.method->make(*subject.form->world, options);
+    subject.plan = planOf(subject, setting, setting.samples);
+    subject.renderer->start(subject.plan);
+    subject.setupMilliseconds = millisecondsSince(begin);
+    finish(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
+}
+
+void run(Subject& subject) {
+    finish(*subject.renderer, subject.plan);
+    const RenderStats stats = subject.renderer->stats();
+    subject.milliseconds.push_back(stats.renderMilliseconds);
+    subject.gpuMilliseconds.push_back(stats.gpuMilliseconds);
+    subject.image = subject.renderer->image();
+}
+
+double speedUpOf(const Subject& subject) {
+    return spreadOf(subject.fullDetail->milliseconds).median / spreadOf(subject.milliseconds).median;
+}
+
+SpeedupPart partOf(const Subject& subject) {
+    return {spreadOf(subject.milliseconds).median, speedUpOf(subject), subject.plan.trianglesDrawn,
+            compareImages(subject.fullDetail->image, subject.image)};
+}
+
+SpeedupRow rowOf(const Setting& setting, const Subject& subject, const ReferenceImage* reference) {
     SpeedupRow row;
     row.sweep = setting.sweep;
+    row.preset = subject.form->preset;
+    row.method = subject.use.text();
+    std::ranges::replace(row.method, ',', ' ');
     row.samples = setting.samples;
     row.fStop = setting.view.lens.fStop;
     row.focusDistance = setting.view.lens.focusDistance;
-    row.mode = lod;
-    row.runs = static_cast<int>(mode.milliseconds.size());
-    row.milliseconds = spreadOf(mode.milliseconds);
-    row.gpuMilliseconds = spreadOf(mode.gpuMilliseconds);
-    row.speedUp = spreadOf(fullDetail.milliseconds).median / row.milliseconds.median;
-    row.triangles = mode.plan.trianglesDrawn;
-    row.setupMilliseconds = mode.setupMilliseconds;
-    row.gpuBytes = mode.renderer->stats().peakBytes;
-    row.fromFullDetail = compareImages(fullDetail.image, mode.image);
+    row.mode = subject.mode;
+    row.runs = static_cast<int>(subject.milliseconds.size());
+    row.milliseconds = spreadOf(subject.milliseconds);
+    row.gpuMilliseconds = spreadOf(subject.gpuMilliseconds);
+    row.speedUp = speedUpOf(subject);
+    row.triangles = subject.plan.trianglesDrawn;
+    row.setupMilliseconds = subject.setupMilliseconds;
+    if (subject.mode != LodMode::off) row.pyramidMilliseconds = subject.form->pyramidMilliseconds;
+    row.gpuBytes = subject.renderer->stats().peakBytes;
+    row.fromFullDetail = compareImages(subject.fullDetail->image, subject.image);
     if (reference == nullptr) return row;
-    row.fromReference = compareImages(reference->image, mode.image);
+    row.fromReference = compareImages(reference->image, subject.image);
     row.referenceSamples = reference->samples;
     row.referenceRemaining = reference->remaining;
     return row;
 }
 
+// Hands out a row for each subject that isn't part of another's.
+void visitRows(const std::deque<Subject>& subjects, const Setting& setting, const ReferenceImage* reference,
+               const std::function<void(const SpeedupRow&)>& visit) {
+    for (std::size_t i = 0; i < subjects.size();) {
+        SpeedupRow row = rowOf(setting, subjects[i], reference);
+        for (++i; i < subjects.size() && subjects[i].thresholds != Thresholds::both; ++i)
+            (subjects[i].thresholds == Thresholds::size ? row.sizeOnly : row.blurOnly) = partOf(subjects[i]);
+        visit(row);
+    }
+}
+
 }  // namespace
 
-void measureSpeedup(const World& world, const View& view, const SpeedupOptions& options,
+void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const SpeedupOptions& options,
                     const std::function<void(const SpeedupRow&)>& visit, const Progress& progress) {
     const std::vector<Setting> settings = settingsOf(view, options);
-    const std::uint64_t total = settings.size() * static_cast<std::size_t>(options.runs) * modes.size();
+    References references(*forms[0].world, settings, options, progress);
+    const std::uint64_t total =
+        settings.size() * static_cast<std::size_t>(options.runs) * subjectsOf(forms, options.methods).size();
     std::uint64_t done = 0;
-    References references(world, settings, options, progress);
-
     for (const Setting& setting : settings) {
         const ReferenceImage* const reference = references.of(setting);
-        // Shaders, uploads and the driver's own caches are ready before anything is timed.
-        std::array<Mode, modes.size()> measured;
-        for (std::size_t m = 0; m < modes.size(); ++m) {
-            const Clock::time_point begin = Clock::now();
-            measured[m].renderer = methodNamed("accumulation").make(world, options.renderer);
-            measured[m].renderer->start(planOf(world, setting, modes[m], options));
-            measured[m].setupMilliseconds = millisecondsSince(begin);
-            measured[m].plan = planOf(world, setting, modes[m], options);
-            Setting few = setting;
-            few.samples = std::min(setting.samples, warmUpSamples);
-            finish(*measured[m].renderer, planOf(world, few, modes[m], options));
-        }
+        std::deque<Subject> subjects = subjectsOf(forms, options.methods);
+        for (Subject& subject : subjects) prepare(subject, setting, options.renderer);
         for (int i = 0; i < options.runs; ++i)
-            for (Mode& mode : measured) {
+            for (Subject& subject : subjects) {
                 report(progress, "runs", done++, total);
-                run(mode);
+                run(subject);
             }
-        for (std::size_t m = 0; m < modes.size(); ++m) {
-            SpeedupRow row = rowOf(setting, modes[m], measured[m], measured[0], reference);
-            if (modes[m] != LodMode::off) row.pyramidMilliseconds = options.pyramidMilliseconds;
-            visit(row);
-        }
+        visitRows(subjects, setting, reference, visit);
     }
 }
 

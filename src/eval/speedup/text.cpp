@@ -22,8 +22,18 @@ ordered_json differenceJson(const Difference& difference) {
             {"flip", difference.flip}};
 }
 
+ordered_json partJson(const std::optional<SpeedupPart>& part) {
+    if (!part) return nullptr;
+    return {{"milliseconds", part->milliseconds},
+            {"speedUp", part->speedUp},
+            {"triangles", part->triangles},
+            {"fromFullDetail", differenceJson(part->fromFullDetail)}};
+}
+
 ordered_json rowJson(const SpeedupRow& row) {
     return {{"sweep", row.sweep},
+            {"preset", row.preset},
+            {"method", row.method},
             {"samples", row.samples},
             {"fStop", row.fStop},
             {"focusDistance", row.focusDistance},
@@ -33,6 +43,8 @@ ordered_json rowJson(const SpeedupRow& row) {
             {"setupMilliseconds", row.setupMilliseconds},
             {"pyramidMilliseconds", row.pyramidMilliseconds},
             {"speedUp", row.speedUp},
+            {"sizeOnly", partJson(row.sizeOnly)},
+            {"blurOnly", partJson(row.blurOnly)},
             {"triangles", row.triangles},
             {"gpuBytes", row.gpuBytes},
             {"fromFullDetail", differenceJson(row.fromFullDetail)},
@@ -45,28 +57,45 @@ std::string csvDifference(const Difference& d) {
     return fmt::format("{:.8g},{:.6g},{:.6g},{:.6g}", d.rmse, d.psnr, d.ssim, d.flip);
 }
 
+std::string csvPart(const std::optional<SpeedupPart>& part) {
+    if (!part) return ",,,";
+    return fmt::format("{:.3f},{:.4f},{},{:.6g}", part->milliseconds, part->speedUp, part->triangles,
+                       part->fromFullDetail.psnr);
+}
+
+std::string partText(const std::optional<SpeedupPart>& part) {
+    return part ? fmt::format("{:.2f}", part->speedUp) : std::string();
+}
+
+// What the row draws: levels, or with another method than accumulation this one.
+std::string drawnText(const SpeedupRow& row) {
+    return row.method == "accumulation" ? lodModeName(row.mode) : row.method;
+}
+
 }  // namespace
 
 std::string speedupHeader() {
     return fmt::format(
-        "{:<9} {:>7} {:>7} {:>7} {:<10} {:>9} {:>17} {:>6} {:>7} {:>8} {:>9}  {:^22}  {:^30}\n"
-        "{:<9} {:>7} {:>7} {:>7} {:<10} {:>9} {:>17} {:>6} {:>7} {:>8} {:>9}  {:>7} {:>6} {:>7}  {:>7} {:>7} {:>6} "
-        "{:>7}\n",
-        "", "", "", "focus", "", "frame", "10-90 %", "times", "set-up", "pyramids", "triangles", "from full detail",
-        "from reference", "sweep", "samples", "f-stop", "m", "levels", "ms", "ms", "fast", "ms", "ms", "millions",
-        "PSNR", "SSIM", "FLIP", "samples", "PSNR", "SSIM", "FLIP");
+        "{:<9} {:>7} {:>7} {:>7} {:<10} {:<10} {:>9} {:>17} {:>6} {:>6} {:>6} {:>7} {:>8} {:>9}  {:^22}  {:^30}\n"
+        "{:<9} {:>7} {:>7} {:>7} {:<10} {:<10} {:>9} {:>17} {:>6} {:>6} {:>6} {:>7} {:>8} {:>9}  {:>7} {:>6} {:>7}  "
+        "{:>7} {:>7} {:>6} {:>7}\n",
+        "", "", "", "focus", "", "", "frame", "10-90 %", "times", "size", "blur", "set-up", "pyramids", "triangles",
+        "from full detail", "from reference", "sweep", "samples", "f-stop", "m", "preset", "levels", "ms", "ms", "fast",
+        "only", "only", "ms", "ms", "millions", "PSNR", "SSIM", "FLIP", "samples", "PSNR", "SSIM", "FLIP");
 }
 
 std::string speedupLine(const SpeedupRow& row) {
     const Difference& full = row.fromFullDetail;
     std::string line = fmt::format(
-        "{:<9} {:>7} {:>7.3g} {:>7.3g} {:<10} {:>9.1f} {:>17} {:>6.2f} {:>7.0f} {:>8.0f} {:>9.2f}  ", row.sweep,
-        row.samples, row.fStop, row.focusDistance, lodModeName(row.mode), row.milliseconds.median,
-        fmt::format("{:.0f} to {:.0f}", row.milliseconds.low, row.milliseconds.high), row.speedUp,
-        row.setupMilliseconds, row.pyramidMilliseconds, static_cast<double>(row.triangles) / 1e6);
-    if (row.mode == LodMode::off && !row.fromReference) return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-    line += row.mode == LodMode::off ? fmt::format("{:>22}", "")
-                                     : fmt::format("{:>7.2f} {:>6.4f} {:>7.4f}", full.psnr, full.ssim, full.flip);
+        "{:<9} {:>7} {:>7.3g} {:>7.3g} {:<10} {:<10} {:>9.1f} {:>17} {:>6.2f} {:>6} {:>6} {:>7.0f} {:>8.0f} {:>9.2f}  ",
+        row.sweep, row.samples, row.fStop, row.focusDistance, row.preset.empty() ? "none" : row.preset, drawnText(row),
+        row.milliseconds.median, fmt::format("{:.0f} to {:.0f}", row.milliseconds.low, row.milliseconds.high),
+        row.speedUp, partText(row.sizeOnly), partText(row.blurOnly), row.setupMilliseconds, row.pyramidMilliseconds,
+        static_cast<double>(row.triangles) / 1e6);
+    const bool fullDetail = row.mode == LodMode::off && row.method == "accumulation";
+    if (fullDetail && !row.fromReference) return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+    line += fullDetail ? fmt::format("{:>22}", "")
+                       : fmt::format("{:>7.2f} {:>6.4f} {:>7.4f}", full.psnr, full.ssim, full.flip);
     if (row.fromReference)
         line += fmt::format("  {:>7} {:>7.2f} {:>6.4f} {:>7.4f}{}", row.referenceSamples, row.fromReference->psnr,
                             row.fromReference->ssim, row.fromReference->flip,
@@ -79,16 +108,19 @@ std::string speedupCsv(std::span<const SpeedupRow> rows) {
     std::string text =
         "sweep,samples,fStop,focusDistance,lod,milliseconds,low,high,gpuMilliseconds,speedUp,triangles,gpuBytes,"
         "rmseFull,psnrFull,ssimFull,flipFull,rmseReference,psnrReference,ssimReference,flipReference,"
-        "runs,setupMilliseconds,pyramidMilliseconds,referenceSamples,referenceRmse,referenceFlip\n";
+        "runs,setupMilliseconds,pyramidMilliseconds,referenceSamples,referenceRmse,referenceFlip,preset,method,"
+        "sizeOnlyMilliseconds,sizeOnlySpeedUp,sizeOnlyTriangles,sizeOnlyPsnr,"
+        "blurOnlyMilliseconds,blurOnlySpeedUp,blurOnlyTriangles,blurOnlyPsnr\n";
     for (const SpeedupRow& row : rows)
         text += fmt::format(
             "{},{},{:.8g},{:.8g},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f},{},{},{},{},{},{:.3f},{:.3f},{},"
-            "{:.6g},{:.6g}\n",
+            "{:.6g},{:.6g},{},{},{},{}\n",
             row.sweep, row.samples, row.fStop, row.focusDistance, lodModeName(row.mode), row.milliseconds.median,
             row.milliseconds.low, row.milliseconds.high, row.gpuMilliseconds.median, row.speedUp, row.triangles,
             row.gpuBytes, csvDifference(row.fromFullDetail),
             row.fromReference ? csvDifference(*row.fromReference) : ",,,", row.runs, row.setupMilliseconds,
-            row.pyramidMilliseconds, row.referenceSamples, row.referenceRemaining.rmse, row.referenceRemaining.flip);
+            row.pyramidMilliseconds, row.referenceSamples, row.referenceRemaining.rmse, row.referenceRemaining.flip,
+            row.preset, row.method, csvPart(row.sizeOnly), csvPart(row.blurOnly));
     return text;
 }
 
@@ -96,7 +128,11 @@ std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& su
     ordered_json document = subjectJson("speedup", subject);
     document["heldEqual"] =
         "scene, camera, lens, lens samples, image size, layers drawn at once, renderer, process; runs alternate "
-        "between the modes; neither set-up nor pyramids are in a frame's time";
+        "between the modes, presets and methods; neither set-up nor pyramids are in a frame's time";
+    document["parts"] =
+        "sizeOnly: fractional levels with a blur threshold of 0; blurOnly: with a size threshold of 0; each against "
+        "the "
+        "same full detail";
     document["rows"] = ordered_json::array();
     for (const SpeedupRow& row : rows) document["rows"].push_back(rowJson(row));
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -27,8 +27,9 @@ constexpr std::size_t keyDigits = 16;
 
 // The whole key is in the name, so that versions of the program and options don't take each other's files away.
 fs::path fileName(const PyramidKey& key) {
-    const std::uint64_t rest[3] = {PyramidFileHeader::expectedVersion, key.options.leastTriangles,
-                                   static_cast<std::uint64_t>(key.options.mostLevels)};
+    const std::uint64_t rest[4] = {PyramidFileHeader::expectedVersion, key.options.leastTriangles,
+                                   static_cast<std::uint64_t>(key.options.mostLevels),
+                                   static_cast<std::uint64_t>(key.options.vertices)};
     return fmt::format("{:0{}x}{}", hashBytes(std::as_bytes(std::span(rest)), key.mesh), keyDigits, extension);
 }
 

@@ -60,7 +60,7 @@ void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
 
 PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
     const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, repairedFaces, end] = pyramid;
-    const auto& [leastTriangles, mostLevels] = key.options;
+    const auto& [leastTriangles, mostLevels, levelVertices] = key.options;
     PyramidFileHeader header;
     header.mesh = key.mesh;
     header.leastTriangles = leastTriangles;
@@ -72,6 +72,7 @@ PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const Pyram
     header.triangleCount = levels.front().triangleCount;
     header.repairedFaces = repairedFaces;
     header.end = static_cast<std::uint32_t>(end);
+    header.vertices = static_cast<std::uint32_t>(levelVertices);
     for (int axis = 0; axis < 3; ++axis) {
         header.minimum[axis] = bounds.minimum[axis];
         header.maximum[axis] = bounds.maximum[axis];
@@ -120,6 +121,7 @@ bool allBelow(std::span<const std::uint32_t> values, std::size_t limit) {
 bool matches(const PyramidFileHeader& header, const Mesh& mesh, const PyramidKey& key) {
     return header.version == PyramidFileHeader::expectedVersion && header.mesh == key.mesh &&
            header.leastTriangles == key.options.leastTriangles && header.mostLevels == key.options.mostLevels &&
+           header.vertices == static_cast<std::uint32_t>(key.options.vertices) &&
            header.primitiveCount == mesh.primitives.size() && header.triangleCount == mesh.triangleCount() &&
            header.levelCount >= 1 && header.end <= static_cast<std::uint32_t>(lastPyramidEnd);
 }

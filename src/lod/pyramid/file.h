@@ -46,9 +46,9 @@ struct PyramidFileHeader {
     std::uint32_t vertexCount = 0;
     std::uint32_t triangleCount = 0;  // of level 0
     std::uint32_t repairedFaces = 0;
-    std::uint32_t end = 0;  // PyramidEnd
-    std::uint32_t unused = 0;
-    double minimum[3] = {};  // bounds
+    std::uint32_t end = 0;       // PyramidEnd
+    std::uint32_t vertices = 0;  // LevelVertices
+    double minimum[3] = {};      // bounds
     double maximum[3] = {};
 };
 

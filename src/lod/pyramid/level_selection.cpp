@@ -19,6 +19,13 @@ double storedSize(const PyramidLevel& level, LodMetric metric) {
     return metric == LodMetric::size ? level.meanEdge : level.error;
 }
 
+// How often the triangles may be halved for edges of `target` px, at most as often as they are.
+double halvings(const Pyramid& pyramid, double pixelsPerUnit, double target) {
+    const double coarsest = static_cast<double>(pyramid.levels.size() - 1);
+    const double edge = pyramid.levels.front().meanEdge * pixelsPerUnit;
+    return edge > 0 ? std::clamp(2 * std::log2(target / edge), 0.0, coarsest) : coarsest;
+}
+
 // Where `target` lies between the sizes of two levels, 0 to 1. `size` interpolates logarithms: halving the triangles
 // multiplies the edges. Errors start at 0 and are interpolated as they are.
 double between(double fine, double coarse, double target, LodMetric metric) {
@@ -43,8 +50,20 @@ const char* lodModeName(LodMode mode) {
     return "";
 }
 
+const char* lodMetricName(LodMetric metric) {
+    switch (metric) {
+        case LodMetric::size:
+            return "size";
+        case LodMetric::error:
+            return "error";
+        case LodMetric::halving:
+            return "halving";
+    }
+    return "";
+}
+
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
-    const LodThresholds& reference = metric == LodMetric::size ? referenceSize : referenceError;
+    const LodThresholds& reference = metric == LodMetric::error ? referenceError : referenceSize;
     const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
     return {reference.blur * std::min(factor, largestFactor), reference.size * std::min(factor, 1.0)};
 }
@@ -60,6 +79,7 @@ double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric 
     const double coc = query.coc > 0 ? query.coc : 0;
     const double target = std::max(thresholds.blur > 0 ? thresholds.blur * coc : 0, thresholds.size);
     if (!(target > 0)) return 0;
+    if (metric == LodMetric::halving) return halvings(pyramid, query.pixelsPerUnit, target);
 
     // The first level that is coarser than the target; λ lies just before it.
     for (std::size_t l = 0; l < pyramid.levels.size(); ++l) {

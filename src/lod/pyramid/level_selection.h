@@ -9,7 +9,8 @@
 
 namespace defocus {
 
-const char* lodModeName(LodMode mode);  // as the command line has it
+const char* lodModeName(LodMode mode);        // as the command line has it
+const char* lodMetricName(LodMetric metric);  // the same
 
 struct LodThresholds {
     double blur = 0;  // kBlur: target px per px of CoC
@@ -35,6 +36,7 @@ struct LevelQuery {
 
 // Chooses λ in [0, levels − 1], continuous in the query; τ = max(blur·c, size).
 //   size:  λ is where the stored mean edges, interpolated in their logarithm, project to τ.
+//   halving: λ = 2·log2(τ/d), d the mean edge of level 0 as it projects: edges grow by √2 where triangles are halved.
 //   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]) between the stored errors projected to px.
 // A projection of negative or infinite size, or of none that is a number, gives λ = 0; one of 0 px (a point) gives the
 // coarsest level.

@@ -147,6 +147,33 @@ FittedLevel fitted(const FitSource& source, SimplifiedLevel level) {
     return result;
 }
 
+// The level with the values that its vertices have in the mesh. Of twins both have the same.
+FittedLevel surviving(const Vertices& vertices, SimplifiedLevel level) {
+    FittedLevel result;
+    const auto own = [&]<typename T>(const std::vector<T>& values, Numbered<LevelVertexNumber, T>& kept) {
+        if (values.empty()) return;
+        kept.reserve(level.mesh.sources.size());
+        for (const MeshVertexNumber v : level.mesh.sources) kept.push_back(values[v.value]);
+    };
+    own(vertices.positions, result.fit.positions);
+    own(vertices.normals, result.fit.normals);
+    own(vertices.colors, result.fit.colors);
+    own(vertices.uv0, result.fit.uv0);
+    own(vertices.uv1, result.fit.uv1);
+    result.removed = std::move(level.removed);
+    result.own = std::move(level.mesh.triangles);
+    result.numbers = std::move(level.numbers);
+    return result;
+}
+
+// Of the box around the triangles, without what is no number.
+double diagonalOf(const Vertices& vertices, const TriangleSet<MeshVertexNumber>& triangles) {
+    Bounds bounds;
+    for (const MeshVertexNumber v : triangles.indices)
+        if (isFinite(vertices.positions[v.value])) bounds.extend(glm::dvec3(vertices.positions[v.value]));
+    return bounds.empty() ? 0 : glm::length(bounds.size());
+}
+
 // At least as far as any point of what the level lacks is from what it has, and as large as what it lacks.
 double removedError(const std::vector<Ball>& removed, const Surface& level) {
     double error = 0;
@@ -211,6 +238,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
     Pyramid pyramid;
     Simplification simplification;
     double diagonal = 0;
+    const bool fits = options.vertices == LevelVertices::fitted;
     if (options.mostLevels > 1) {
         const VertexGroups smoothing = smoothingGroups(vertices.normals, positions);
         std::optional<FitSource> source;  // once the first level is there: collapsing the whole mesh takes most memory
@@ -219,14 +247,14 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         std::vector<FittedLevel> coarser(
             std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
         Tasks tasks(helpers);
-        simplification = simplify(vertices, positions, smoothing, levels[0].triangles,
-                                  {options.leastTriangles, options.mostLevels - 1}, tasks,
-                                  [&](std::uint32_t l, SimplifiedLevel level) {
-                                      std::call_once(prepared, prepare);
-                                      coarser[l] = fitted(*source, std::move(level));
-                                  });
+        simplification = simplify(
+            vertices, positions, smoothing, levels[0].triangles, {options.leastTriangles, options.mostLevels - 1, fits},
+            tasks, [&](std::uint32_t l, SimplifiedLevel level) {
+                if (fits) std::call_once(prepared, prepare);
+                coarser[l] = fits ? fitted(*source, std::move(level)) : surviving(vertices, std::move(level));
+            });
         tasks.wait();
-        if (source) diagonal = glm::length(source->bounds.size());
+        if (simplification.levelCount > 0) diagonal = diagonalOf(vertices, levels[0].triangles);
         coarser.resize(simplification.levelCount);
         std::move(coarser.begin(), coarser.end(), std::back_inserter(levels));
     }
@@ -325,6 +353,10 @@ void measureDeformations(Pyramid& pyramid, const Mesh& mesh) {
         Bounds& bounds = pyramid.morphBounds.emplace_back(boundsOf(target.positions));
         bounds.extend(glm::dvec3(0));
     }
+}
+
+const char* levelVerticesName(LevelVertices vertices) {
+    return vertices == LevelVertices::fitted ? "fitted" : "surviving";
 }
 
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {

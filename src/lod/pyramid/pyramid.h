@@ -2,9 +2,9 @@
 // Pyramid: a mesh and its simplifications, each level about half the triangles of the one before (level 0 is the mesh).
 //
 // All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
-// together), so level l uses the prefix [0, vertexCount[l]): joints, weights, tangents and morph targets are those of the
-// surviving vertices. Positions, normals, colours and texture coordinates are each level's own, fitted to level 0
-// (level_fit.h).
+// together), so level l uses the prefix [0, vertexCount[l]): joints, weights, tangents and morph targets are those of
+// the surviving vertices. Positions, normals, colours and texture coordinates are each level's own, fitted to level 0
+// (level_fit.h), or with LevelVertices::surviving those of the surviving vertices, too.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "defocus/settings.h"
 #include "lod/simplify/pyramid_end.h"
 #include "scene/mesh.h"
 
@@ -43,9 +44,9 @@ struct PyramidLevel {
     std::uint32_t vertexCount = 0;       // the prefix of the vertex buffer that the level uses
     std::uint32_t triangleCount = 0;
     std::vector<Cluster> clusters;  // their ranges follow each other over those of the primitives
-    // These are fitted to level 0 (there: the mesh's own) and lie inside its bounds; vertices at one position stay at
-    // one. Normals have a length of at most 1: the shorter one is, the more the normals that it stands for differ, and
-    // the less light a matt surface throws back.
+    // These are fitted to level 0 (there, and of vertices that survive: the mesh's own) and lie inside its bounds;
+    // vertices at one position stay at one. Fitted normals have a length of at most 1: the shorter one is, the more the
+    // normals that it stands for differ, and the less light a matt surface throws back.
     std::vector<glm::vec3> positions;  // vertexCount
     std::vector<glm::vec3> normals;    // vertexCount
     std::vector<glm::vec4> colors;     // vertexCount; empty without colours. A fitted one may lie outside [0, 1].
@@ -81,7 +82,10 @@ struct Pyramid {
 struct PyramidOptions {
     std::uint32_t leastTriangles = 64;  // halving ends here (the last collapse may take one triangle more)
     int mostLevels = 24;                // level 0 included
+    LevelVertices vertices = LevelVertices::fitted;
 };
+
+const char* levelVerticesName(LevelVertices vertices);  // as the command line has it
 
 // Builds a mesh's pyramid. Deterministic: same mesh, same pyramid, bit for bit. Level 0 keeps every triangle of the
 // mesh. Levels end where a further one would save less than a quarter of the triangles. Throws Error for an index

@@ -323,8 +323,8 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
         }
         compact(s);
         const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
-        tasks.add([origin = s.origin, picture, take, l = result.levelCount++] {
-            SimplifiedLevel level = described(*origin, *picture);
+        tasks.add([origin = s.origin, picture, take, anchors = options.anchors, l = result.levelCount++] {
+            SimplifiedLevel level = described(*origin, *picture, anchors);
             *picture = {};  // before what takes the most memory
             take(l, std::move(level));
         });

@@ -32,6 +32,7 @@ constexpr std::size_t fewestToGiveBack = 16'384;  // triangles of a mesh whose f
 struct SimplifyOptions {
     std::uint32_t leastTriangles = 64;  // halving ends here
     int mostLevels = 23;                // without level 0
+    bool anchors = true;                // levels come with them; without, no level can be fitted
 };
 
 struct Ball {

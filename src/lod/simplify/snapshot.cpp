@@ -360,9 +360,9 @@ Snapshot snapshot(Simplifier& s, std::size_t primitiveCount) {
     return level;
 }
 
-SimplifiedLevel described(const Origin& origin, const Snapshot& picture) {
+SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors) {
     SimplifiedLevel level;
-    level.anchors = anchors(origin, picture);
+    if (withAnchors) level.anchors = anchors(origin, picture);
     level.mesh.triangles.primitiveIndexCounts = picture.drawn.primitiveIndexCounts;
     const std::size_t vertexCount = origin.firstVertex.size();
     Numbered<MeshVertexNumber, LevelVertexNumber> local(vertexCount + picture.twins.size());

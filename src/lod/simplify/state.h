@@ -118,7 +118,7 @@ struct Snapshot {
 
 // snapshot.cpp: takes a picture of what compact() has left.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
-// The level of which the picture was taken, with its anchors.
-SimplifiedLevel described(const Origin& origin, const Snapshot& picture);
+// The level of which the picture was taken, with its anchors unless they are not wanted.
+SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors);
 
 }  // namespace defocus

@@ -20,9 +20,9 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     options.fStops = {small->view.lens.fStop * 8};
     options.sweepSamples = 5;
     options.runs = 2;
-    options.pyramidMilliseconds = 12;
+    const std::vector<SpeedupForm> forms = {{"", &small->world, {}, 12}};
     std::vector<SpeedupRow> rows;
-    measureSpeedup(small->world, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
+    measureSpeedup(forms, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
 
     ASSERT_EQ(rows.size(), 9u);  // 3 settings, 3 modes
     const std::uint32_t samples[3] = {4, 9, 5};
@@ -80,10 +80,92 @@ TEST(Speedup, hasNoReferenceWhereNoneIsWanted) {
     options.sampleCounts = {2};
     options.runs = 1;
     options.referenceSamples = 0;
-    measureSpeedup(small->world, small->view, options, [](const SpeedupRow& row) {
+    const std::vector<SpeedupForm> forms = {{"", &small->world, {}, 0}};
+    measureSpeedup(forms, small->view, options, [](const SpeedupRow& row) {
         EXPECT_FALSE(row.fromReference);
         EXPECT_EQ(row.referenceSamples, 0u);
     });
+}
+
+// Each threshold alone draws at least as much as both, and what it draws is what a plan of its own says.
+TEST(Speedup, tellsApartWhatSizeAndBlurContribute) {
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    const std::unique_ptr<SmallWorld> small = fiveSpheres();
+    SpeedupOptions options;
+    options.sampleCounts = {8};
+    options.runs = 1;
+    options.referenceSamples = 0;
+    // Spheres in focus have levels by their size, the others by their blur.
+    RenderSettings plan;
+    plan.thresholds = {2, 3};
+    const std::vector<SpeedupForm> forms = {{"", &small->world, plan, 0}};
+    std::vector<SpeedupRow> rows;
+    measureSpeedup(forms, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_FALSE(rows[0].sizeOnly);
+    EXPECT_FALSE(rows[1].blurOnly);
+    ASSERT_TRUE(rows[2].sizeOnly && rows[2].blurOnly);
+    const auto planned = [&](double blur, double size) {
+        RenderSettings settings;
+        settings.sampleCount = 8;
+        settings.thresholds = {blur, size};
+        return planFrame(small->world, small->view, settings).trianglesDrawn;
+    };
+    EXPECT_EQ(rows[2].triangles, planned(2, 3));
+    EXPECT_EQ(rows[2].sizeOnly->triangles, planned(0, 3));
+    EXPECT_EQ(rows[2].blurOnly->triangles, planned(2, 0));
+    EXPECT_LT(rows[2].triangles, rows[2].sizeOnly->triangles);
+    EXPECT_LT(rows[2].triangles, rows[2].blurOnly->triangles);
+    EXPECT_LT(rows[2].blurOnly->triangles, rows[0].triangles);
+    EXPECT_GT(rows[2].sizeOnly->fromFullDetail.psnr, rows[2].fromFullDetail.psnr);
+
+    const std::string header = speedupHeader();
+    EXPECT_NE(header.find("size"), std::string::npos);
+    EXPECT_EQ(speedupLine(rows[2]).find("nan"), std::string::npos);
+    const nlohmann::json json = nlohmann::json::parse(speedupJson(rows, {}))["rows"];
+    EXPECT_TRUE(json[0]["sizeOnly"].is_null());
+    EXPECT_EQ(json[2]["sizeOnly"]["triangles"], rows[2].sizeOnly->triangles);
+    EXPECT_EQ(json[2]["blurOnly"]["triangles"], rows[2].blurOnly->triangles);
+}
+
+// Each form is compared with its own full detail: at the same samples, which differ between the two.
+TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    const std::unique_ptr<SmallWorld> small = fiveSpheres();
+    World published = small->world;
+    PyramidOptions surviving;
+    surviving.vertices = LevelVertices::surviving;
+    published.pyramids = buildPyramids(small->scene.meshes, surviving);
+    RenderSettings halton;
+    halton.sequence = Sequence::halton;
+    SpeedupOptions options;
+    options.sampleCounts = {4};
+    options.runs = 1;
+    options.referenceSamples = 0;
+    options.methods = {parseMethodUse("circular:far-components=2,resolution=half")};
+    const std::vector<SpeedupForm> forms = {{"published", &published, halton, 5}, {"", &small->world, {}, 7}};
+    std::vector<SpeedupRow> rows;
+    measureSpeedup(forms, small->view, options, [&](const SpeedupRow& row) { rows.push_back(row); });
+    ASSERT_EQ(rows.size(), 7u);
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(rows[i].preset, i < 3 ? "published" : "");
+        EXPECT_EQ(rows[i].method, "accumulation");
+        EXPECT_EQ(rows[i].speedUp, rows[i / 3 * 3].milliseconds.median / rows[i].milliseconds.median);
+    }
+    EXPECT_EQ(rows[0].fromFullDetail.rmse, 0);
+    EXPECT_EQ(rows[3].fromFullDetail.rmse, 0);
+    EXPECT_NE(rows[2].fromFullDetail.rmse, rows[5].fromFullDetail.rmse);
+    EXPECT_EQ(rows[2].pyramidMilliseconds, 5);
+    EXPECT_EQ(rows[5].pyramidMilliseconds, 7);
+    EXPECT_EQ(rows[6].method.substr(0, 9), "circular:");
+    EXPECT_EQ(rows[6].method.find(','), std::string::npos);  // it stands in CSV
+    EXPECT_EQ(rows[6].mode, LodMode::off);                   // a pinhole's image has no blur to hide levels
+    EXPECT_GT(rows[6].fromFullDetail.rmse, 0);
+    EXPECT_NE(speedupLine(rows[6]).find("circular"), std::string::npos);
+    EXPECT_NE(speedupLine(rows[0]).find("published"), std::string::npos);
+    const std::string csv = speedupCsv(rows);
+    const auto commas = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 8 * commas);
 }
 
 }  // namespace

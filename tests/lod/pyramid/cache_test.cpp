@@ -455,13 +455,24 @@ TEST(PyramidCache, storesAtFirstAndLoadsAfterwards) {
 TEST(PyramidCache, otherOptionsHaveTheirOwnFiles) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(24, 16)};
-    const PyramidOptions other{.leastTriangles = 200};
+    const std::vector<PyramidOptions> others = {{.leastTriangles = 200}, {.vertices = LevelVertices::surviving}};
     EXPECT_EQ(cachedPyramids(meshes, scratch.path()).loaded, 0u);
-    EXPECT_EQ(cachedPyramids(meshes, scratch.path(), other).loaded, 0u);
+    for (const PyramidOptions& other : others) EXPECT_EQ(cachedPyramids(meshes, scratch.path(), other).loaded, 0u);
     EXPECT_EQ(cachedPyramids(meshes, scratch.path()).loaded, 1u);
-    const CachedPyramids again = cachedPyramids(meshes, scratch.path(), other);
-    EXPECT_EQ(again.loaded, 1u);
-    expectEqual(again.pyramids[0], buildPyramid(meshes[0], other));
+    for (const PyramidOptions& other : others) {
+        const CachedPyramids again = cachedPyramids(meshes, scratch.path(), other);
+        EXPECT_EQ(again.loaded, 1u);
+        expectEqual(again.pyramids[0], buildPyramid(meshes[0], other));
+    }
+}
+
+// Even if it were under another's name.
+TEST(PyramidCache, aFileIsOfItsOwnVertices) {
+    const Mesh mesh = sphere(24, 16);
+    const PyramidOptions surviving{.vertices = LevelVertices::surviving};
+    const Bytes bytes = encodePyramid(buildPyramid(mesh, surviving), mesh, pyramidKey(mesh, surviving));
+    EXPECT_TRUE(decodePyramid(bytes, mesh, pyramidKey(mesh, surviving)));
+    EXPECT_FALSE(decodePyramid(bytes, mesh, pyramidKey(mesh, {})));
 }
 
 TEST(PyramidCache, damageIsReplaced) {

@@ -34,6 +34,23 @@ TEST(LevelOfDetail, OfAUniformMeshIsTwiceTheLogarithmOfTargetOverEdge) {
     }
 }
 
+// Whatever sizes the coarser levels have: each is taken for half of the one before.
+TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
+    Pyramid pyramid = uniformPyramid();
+    for (std::size_t l = 1; l < pyramid.levels.size(); ++l) pyramid.levels[l].meanEdge *= 5;
+    for (double coc = 0.5; coc < 40; coc *= 1.1) {
+        const double target = std::max(0.7 * coc, 1.5);
+        const double expected = std::min(std::max(2 * std::log2(target / 3), 0.0), 4.0);
+        EXPECT_NEAR(levelOfDetail(pyramid, {3, coc}, LodMetric::halving, {0.7, 1.5}), expected, 1e-12);
+    }
+    EXPECT_EQ(levelOfDetail(pyramid, {0, 1}, LodMetric::halving, {0.7, 1.5}), 4);  // a point
+    EXPECT_EQ(levelOfDetail(pyramid, {3, 1}, LodMetric::halving, {0, 0}), 0);
+    EXPECT_EQ(levelOfDetail(pyramid, {-1, 1}, LodMetric::halving, {0.7, 1.5}), 0);
+    EXPECT_EQ(levelOfDetail({}, {3, 1}, LodMetric::halving, {0.7, 1.5}), 0);
+    pyramid.levels.resize(1);
+    EXPECT_EQ(levelOfDetail(pyramid, {3, 40}, LodMetric::halving, {0.7, 1.5}), 0);
+}
+
 TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
     const Pyramid pyramid = uniformPyramid();
     const auto lambda = [&](double target) {

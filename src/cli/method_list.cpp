@@ -1,0 +1,33 @@
+#include "cli/method_list.h"
+
+#include <algorithm>
+
+namespace defocus {
+
+std::vector<std::string> partsOf(const std::string& text) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+std::vector<MethodUse> parseMethods(const std::string& text) {
+    std::vector<std::string> names;
+    for (const std::string& part : partsOf(text)) {
+        const std::size_t equals = part.find('=');
+        const bool more = equals != std::string::npos && part.find(':') > equals;
+        if (more && !names.empty())
+            names.back() += "," + part;
+        else
+            names.push_back(part);
+    }
+    std::vector<MethodUse> uses;
+    uses.reserve(names.size());
+    for (const std::string& name : names) uses.push_back(parseMethodUse(name));
+    return uses;
+}
+
+}  // namespace defocus

@@ -1,0 +1,53 @@
+#include "frame/presets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "frame/settings.h"
+
+namespace defocus {
+
+std::span<const Preset> presets() {
+    // Jeong, Kim and Lee 2011. Their thresholds are as fixed as these, which are ours at 64 samples.
+    static const std::vector<Preset> all = {
+        {"jeong2011",
+         "Jeong, Kim and Lee 2011 as published: Halton samples, fixed thresholds, levels by the blur at the box's "
+         "centre and in steps of half, of surviving vertices",
+         {{"sequence", "halton"},
+          {"lod", "fractional"},
+          {"blurThreshold", "0.25"},
+          {"sizeThreshold", "3.3"},
+          {"lodMetric", "halving"},
+          {"lodCoc", "centre"},
+          {"levelVertices", "surviving"}}},
+    };
+    return all;
+}
+
+const Preset& presetNamed(std::string_view name) {
+    const auto found = std::ranges::find(presets(), name, &Preset::name);
+    if (found == presets().end()) throw UsageError(fmt::format("there is no preset '{}'", name));
+    return *found;
+}
+
+void applyPreset(const Preset& preset, Request& request) {
+    for (const PresetValue& value : preset.values) settingNamed(value.setting)->set(request, value.text);
+}
+
+void clearPreset(const Preset& preset, Request& request) {
+    for (const PresetValue& value : preset.values) settingNamed(value.setting)->clear(request);
+}
+
+const Preset* presetOf(const Request& request) {
+    const auto has = [&](const Preset& preset) {
+        return std::ranges::all_of(preset.values, [&](const PresetValue& value) {
+            return settingNamed(value.setting)->text(request) == value.text;
+        });
+    };
+    const auto found = std::ranges::find_if(presets(), has);
+    return found == presets().end() ? nullptr : &*found;
+}
+
+}  // namespace defocus

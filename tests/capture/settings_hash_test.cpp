@@ -1,0 +1,49 @@
+// The hash that tells a frame which is there already: what changes the picture changes it, and nothing else does.
+
+#include "capture/settings_hash.h"
+
+#include <gtest/gtest.h>
+
+#include "frame/presets.h"
+#include "frame/settings.h"
+
+namespace defocus {
+namespace {
+
+std::string hashOf(const Request& request) {
+    FilmSettings film;
+    film.request = request;
+    SequenceFrame frame;
+    frame.settings = request.settings;
+    return settingsHash(film, frame);
+}
+
+TEST(SettingsHash, changesWithWhatChangesThePicture) {
+    const std::string standard = hashOf({});
+    const std::vector<std::pair<const char*, const char*>> values = {
+        {"levelVertices", "surviving"}, {"lodMetric", "halving"}, {"lodCoc", "centre"}, {"sequence", "halton"},
+        {"blurThreshold", "0.25"},      {"samples", "65"},        {"seed", "1"},        {"layerFormat", "rgba32f"}};
+    for (const auto& [name, value] : values) {
+        Request request;
+        setByName(request, name, value);
+        EXPECT_NE(hashOf(request), standard) << name;
+    }
+    for (const auto& [name, value] :
+         std::vector<std::pair<const char*, const char*>>{{"wave", "3"}, {"noCache", "true"}}) {
+        Request request;
+        setByName(request, name, value);
+        EXPECT_EQ(hashOf(request), standard) << name;
+    }
+}
+
+TEST(SettingsHash, isThatOfWhatAPresetSets) {
+    Request byPreset;
+    setByName(byPreset, "preset", "jeong2011");
+    Request byValue;
+    for (const PresetValue& value : presetNamed("jeong2011").values) setByName(byValue, value.setting, value.text);
+    EXPECT_EQ(hashOf(byPreset), hashOf(byValue));
+    EXPECT_NE(hashOf(byPreset), hashOf({}));
+}
+
+}  // namespace
+}  // namespace defocus

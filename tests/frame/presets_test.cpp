@@ -1,0 +1,178 @@
+// Presets: what they set, and that the plan of jeong2011 is what the paper's formulas give. The formulas are written
+// out here once more, from scene and camera alone.
+
+#include "frame/presets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "frame/prepared_frame.h"
+#include "frame/settings.h"
+#include "plan/frame_plan.h"
+
+namespace defocus {
+namespace {
+
+const Preset& jeong() {
+    return presetNamed("jeong2011");
+}
+
+TEST(Presets, setWhatTheyList) {
+    for (const Preset& preset : presets()) {
+        Request request;
+        EXPECT_EQ(presetOf(request), nullptr);
+        applyPreset(preset, request);
+        EXPECT_EQ(presetOf(request), &preset);
+        for (const PresetValue& value : preset.values) {
+            const Setting* const setting = settingNamed(value.setting);
+            ASSERT_NE(setting, nullptr) << value.setting;
+            EXPECT_EQ(setting->text(request), value.text) << value.setting;
+        }
+        // And nothing else.
+        clearPreset(preset, request);
+        for (const Setting& setting : settings()) EXPECT_FALSE(changedText(setting, request)) << setting.name;
+    }
+    EXPECT_THROW(presetNamed("jeong2013"), UsageError);
+}
+
+TEST(Presets, areLeftByAnotherValue) {
+    for (const PresetValue& value : jeong().values) {
+        Request request;
+        applyPreset(jeong(), request);
+        if (value.setting == "lod")  // as it is by default
+            request.settings.lod = LodMode::nearest;
+        else
+            settingNamed(value.setting)->clear(request);
+        EXPECT_EQ(presetOf(request), nullptr) << value.setting;
+    }
+}
+
+TEST(Presets, comeBeforeWhatTheySet) {
+    const auto place = [](std::string_view name) { return settingNamed(name) - settings().data(); };
+    for (const PresetValue& value : jeong().values) EXPECT_LT(place("preset"), place(value.setting)) << value.setting;
+}
+
+// Six fish, in focus and far out of it.
+class JeongPlan : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        Request request = asked(64);
+        frame_ = new PreparedFrame(prepareFrame(request));
+    }
+    static void TearDownTestSuite() {
+        delete frame_;
+        frame_ = nullptr;
+    }
+    static Request asked(std::uint32_t samples) {
+        Request request;
+        request.fishCount = 6;
+        request.trianglesPerFish = 30'000;
+        request.noCache = true;
+        request.lens.fStop = 0.5;
+        setByName(request, "preset", "jeong2011");
+        request.settings.sampleCount = samples;
+        return request;
+    }
+    static FramePlan planOf(std::uint32_t samples) {
+        return planFrame(frame_->world, frame_->view, asked(samples).settings);
+    }
+    static inline PreparedFrame* frame_ = nullptr;
+};
+
+// Digits of `index` in the base, behind the point and the other way round (Halton 1960).
+double mirrored(std::uint32_t index, std::uint32_t base) {
+    double result = 0;
+    for (double weight = 1.0 / base; index > 0; index /= base, weight /= base) result += (index % base) * weight;
+    return result;
+}
+
+// Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
+glm::dvec2 onDisk(double x, double y) {
+    const double a = 2 * x - 1;
+    const double b = 2 * y - 1;
+    if (a == 0 && b == 0) return {0, 0};
+    const double quarter = std::numbers::pi / 4;
+    const double radius = std::abs(a) > std::abs(b) ? a : b;
+    const double angle = std::abs(a) > std::abs(b) ? quarter * (b / a) : 2 * quarter - quarter * (a / b);
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+TEST_F(JeongPlan, samplesAreHaltonsPointsFrom1On) {
+    const FramePlan plan = planOf(64);
+    ASSERT_EQ(plan.samples.size(), 64u);
+    // All moved alike, so that the first lies in the middle of the lens.
+    const auto moved = [](std::uint32_t i, std::uint32_t base) {
+        const double x = mirrored(i + 1, base) - 1.0 / base + 0.5;
+        return x - std::floor(x);
+    };
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const glm::dvec2 expected = onDisk(moved(i, 2), moved(i, 3));
+        EXPECT_NEAR(plan.samples[i].lens.x, expected.x, 1e-6) << "sample " << i;
+        EXPECT_NEAR(plan.samples[i].lens.y, expected.y, 1e-6) << "sample " << i;
+    }
+}
+
+TEST_F(JeongPlan, levelsFollowTheBlurAtTheBoxesCentre) {
+    for (const std::uint32_t samples : {16u, 64u, 512u}) {
+        const FramePlan plan = planOf(samples);
+        const Lens& lens = plan.view.lens;
+        const double tanHalfWidth = lens.horizontalAperture / (2 * lens.focalLength);
+        const double aperture = lens.focalLength / (1000 * lens.fStop);
+        int between = 0;
+        int byBlur = 0;
+        ASSERT_GE(plan.objects.size(), 5u);
+        for (const ObjectPlan& object : plan.objects) {
+            SCOPED_TRACE(object.name);
+            const double centre = -object.viewBox.centre().z;
+            const double nearest = -object.viewBox.maximum.z;
+            const double pixels = plan.view.width / (2 * tanHalfWidth);  // of 1 m at 1 m
+            const double blur = aperture * std::abs(1 / lens.focusDistance - 1 / centre) * pixels;
+            const Pyramid& pyramid = frame_->world.pyramids[static_cast<std::size_t>(object.mesh)];
+            const double scale = glm::length(glm::dvec3(object.viewFromObject[0]));  // the same along each axis
+            const double edge = pyramid.levels[0].meanEdge * scale * pixels / nearest;
+            const double target = std::max(0.25 * blur, 3.3);
+            const auto coarsest = static_cast<double>(pyramid.levels.size() - 1);
+            const double lambda = std::clamp(2 * std::log2(target / edge), 0.0, coarsest);
+            EXPECT_NEAR(object.lambda, lambda, 1e-6);
+
+            // The first samples draw the coarser level.
+            const double whole = std::floor(object.lambda);
+            const auto coarse = static_cast<std::uint32_t>(std::lround((object.lambda - whole) * samples));
+            EXPECT_EQ(object.coarse.sampleCount, coarse);
+            EXPECT_EQ(object.coarse.firstSample, 0u);
+            EXPECT_EQ(object.fine.firstSample, coarse);
+            EXPECT_EQ(object.fine.sampleCount, samples - coarse);
+            EXPECT_EQ(object.fine.level, static_cast<std::uint32_t>(whole));
+            if (coarse > 0) {
+                EXPECT_EQ(object.coarse.level, object.fine.level + 1);
+            }
+            between += lambda > 0 && lambda < coarsest ? 1 : 0;
+            byBlur += 0.25 * blur > 3.3 ? 1 : 0;
+        }
+        EXPECT_GT(between, 2);
+        EXPECT_GT(byBlur, 1);
+        EXPECT_LT(byBlur, static_cast<int>(plan.objects.size()));
+    }
+}
+
+TEST_F(JeongPlan, levelsHaveTheValuesOfLevel0) {
+    for (std::size_t m = 0; m < frame_->world.pyramids.size(); ++m) {
+        const Pyramid& pyramid = frame_->world.pyramids[m];
+        const Vertices& own = frame_->scene->meshes[m].vertices;
+        ASSERT_GT(pyramid.levels.size(), 2u);
+        for (const PyramidLevel& level : pyramid.levels)
+            for (std::uint32_t v = 0; v < level.vertexCount; ++v) {
+                ASSERT_EQ(level.positions[v], own.positions[pyramid.source[v]]);
+                ASSERT_EQ(level.normals[v], own.normals[pyramid.source[v]]);
+                if (!own.colors.empty()) {
+                    ASSERT_EQ(level.colors[v], own.colors[pyramid.source[v]]);
+                }
+            }
+    }
+}
+
+}  // namespace
+}  // namespace defocus
