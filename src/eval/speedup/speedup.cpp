@@ -85,12 +85,12 @@ private:
 enum class Thresholds { both, size, blur };
 
 // One of the frames that are compared with each other.
-struct Subject {
+struct SpeedupSubject {
     const SpeedupForm* form = nullptr;
     MethodUse use;
     LodMode mode = LodMode::off;
     Thresholds thresholds = Thresholds::both;
-    const Subject* fullDetail = nullptr;  // of the same form
+    const SpeedupSubject* fullDetail = nullptr;  // of the same form
     std::unique_ptr<Renderer> renderer;
     FramePlan plan;
     std::vector<double> milliseconds;
@@ -105,10 +105,10 @@ bool followsLevels(const Method& method) {
 }
 
 // In the order in which the rows come; what belongs to a row follows it.
-std::deque<Subject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
-    std::deque<Subject> subjects;  // their places stay
+std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
+    std::deque<SpeedupSubject> subjects;  // their places stay
     const auto add = [&](const SpeedupForm& form, const MethodUse& use, LodMode mode, Thresholds thresholds) {
-        Subject& subject = subjects.emplace_back();
+        SpeedupSubject& subject = subjects.emplace_back();
         subject.form = &form;
         subject.use = use;
         subject.mode = mode;
@@ -122,7 +122,7 @@ std::deque<Subject> subjectsOf(std::span<const SpeedupForm> forms, const std::ve
             add(form, accumulation, LodMode::fractional, one);
         for (std::size_t i = first; i < subjects.size(); ++i) subjects[i].fullDetail = &subjects[first];
     }
-    const Subject& lastFullDetail = *subjects.back().fullDetail;
+    const SpeedupSubject& lastFullDetail = *subjects.back().fullDetail;
     for (const MethodUse& use : methods) {
         add(forms.back(), use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, Thresholds::both);
         subjects.back().fullDetail = &lastFullDetail;
@@ -130,7 +130,7 @@ std::deque<Subject> subjectsOf(std::span<const SpeedupForm> forms, const std::ve
     return subjects;
 }
 
-FramePlan planOf(const Subject& subject, const Setting& setting, std::uint32_t samples) {
+FramePlan planOf(const SpeedupSubject& subject, const Setting& setting, std::uint32_t samples) {
     RenderSettings settings = subject.form->plan;
     settings.sampleCount = samples;
     settings.lod = subject.mode;
@@ -140,7 +140,7 @@ FramePlan planOf(const Subject& subject, const Setting& setting, std::uint32_t s
 }
 
 // Shaders, uploads and the driver's own caches are ready before anything is timed.
-void prepare(Subject& subject, const Setting& setting, RendererOptions options) {
+void prepare(SpeedupSubject& subject, const Setting& setting, RendererOptions options) {
     const Clock::time_point begin = Clock::now();
     options.settings = subject.use.settings;
     subject.renderer = subject.use.method->make(*subject.form->world, options);
@@ -150,7 +150,7 @@ void prepare(Subject& subject, const Setting& setting, RendererOptions options) 
     finish(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
 }
 
-void run(Subject& subject) {
+void run(SpeedupSubject& subject) {
     finish(*subject.renderer, subject.plan);
     const RenderStats stats = subject.renderer->stats();
     subject.milliseconds.push_back(stats.renderMilliseconds);
@@ -158,16 +158,16 @@ void run(Subject& subject) {
     subject.image = subject.renderer->image();
 }
 
-double speedUpOf(const Subject& subject) {
+double speedUpOf(const SpeedupSubject& subject) {
     return spreadOf(subject.fullDetail->milliseconds).median / spreadOf(subject.milliseconds).median;
 }
 
-SpeedupPart partOf(const Subject& subject) {
+SpeedupPart partOf(const SpeedupSubject& subject) {
     return {spreadOf(subject.milliseconds).median, speedUpOf(subject), subject.plan.trianglesDrawn,
             compareImages(subject.fullDetail->image, subject.image)};
 }
 
-SpeedupRow rowOf(const Setting& setting, const Subject& subject, const ReferenceImage* reference) {
+SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const ReferenceImage* reference) {
     SpeedupRow row;
     row.sweep = setting.sweep;
     row.preset = subject.form->preset;
@@ -194,7 +194,7 @@ SpeedupRow rowOf(const Setting& setting, const Subject& subject, const Reference
 }
 
 // Hands out a row for each subject that isn't part of another's.
-void visitRows(const std::deque<Subject>& subjects, const Setting& setting, const ReferenceImage* reference,
+void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& setting, const ReferenceImage* reference,
                const std::function<void(const SpeedupRow&)>& visit) {
     for (std::size_t i = 0; i < subjects.size();) {
         SpeedupRow row = rowOf(setting, subjects[i], reference);
@@ -215,10 +215,10 @@ void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const 
     std::uint64_t done = 0;
     for (const Setting& setting : settings) {
         const ReferenceImage* const reference = references.of(setting);
-        std::deque<Subject> subjects = subjectsOf(forms, options.methods);
-        for (Subject& subject : subjects) prepare(subject, setting, options.renderer);
+        std::deque<SpeedupSubject> subjects = subjectsOf(forms, options.methods);
+        for (SpeedupSubject& subject : subjects) prepare(subject, setting, options.renderer);
         for (int i = 0; i < options.runs; ++i)
-            for (Subject& subject : subjects) {
+            for (SpeedupSubject& subject : subjects) {
                 report(progress, "runs", done++, total);
                 run(subject);
             }
