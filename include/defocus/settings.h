@@ -29,9 +29,10 @@ enum class LodMode {
 
 // What levels are chosen by.
 enum class LodMetric {
-    size,     // target edge length in px, against the edges that the levels have
-    error,    // target deviation in px
-    halving,  // target edge length in px, as if each level had exactly half the triangles (Jeong, Kim and Lee 2011)
+    size,      // target edge length in px, against the edges that the levels have
+    error,     // target deviation in px
+    halving,   // target edge length in px, as if each level had exactly half the triangles (Jeong, Kim and Lee 2011)
+    measured,  // target error of the light that a blur leaves, as a share of how it varies there
 };
 
 // What coarser levels of a mesh are made of.
@@ -40,11 +41,13 @@ enum class LevelVertices {
     surviving,  // vertices of full detail with their own values, as published
 };
 
-// The target is max(blur · c, size) px for a circle of confusion of c px. What isn't given follows the number of
+// By size and by error the target is max(blur · c, size) px for a circle of confusion of c px. Measured levels err by
+// at most `light`, in standard deviations of the object's light within its blur. What isn't given follows the number of
 // samples, so that long renders converge to full detail.
 struct GivenThresholds {
-    std::optional<double> blur;  // px a px of blur, ≥ 0
-    std::optional<double> size;  // px, ≥ 0
+    std::optional<double> blur = {};   // px a px of blur, ≥ 0
+    std::optional<double> size = {};   // px, ≥ 0
+    std::optional<double> light = {};  // ≥ 0; of LodMetric::measured alone, which has neither of the others
 };
 
 struct RenderSettings {

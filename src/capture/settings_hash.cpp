@@ -98,7 +98,7 @@ std::string settingsHash(const FilmSettings& film, const SequenceFrame& frame) {
     addSettings(hashed, request);
     const LodThresholds thresholds =
         chosenThresholds(frame.settings.thresholds, frame.settings.metric, frame.settings.sampleCount);
-    hashed.add(frame.settings.firstSample, thresholds.blur, thresholds.size);
+    hashed.add(frame.settings.firstSample, thresholds.blur, thresholds.size, thresholds.light);
     return hashed.hash();
 }
 

@@ -261,11 +261,12 @@ void readOutput(const JsonReader& reader, Shot& shot) {
 
 Shot shotOf(const json& document, const fs::path& file) {
     const JsonReader reader(document, file.string());
-    reader.requireObject({"$schema",   "scene",         "fish",          "environment", "background",   "frameRate",
-                          "range",     "animation",     "shutter",       "sequence",    "camera",       "focus",
-                          "lens",      "size",          "samples",       "seed",        "animateSeed",  "lod",
-                          "lodMetric", "blurThreshold", "sizeThreshold", "method",      "layerFormat",  "output",
-                          "exposure",  "toneMap",       "video",         "preset",      "levelVertices"});
+    reader.requireObject({"$schema",       "scene",       "fish",        "environment",   "background",
+                          "frameRate",     "range",       "animation",   "shutter",       "sequence",
+                          "camera",        "focus",       "lens",        "size",          "samples",
+                          "seed",          "animateSeed", "lod",         "lodMetric",     "blurThreshold",
+                          "sizeThreshold", "method",      "layerFormat", "output",        "exposure",
+                          "toneMap",       "video",       "preset",      "levelVertices", "lightThreshold"});
     Shot shot;
     shot.file = file;
     if (const auto schema = reader.find("$schema")) static_cast<void>(schema->text());

@@ -202,6 +202,7 @@ void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
     addBenchDiffCommand(*bench);
     addPoppingCommand(*bench, global);
     addScalingCommand(*bench, global);
+    addPredictionCommand(*bench, global);
 }
 
 }  // namespace defocus

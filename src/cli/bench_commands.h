@@ -35,6 +35,7 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global);
 void addBenchDiffCommand(CLI::App& bench);
 void addPoppingCommand(CLI::App& bench, const GlobalOptions& global);
 void addScalingCommand(CLI::App& bench, const GlobalOptions& global);
+void addPredictionCommand(CLI::App& bench, const GlobalOptions& global);
 void addStabilityCommand(CLI::App& bench, const GlobalOptions& global);
 
 }  // namespace defocus

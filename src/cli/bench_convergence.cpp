@@ -241,11 +241,12 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional, LodMode::continuous};
                 return modes[parseChoice(part, {"off", "nearest", "fractional", "continuous"})];
             });
-    addList(command, "--metrics", "size,error,halving", options.metrics, "size", "What levels are chosen by",
-            [](const std::string& part) {
-                constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving};
-                return metrics[parseChoice(part, {"size", "error", "halving"})];
-            });
+    addList(
+        command, "--metrics", "size,error,halving,measured", options.metrics, "size", "What levels are chosen by",
+        [](const std::string& part) {
+            constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving, LodMetric::measured};
+            return metrics[parseChoice(part, {"size", "error", "halving", "measured"})];
+        });
     addList(command, "--threshold-factors", "F,F,…", options.thresholdFactors, "0.5,1,2",
             "Times the standard thresholds for each number of samples", [](const std::string& part) {
                 return parseNumber(part, {0, 1000});
@@ -292,8 +293,9 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
         bench.add_subcommand("convergence", "Error against run time, of each method and setting, from a reference");
     // Not what the bench goes through by itself; and images are compared at EV 0.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"preset", "samples", "targetError", "timeLimit", "lod", "blurThreshold",
-                                         "sizeThreshold", "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
+                settingsOf(frameGroups,
+                           {"preset", "samples", "targetError", "timeLimit", "lod", "blurThreshold", "sizeThreshold",
+                            "lightThreshold", "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
     addDeveloperSettings(*command, arguments->request, {"lodMetric"});

@@ -93,6 +93,7 @@ Metadata renderMetadata(const RenderReport& report) {
     metadata["defocus:layerFormat"] = report.stats.layerFormat;
     metadata["defocus:blurThreshold"] = report.plan.thresholds.blur;
     metadata["defocus:sizeThreshold"] = report.plan.thresholds.size;
+    metadata["defocus:lightThreshold"] = report.plan.thresholds.light;
     if (lens.exposureTime > 0) {
         metadata["expTime"] = lens.exposureTime;
         metadata["isoSpeed"] = lens.iso;
@@ -125,6 +126,7 @@ std::string statsJson(const RenderReport& report) {
         {"lodMetric", lodMetricName(settings.metric)},
         {"blurThreshold", report.plan.thresholds.blur},
         {"sizeThreshold", report.plan.thresholds.size},
+        {"lightThreshold", report.plan.thresholds.light},
         {"lens",
          {{"fStop", lens.fStop},
           {"focalLength", lens.focalLength},

@@ -390,6 +390,11 @@ Rows sampleRows() {
                                "Least target in pixels; without it, by the number of samples"),
                         "/sizeThreshold"),
                  "px"),
+        inShot(
+            number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(settings.thresholds.light),
+                   "Error of levels by --lod-metric measured, in standard deviations of their light within the blur; "
+                   "without it, by the number of samples"),
+            "/lightThreshold"),
         path("cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
              "Where simplified meshes are kept; without it, $XDG_CACHE_HOME/defocus or ~/.cache/defocus"),
         truth("noCache", "--no-cache", MEMBER(noCache), "Simplify the meshes anew and store nothing"),
@@ -436,10 +441,14 @@ Rows developerRows() {
     return {
         inShot(choice<LodMetric>(
                    "lodMetric", "--lod-metric",
-                   {{"size", LodMetric::size}, {"error", LodMetric::error}, {"halving", LodMetric::halving}},
+                   {{"size", LodMetric::size},
+                    {"error", LodMetric::error},
+                    {"halving", LodMetric::halving},
+                    {"measured", LodMetric::measured}},
                    MEMBER(settings.metric),
                    "Levels are chosen by the projected size of their edges, of their error, or of full detail's edges "
-                   "as if each level had exactly half the triangles"),
+                   "as if each level had exactly half the triangles; or by what the blur leaves of how they change the "
+                   "light"),
                "/lodMetric"),
         inShot(choice<LevelVertices>(
                    "levelVertices", "--level-vertices",

@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "core/error.h"
+#include "lod/pyramid/blurred_error.h"
+#include "plan/blurred_patches.h"
 #include "plan/motion.h"
 #include "plan/object_pose.h"
 #include "plan/visibility.h"
@@ -28,7 +30,12 @@ void checkRequest(const View& view, const RenderSettings& settings) {
     if (!(settings.cocTolerance > 0)) fail("CoC tolerance {} px: must be above 0", settings.cocTolerance);
     const LodThresholds thresholds =
         chosenThresholds(settings.thresholds, settings.metric, std::max(settings.sampleCount, 1u));
-    if (!(thresholds.blur >= 0) || !(thresholds.size >= 0)) fail("level-of-detail thresholds must be 0 or more");
+    if (!(thresholds.blur >= 0) || !(thresholds.size >= 0) || !(thresholds.light >= 0))
+        fail("level-of-detail thresholds must be 0 or more");
+    const bool measured = settings.metric == LodMetric::measured;
+    if (measured ? settings.thresholds.blur || settings.thresholds.size : settings.thresholds.light.has_value())
+        fail("levels by {} have {} alone", lodMetricName(settings.metric),
+             measured ? "a light threshold" : "a blur and a size threshold");
 }
 
 const Material& materialOf(const Scene& scene, const Primitive& primitive) {
@@ -85,15 +92,10 @@ ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t i
     return result;
 }
 
-// At the centre of the object's box in view space.
-double cocAtCentre(const ObjectPlan& object, const FramePlan& plan) {
-    const glm::dvec3 centre = object.viewBox.centre();
-    const glm::dvec2 ndc = glm::dvec2(centre) * glm::dvec2(1, plan.coc.aspect) / (-centre.z * plan.tanHalfHorizontal);
-    return std::abs(circleOfConfusion(plan.coc, -centre.z, plan.view.width, ndc, object.cocScale));
-}
-
 double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const FramePlan& plan) {
     if (plan.settings.lod == LodMode::off || object.nearestDepth <= plan.view.nearPlane) return 0;
+    if (plan.settings.metric == LodMetric::measured)
+        return levelOfBlurredError(pyramid, blurredPatches(object, plan), plan.thresholds.light);
     LevelQuery query;
     query.pixelsPerUnit =
         largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * object.nearestDepth);

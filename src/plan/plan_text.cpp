@@ -70,6 +70,12 @@ std::size_t momentCount(const FramePlan& plan) {
     return count;
 }
 
+std::string thresholdsText(const FramePlan& plan) {
+    const LodThresholds& thresholds = plan.thresholds;
+    if (plan.settings.metric == LodMetric::measured) return fmt::format("light threshold {:.4g}", thresholds.light);
+    return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
+}
+
 // No blur has no sign.
 double shownCoc(double coc) {
     return std::abs(coc) < 0.005 ? 0 : coc;
@@ -99,10 +105,10 @@ std::string planTable(const FramePlan& plan) {
     const Lens& lens = plan.view.lens;
     std::string text = fmt::format(
         "{} x {} px, {} samples of {}, {:.4g} mm f/{:.3g}, focus at {:.4g} m, aperture {:.4g} mm\n"
-        "level of detail: {}, {} metric, blur threshold {:.4g}, size threshold {:.4g} px, {}, {} vertices\n\n",
+        "level of detail: {}, {} metric, {}, {}, {} vertices\n\n",
         plan.view.width, plan.view.height, plan.samples.size(), sequenceName(plan.settings.sequence), lens.focalLength,
         lens.fStop, lens.focusDistance, plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
-        lodMetricName(plan.settings.metric), plan.thresholds.blur, plan.thresholds.size,
+        lodMetricName(plan.settings.metric), thresholdsText(plan),
         plan.settings.lodCocAtCentre ? "blur at the centre" : "smallest blur",
         levelVerticesName(plan.settings.levelVertices));
     if (!plan.moments.empty())
@@ -147,7 +153,8 @@ std::string planJson(const FramePlan& plan) {
                              {"coc", plan.settings.lodCocAtCentre ? "centre" : "smallest"},
                              {"vertices", levelVerticesName(plan.settings.levelVertices)},
                              {"blurThreshold", plan.thresholds.blur},
-                             {"sizeThreshold", plan.thresholds.size}}},
+                             {"sizeThreshold", plan.thresholds.size},
+                             {"lightThreshold", plan.thresholds.light}}},
                            {"objects", std::move(objects)},
                            {"leftOut", std::move(leftOut)},
                            {"triangles",

@@ -80,7 +80,7 @@ RenderSettings BlockSchedule::nextBlock() const {
     settings.sampleCount = std::min(blockSamples, stop_.sampleLimit - samples_);
     const LodThresholds thresholds =
         chosenThresholds(settings.thresholds, settings.metric, static_cast<std::uint32_t>(thresholdSamples()));
-    settings.thresholds = {thresholds.blur, thresholds.size};
+    settings.thresholds = fixedThresholds(thresholds, settings.metric);
     return settings;
 }
 

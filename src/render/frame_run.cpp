@@ -50,7 +50,7 @@ std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings) {
     const auto withThresholdsFor = [&](std::uint32_t samples) {
         const LodThresholds thresholds = chosenThresholds(settings.thresholds, settings.metric, samples);
         RenderSettings levels = settings;
-        levels.thresholds = {thresholds.blur, thresholds.size};
+        levels.thresholds = fixedThresholds(thresholds, settings.metric);
         return levels;
     };
     settings.sampleCount = LevelError::drawn;

@@ -67,7 +67,7 @@ void ProgressiveImage::planBlock() {
     settings.firstSample += block_ * blockSamples;
     const LodThresholds thresholds =
         chosenThresholds(settings.thresholds, settings.metric, (block_ + 1) * blockSamples);
-    settings.thresholds = {thresholds.blur, thresholds.size};
+    settings.thresholds = fixedThresholds(thresholds, settings.metric);
     plan_ = withAllLevels(planFrame(*world_, view_, settings));
 }
 

@@ -48,8 +48,12 @@ void levelSection(ViewState& state) {
     settingRow(request, "lod");
     settingRow(request, "lodMetric");
     const LodThresholds standard = defaultThresholds(request.settings.metric, request.settings.sampleCount);
-    settingRow(request, "blurThreshold", fmt::format("{}", standard.blur));
-    settingRow(request, "sizeThreshold", fmt::format("{}", standard.size));
+    if (request.settings.metric == LodMetric::measured) {
+        settingRow(request, "lightThreshold", fmt::format("{:.3g}", standard.light));
+    } else {
+        settingRow(request, "blurThreshold", fmt::format("{}", standard.blur));
+        settingRow(request, "sizeThreshold", fmt::format("{}", standard.size));
+    }
     settingRow(request, "lodCoc");
 }
 

@@ -36,7 +36,8 @@ std::vector<double> imageKey(const PictureRequest& request) {
                                static_cast<double>(settings.keepAll),
                                static_cast<double>(request.fixedQuality.has_value()),
                                request.targetError.value_or(0)};
-    for (const std::optional<double>& threshold : {settings.thresholds.blur, settings.thresholds.size})
+    for (const std::optional<double>& threshold :
+         {settings.thresholds.blur, settings.thresholds.size, settings.thresholds.light})
         key.push_back(threshold.value_or(-1));
     for (glm::length_t column = 0; column < 4; ++column)
         for (glm::length_t row = 0; row < 4; ++row) key.push_back(view.worldFromCamera[column][row]);
@@ -161,7 +162,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     RenderSettings settings = request.settings;
     settings.sampleCount = quality.samples;
     const LodThresholds thresholds = chosenThresholds(settings.thresholds, settings.metric, quality.samples);
-    settings.thresholds = {quality.thresholdBias * thresholds.blur, quality.thresholdBias * thresholds.size};
+    settings.thresholds = fixedThresholds(thresholds, settings.metric, quality.thresholdBias);
     first_->drawFrame(view, settingsOf(settings, request.first));
     if (second_) second_->drawFrame(view, settingsOf(settings, *request.second));
     workCurrent_ = workGrows_ = false;

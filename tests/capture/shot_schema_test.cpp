@@ -106,7 +106,7 @@ json fullShot() {
                  "bladeCount": 7, "focusBreathing": true},
         "size": [320, 240], "samples": 16, "seed": 3, "sequence": "r2", "animateSeed": true,
         "shutter": {"angle": 180, "position": "start", "segments": 4, "exact": true}, "lod": "continuous", "lodMetric": "error",
-        "blurThreshold": 0.2, "sizeThreshold": 0.5, "method": "accumulation", "layerFormat": "rgba32f",
+        "blurThreshold": 0.2, "sizeThreshold": 0.5, "lightThreshold": 0.1, "method": "accumulation", "layerFormat": "rgba32f",
         "output": ["a/####.exr", "b/####.png"], "exposure": 1, "toneMap": "agx", "video": "film.mp4"})");
 }
 

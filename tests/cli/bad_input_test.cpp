@@ -99,13 +99,15 @@ TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "exact motion", {"--target-error", "0.01", "--shutter", "1", "--motion-segments", "exact"});
     expectFault(2, "--sample-range", {"--target-error", "0.01", "--sample-range", "0:64", "-o", "a.exr"});
     expectFault(1, "accumulation", {"--method", "circular", "--background", "none"});
+    expectFault(1, "a light threshold alone", {"--lod-metric", "measured", "--blur-threshold", "0.1"});
+    expectFault(1, "a blur and a size threshold alone", {"--light-threshold", "0.1"});
     expectFault(1, "layer format", {"--method", "scheuermann", "--layer-format", "rgb9e5"});
 }
 
 TEST_F(BadInput, numbersThatAreNoneOrInfinite) {
     for (const char* option : {"--fstop", "--focal-length", "--horizontal-aperture", "--focus-distance",
                                "--blade-rotation", "--anamorphic-ratio", "--blur-scale", "--time", "--blur-threshold",
-                               "--size-threshold", "--exposure", "--target-error", "--time-limit"})
+                               "--size-threshold", "--light-threshold", "--exposure", "--target-error", "--time-limit"})
         expectFault(2, option, {std::string(option) + "=nan"});
     expectFault(2, "--focus-distance", {"--focus-distance=inf"});
     expectFault(2, "--exposure", {"--exposure=-inf"});
@@ -120,7 +122,7 @@ TEST_F(BadInput, wordsThatAreNotKnown) {
     expectFault(2, "did you mean '--samples'", {"--smaples", "10"});
     expectFault(2, "did you mean 'fractional'", {"--lod", "fractoinal"});
     expectFault(2, "did you mean 'halton'", {"--sequence", "haltno"});
-    expectFault(2, "size, error", {"--lod-metric", "speed"});
+    expectFault(2, "size, error, halving, measured", {"--lod-metric", "speed"});
     expectFault(2, "did you mean 'accumulation'", {"--method", "acumulation"});
     expectFault(2, "none, aces, agx", {"--tonemap", "filmic"});
     expectFault(2, "depth, coc, level, work", {"--aov", "depth,normal"});

@@ -152,6 +152,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"blurThreshold",
          {{"--blur-threshold", "0"}, {"--fstop", "0.1", "--size-threshold", "0", "--focus-distance", "0.5"}, true}},
         {"sizeThreshold", {{"--size-threshold", "0"}, {"--blur-threshold", "0"}, true}},
+        {"lightThreshold", {{"--light-threshold", "0"}, {"--lod-metric", "measured", "--fstop", "0.3"}, true}},
         {"cacheFolder", {{"--cache-dir", "kept"}, {}, true}},
         {"noCache", {{"--no-cache"}, {}, true}},
         {"method", {{"--method", "circular"}, blurred}},

@@ -26,6 +26,7 @@ inline const std::map<std::string, Words>& usualLines() {
         {"info", {"ball.glb"}},
         {"pyramid", {"ball.glb"}},
         {"compare", {"one.exr", "two.exr"}},
+        {"bench prediction", joined({"ball.glb", "--size", "16x12", "--cocs", "2"}, written)},
         {"bench speedup", joined(joined(ball, {"--counts", "2", "--runs", "1", "--reference-samples", "0"}), written)},
         {"bench popping", joined(joined(ball, {"--counts", "2", "--frames", "2", "--path-frames", "6"}), written)},
         {"bench convergence", joined(joined(ball, {"--methods", "accumulation", "--counts", "2", "--threshold-factors",
@@ -124,6 +125,9 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"compare --stop-exposure", {.words = {"--stop-exposure", "6"}, .more = {"--hdr"}}},
         {"compare --exposures", {.words = {"--exposures", "1"}, .more = {"--hdr"}}},
         {"compare --fail-above", {.words = {"--fail-above", "mae=0"}}},
+
+        {"bench prediction --cocs", {.words = {"--cocs", "3"}}},
+        {"bench prediction --output", {.words = {"-o", "other"}}},
 
         {"bench speedup --counts", {.words = {"--counts", "3"}}},
         {"bench speedup --fstops", {.words = {"--fstops", "4"}}},

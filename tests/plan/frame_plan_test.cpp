@@ -175,6 +175,60 @@ TEST(FramePlan, lambdaIsContinuousAlongADolly) {
     }
 }
 
+TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
+    const auto small = fiveSpheres();
+    RenderSettings settings;
+    settings.sampleCount = 64;
+    settings.metric = LodMetric::measured;
+    double previous = -1;
+    double coarsest = 0;
+    double finest = 100;
+    for (double z = 1.2; z < 12; z *= 1.0005) {
+        small->world.pose.objects[0].worldFromObject =
+            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(0.2));
+        const FramePlan plan = planFrame(small->world, small->view, settings);
+        const auto found =
+            std::find_if(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& o) { return o.object == 0; });
+        ASSERT_NE(found, plan.objects.end());
+        if (previous >= 0) {
+            EXPECT_NEAR(found->lambda, previous, 0.05) << z;
+        }
+        previous = found->lambda;
+        coarsest = std::max(coarsest, found->lambda);
+        finest = std::min(finest, found->lambda);
+    }
+    EXPECT_GT(coarsest, finest + 1) << "from focus to blur";
+}
+
+TEST(FramePlan, moreSamplesMeanFinerMeasuredLevels) {
+    const auto small = fiveSpheres();
+    RenderSettings settings;
+    settings.metric = LodMetric::measured;
+    double last = 100;
+    for (const std::uint32_t samples : {4u, 64u, 1024u}) {
+        settings.sampleCount = samples;
+        double sum = 0;
+        for (const ObjectPlan& object : planFrame(small->world, small->view, settings).objects) sum += object.lambda;
+        EXPECT_LT(sum, last);
+        last = sum;
+    }
+    settings.thresholds.light = 0;
+    for (const ObjectPlan& object : planFrame(small->world, small->view, settings).objects) EXPECT_EQ(object.lambda, 0);
+}
+
+TEST(FramePlan, thresholdsOfAnotherMetricAreErrors) {
+    const auto small = fiveSpheres();
+    RenderSettings settings = settingsFor(16);
+    settings.metric = LodMetric::measured;
+    EXPECT_THROW(planFrame(small->world, small->view, settings), Error);
+    settings.thresholds = {};
+    EXPECT_NO_THROW(planFrame(small->world, small->view, settings));
+    settings.thresholds.light = 0.1;
+    EXPECT_NO_THROW(planFrame(small->world, small->view, settings));
+    settings.metric = LodMetric::size;
+    EXPECT_THROW(planFrame(small->world, small->view, settings), Error);
+}
+
 TEST(FramePlan, impossibleRequestsAreErrors) {
     const auto small = fiveSpheres();
     EXPECT_THROW(planFrame(small->world, small->view, settingsFor(0)), Error);

@@ -72,7 +72,7 @@ std::vector<ConvergenceCase> casesOf(const MethodUse& use, std::uint32_t samples
                                                             lodMetricName(metric), factor));
                 levels.plan.lod = mode;
                 levels.plan.metric = metric;
-                levels.plan.thresholds = {factor * standard.blur, factor * standard.size};
+                levels.plan.thresholds = fixedThresholds(standard, metric, factor);
                 cases.push_back(std::move(levels));
             }
     }

@@ -118,8 +118,9 @@ std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const 
     for (const SpeedupForm& form : forms) {
         const std::size_t first = subjects.size();
         for (const LodMode mode : modes) add(form, accumulation, mode, Thresholds::both);
-        for (const Thresholds one : {Thresholds::size, Thresholds::blur})
-            add(form, accumulation, LodMode::fractional, one);
+        if (form.plan.metric != LodMetric::measured)  // which has neither threshold
+            for (const Thresholds one : {Thresholds::size, Thresholds::blur})
+                add(form, accumulation, LodMode::fractional, one);
         for (std::size_t i = first; i < subjects.size(); ++i) subjects[i].fullDetail = &subjects[first];
     }
     const SpeedupSubject& lastFullDetail = *subjects.back().fullDetail;

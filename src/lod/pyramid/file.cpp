@@ -13,7 +13,7 @@ namespace defocus {
 // member, which the key or the file would lack.
 
 static_assert(std::has_unique_object_representations_v<IndexRange>);
-static_assert(sizeof(PyramidFileHeader) == 120 && sizeof(PyramidFileLevel) == 40 && sizeof(Cluster) == 48,
+static_assert(sizeof(PyramidFileHeader) == 168 && sizeof(PyramidFileLevel) == 80 && sizeof(Cluster) == 48,
               "no padding, so that all is written");
 
 namespace {
@@ -59,7 +59,8 @@ void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
 }
 
 PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
-    const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, repairedFaces, end] = pyramid;
+    const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, smallestPatch, contrast,
+                 repairedFaces, end] = pyramid;
     const auto& [leastTriangles, mostLevels, levelVertices] = key.options;
     PyramidFileHeader header;
     header.mesh = key.mesh;
@@ -73,6 +74,8 @@ PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const Pyram
     header.repairedFaces = repairedFaces;
     header.end = static_cast<std::uint32_t>(end);
     header.vertices = static_cast<std::uint32_t>(levelVertices);
+    header.smallestPatch = smallestPatch;
+    header.contrast = contrast;
     for (int axis = 0; axis < 3; ++axis) {
         header.minimum[axis] = bounds.minimum[axis];
         header.maximum[axis] = bounds.maximum[axis];
@@ -126,6 +129,10 @@ bool matches(const PyramidFileHeader& header, const Mesh& mesh, const PyramidKey
            header.levelCount >= 1 && header.end <= static_cast<std::uint32_t>(lastPyramidEnd);
 }
 
+bool isBlurTable(const BlurTable& table) {
+    return std::all_of(table.begin(), table.end(), [](float value) { return value >= 0; });
+}
+
 // The clusters' ranges follow each other over each primitive's.
 bool clustersFit(const PyramidLevel& level) {
     auto cluster = level.clusters.begin();
@@ -172,6 +179,8 @@ bool readLevels(Reader& reader, const PyramidFileHeader& header, std::vector<Pyr
         level.meanEdge = record.meanEdge;
         level.longestEdge = record.longestEdge;
         level.error = record.error;
+        level.blurredError = record.blurredError;
+        if (!isBlurTable(level.blurredError)) return false;
     }
     if (next != header.indexCount) return false;
     for (std::size_t l = 0; l < levels.size(); ++l)
@@ -247,9 +256,9 @@ std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, c
     std::vector<IndexRange> ranges;
     std::vector<Cluster> allClusters;
     for (const auto& [primitives, vertexCount, triangleCount, clusters, positions, normals, colors, uv0, uv1, meanEdge,
-                      longestEdge, error] : pyramid.levels) {
-        records.push_back(
-            {vertexCount, triangleCount, static_cast<std::uint32_t>(clusters.size()), 0, meanEdge, longestEdge, error});
+                      longestEdge, error, blurredError] : pyramid.levels) {
+        records.push_back({vertexCount, triangleCount, static_cast<std::uint32_t>(clusters.size()), 0, meanEdge,
+                           longestEdge, error, blurredError});
         allClusters.insert(allClusters.end(), clusters.begin(), clusters.end());
         ranges.insert(ranges.end(), primitives.begin(), primitives.end());
     }
@@ -308,6 +317,9 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
         pyramid.bounds.minimum[axis] = header->minimum[axis];
         pyramid.bounds.maximum[axis] = header->maximum[axis];
     }
+    if (!(header->smallestPatch >= 0) || !isBlurTable(header->contrast)) return {};
+    pyramid.smallestPatch = header->smallestPatch;
+    pyramid.contrast = header->contrast;
     pyramid.repairedFaces = header->repairedFaces;
     pyramid.end = static_cast<PyramidEnd>(header->end);
     measureDeformations(pyramid, mesh);

@@ -32,7 +32,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
     // It changes with the format alone. What buildPyramid makes of a mesh is in the key: see pyramidKey.
-    static constexpr std::uint32_t expectedVersion = 4;
+    static constexpr std::uint32_t expectedVersion = 5;
 
     std::uint64_t magic = expectedMagic;
     std::uint64_t checksum = 0;  // hashBytes of all that follows this field
@@ -50,6 +50,8 @@ struct PyramidFileHeader {
     std::uint32_t vertices = 0;  // LevelVertices
     double minimum[3] = {};      // bounds
     double maximum[3] = {};
+    double smallestPatch = 0;
+    BlurTable contrast{};
 };
 
 struct PyramidFileLevel {
@@ -60,6 +62,7 @@ struct PyramidFileLevel {
     double meanEdge = 0;
     double longestEdge = 0;
     double error = 0;
+    BlurTable blurredError{};
 };
 
 // `pyramid` is what buildPyramid made of `mesh`.

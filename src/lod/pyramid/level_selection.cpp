@@ -13,6 +13,8 @@ constexpr double referenceSamples = 64;
 constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 samples
 constexpr LodThresholds referenceError{0.018, 0.18};  // px of deviation at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
+constexpr double sampleErrorExponent = 0.65;
+constexpr double shareOfSampleError = 0.1;
 constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
 
 double storedSize(const PyramidLevel& level, LodMetric metric) {
@@ -36,6 +38,20 @@ double between(double fine, double coarse, double target, LodMetric metric) {
 
 }  // namespace
 
+const char* lodMetricName(LodMetric metric) {
+    switch (metric) {
+        case LodMetric::size:
+            return "size";
+        case LodMetric::error:
+            return "error";
+        case LodMetric::halving:
+            return "halving";
+        case LodMetric::measured:
+            return "measured";
+    }
+    return "";
+}
+
 const char* lodModeName(LodMode mode) {
     switch (mode) {
         case LodMode::fractional:
@@ -50,19 +66,12 @@ const char* lodModeName(LodMode mode) {
     return "";
 }
 
-const char* lodMetricName(LodMetric metric) {
-    switch (metric) {
-        case LodMetric::size:
-            return "size";
-        case LodMetric::error:
-            return "error";
-        case LodMetric::halving:
-            return "halving";
-    }
-    return "";
+double expectedSampleError(std::uint32_t sampleCount) {
+    return std::pow(std::max(sampleCount, 1u), -sampleErrorExponent);
 }
 
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
+    if (metric == LodMetric::measured) return {.light = shareOfSampleError * expectedSampleError(sampleCount)};
     const LodThresholds& reference = metric == LodMetric::error ? referenceError : referenceSize;
     const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
     return {reference.blur * std::min(factor, largestFactor), reference.size * std::min(factor, 1.0)};
@@ -70,7 +79,13 @@ LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
 
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount) {
     const LodThresholds standard = defaultThresholds(metric, sampleCount);
+    if (metric == LodMetric::measured) return {.light = given.light.value_or(standard.light)};
     return {given.blur.value_or(standard.blur), given.size.value_or(standard.size)};
+}
+
+GivenThresholds fixedThresholds(const LodThresholds& thresholds, LodMetric metric, double factor) {
+    if (metric == LodMetric::measured) return {.light = factor * thresholds.light};
+    return {.blur = factor * thresholds.blur, .size = factor * thresholds.size};
 }
 
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,

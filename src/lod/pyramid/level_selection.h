@@ -9,23 +9,37 @@
 
 namespace defocus {
 
-const char* lodModeName(LodMode mode);        // as the command line has it
-const char* lodMetricName(LodMetric metric);  // the same
+// As the command line has them.
+const char* lodModeName(LodMode mode);
+const char* lodMetricName(LodMetric metric);
 
 struct LodThresholds {
-    double blur = 0;  // kBlur: target px per px of CoC
-    double size = 0;  // kSize: least target in px
+    double blur = 0;   // kBlur: target px per px of CoC
+    double size = 0;   // kSize: least target in px
+    double light = 0;  // the error of measured levels, in standard deviations of the light within the blur
 };
 
-// Takes the thresholds that are given, and the rest from defaultThresholds.
+// Takes the thresholds that are given, and the rest from defaultThresholds; those that the metric doesn't have are 0.
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount);
 
-// The defaults follow the number of samples N: they are (64/N)^(2/3) times the thresholds at N = 64, for `blur` at most
-// twice those (N ≤ 22), for `size` no more than those: few samples don't blur what is in focus. At N = 64 they are as
-// coarse as 42 dB from full detail allow on the built-in school at 1024 × 768. The levels' error grows as
-// threshold^1.3, Sobol points err as N^(−0.65): the levels' error is 0.9 to 1.6 times the sampling error up to N = 32,
-// where trading samples for finer levels gains nothing, 2.4 times at 64 and less and less beyond, and both vanish as N
-// grows (school of fish, 512 × 384: bench/results/llvmpipe-thresholds.txt).
+// Those of the metric, times `factor`, so that they no longer follow the number of samples.
+GivenThresholds fixedThresholds(const LodThresholds& thresholds, LodMetric metric, double factor = 1);
+
+// The error of N lens samples, in units of that of one sample: N^(−0.65), as all sequences but a random one err on
+// rendered scenes (bench/results/llvmpipe-sequences.txt).
+double expectedSampleError(std::uint32_t sampleCount);
+
+// By size and by error the defaults follow the number of samples N: they are (64/N)^(2/3) times the thresholds at N =
+// 64, for `blur` at most twice those (N ≤ 22), for `size` no more than those: few samples don't blur what is in focus.
+// At N = 64 they are as coarse as 42 dB from full detail allow on the built-in school at 1024 × 768. The levels' error
+// grows as threshold^1.3, Sobol points err as N^(−0.65): the levels' error is 0.9 to 1.6 times the sampling error up to
+// N = 32, where trading samples for finer levels gains nothing, 2.4 times at 64 and less and less beyond, and both
+// vanish as N grows (school of fish, 512 × 384: bench/results/llvmpipe-thresholds.txt).
+//
+// Measured levels have a tenth of the error that N samples are expected to leave: one sample, anywhere on the lens, is
+// off by the standard deviation of the light within the blur, and N by expectedSampleError(N) times that. The root mean
+// square of both together hardly grows by so little; but a level is wrong all over an object, in large soft spots,
+// where samples are at outlines and in fine ghosts, and FLIP, as eyes do, minds the former more.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 struct LevelQuery {
@@ -34,7 +48,8 @@ struct LevelQuery {
     double coc = 0;  // CoC diameter the object may rely on, px, ≥ 0
 };
 
-// Chooses λ in [0, levels − 1], continuous in the query; τ = max(blur·c, size).
+// By size or by error; for measured levels see blurred_error.h. Chooses λ in [0, levels − 1], continuous in the query;
+// τ = max(blur·c, size).
 //   size:  λ is where the stored mean edges, interpolated in their logarithm, project to τ.
 //   halving: λ = 2·log2(τ/d), d the mean edge of level 0 as it projects: edges grow by √2 where triangles are halved.
 //   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]) between the stored errors projected to px.

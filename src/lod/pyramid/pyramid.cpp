@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/parallel.h"
+#include "lod/pyramid/blurred_error.h"
 #include "lod/pyramid/clusters.h"
 #include "lod/pyramid/surface_distance.h"
 #include "lod/pyramid/vertex_order.h"
@@ -322,6 +323,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         done = {};
     }
     separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));
+    measureBlurredErrors(pyramid, helpers);
     measureDeformations(pyramid, mesh);
     return pyramid;
 }

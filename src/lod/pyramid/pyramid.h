@@ -14,6 +14,7 @@
 
 #include "core/progress.h"
 #include "defocus/settings.h"
+#include "lod/pyramid/blur_table.h"
 #include "lod/simplify/pyramid_end.h"
 #include "scene/mesh.h"
 
@@ -63,6 +64,8 @@ struct PyramidLevel {
     // that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0. See surface_distance.h. Of
     // whole parts that the level lacks no point is farther from it, and none is larger (up to the box's diagonal).
     double error = 0;
+
+    BlurTable blurredError{};  // see blurred_error.h; 0 of level 0
 };
 
 struct Pyramid {
@@ -75,7 +78,9 @@ struct Pyramid {
     Bounds bounds;                       // object units; of level 0's triangles
     std::vector<Bounds> jointBounds;     // object units; of what each joint moves, at any level; empty without joints
     std::vector<Bounds> morphBounds;     // object units; of each morph target's displacements and 0
-    std::uint32_t repairedFaces = 0;     // how many faces half-edges can't hold as they are; see manifold.h
+    double smallestPatch = 0;            // object units; of blur tables, 0 without a second level
+    BlurTable contrast{};  // of level 0: the standard deviation of its light within patches; see blurred_error.h
+    std::uint32_t repairedFaces = 0;  // how many faces half-edges can't hold as they are; see manifold.h
     PyramidEnd end = PyramidEnd::mostLevels;
 };
 

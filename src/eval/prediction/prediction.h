@@ -1,0 +1,46 @@
+#pragma once
+// Is a level as wrong as its pyramid says (blurred_error.h)? The mesh of a scene that has the most triangles is drawn
+// alone, level by level, under growing blur, and each image of 1,024 lens samples is compared with level 0's.
+//
+// Held equal between predicted and rendered: mesh, level, lens, the patches of the blur. Both errors are of linear
+// light, over the three channels and the area that level 0 covers, in units of its mean light; the renderer's own
+// shading with the scene's materials and textures stands against the fixed light and pattern of the prediction.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "frame/prepared_frame.h"
+#include "render/methods.h"
+
+namespace defocus {
+
+struct PredictionOptions {
+    std::vector<double> cocs = {1, 4, 16, 64};  // px, at the mesh's centre
+    int width = 320;                            // px
+    int height = 240;                           // px
+    RendererOptions renderer;
+};
+
+struct PredictionRow {
+    std::string mesh;
+    double coc = 0;           // px
+    std::uint32_t level = 0;  // 0: not of a level, but of the lens samples at full detail
+    std::uint32_t triangles = 0;
+    double predicted = 0;
+    double rendered = 0;
+    // Whether the level is drawn at this blur with LodMetric::measured and 16 to 512 samples. The errors of the levels
+    // below and above count as well where λ lies between two.
+    bool used = false;
+
+    [[nodiscard]] bool withinTwo() const { return predicted <= 2 * rendered && rendered <= 2 * predicted; }
+};
+
+// Calls `visit` for each blur with the error of 64 lens samples at full detail, then with each level's, in their order.
+// Needs a current GL context and frame.scene, whose meshes may be animated: each is taken as it is at rest. Throws
+// Error for a scene without a mesh that has levels.
+void measurePrediction(const PreparedFrame& frame, const PredictionOptions& options,
+                       const std::function<void(const PredictionRow&)>& visit, const Progress& progress = {});
+
+}  // namespace defocus

@@ -1,0 +1,78 @@
+// What pyramids expect of their levels, against what is rendered of them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "eval/prediction/prediction.h"
+#include "eval/prediction/text.h"
+#include "gl/context.h"
+#include "lod/shapes.h"
+
+namespace defocus {
+namespace {
+
+// Of plaster, with bumps and stripes; what a pyramid knows of its look is all there is.
+std::vector<PredictionRow> rowsOfABall() {
+    Mesh mesh = sphere(128, 64, 0.03);
+    for (const glm::vec3& p : mesh.vertices.positions)
+        mesh.vertices.colors.emplace_back(0.5f + 0.4f * std::sin(12 * p.y), 0.5f, 0.4f + 0.3f * p.x, 1.0f);
+    mesh.primitives.front().material = 0;
+    Scene scene;
+    scene.meshes = {mesh};
+    Material& plaster = scene.materials.emplace_back();
+    plaster.metallicFactor = 0;
+    plaster.roughnessFactor = 1;
+    PreparedFrame frame;
+    frame.scene = std::make_shared<Scene>(std::move(scene));
+    PredictionOptions options;
+    options.cocs = {4, 16};
+    options.width = 160;
+    options.height = 120;
+    std::vector<PredictionRow> rows;
+    measurePrediction(frame, options, [&](const PredictionRow& row) { rows.push_back(row); });
+    return rows;
+}
+
+TEST(Prediction, ofPlasterIsRightWithinAFactorOfTwo) {
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    const std::vector<PredictionRow> rows = rowsOfABall();
+    int used = 0;
+    for (const PredictionRow& row : rows) {
+        if (!row.used) continue;
+        ++used;
+        EXPECT_TRUE(row.withinTwo()) << predictionLine(row);
+    }
+    EXPECT_GE(used, 6) << "samples and levels of both blurs";
+    // Level by level, more of the light is wrong.
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        if (rows[i].level > 1) {
+            EXPECT_GT(rows[i].predicted, rows[i - 1].predicted);
+            EXPECT_LT(rows[i].triangles, rows[i - 1].triangles);
+        }
+}
+
+TEST(Prediction, tableAndJsonTellTheSame) {
+    const PredictionRow samples{"Ball", 4, 0, 100, 0.3, 0.2, true};
+    const PredictionRow near{"Ball", 4, 1, 50, 0.1, 0.2, true};
+    const PredictionRow far{"Ball", 4, 2, 25, 0.1, 0.3, true};
+    const PredictionRow unused{"Ball", 4, 3, 12, 0.1, 0.9, false};
+    EXPECT_TRUE(near.withinTwo());
+    EXPECT_FALSE(far.withinTwo());
+    const std::vector rows{samples, near, far, unused};
+    const std::string summary = predictionSummary(rows);
+    EXPECT_NE(summary.find("1 of 2 levels"), std::string::npos) << summary;
+    EXPECT_NE(summary.find("off by 3.00"), std::string::npos) << summary;
+    EXPECT_NE(predictionLine(far).find("beyond 2"), std::string::npos);
+    EXPECT_NE(predictionLine(unused).find("not used"), std::string::npos);
+    const auto json = nlohmann::json::parse(predictionJson(rows, {}));
+    ASSERT_EQ(json["rows"].size(), rows.size());
+    EXPECT_EQ(json["rows"][2]["rendered"], 0.3);
+    const std::string csv = predictionCsv(rows);
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,188 @@
+// What a blur leaves of a level's error, against what follows from how a level was made wrong on purpose.
+
+#include "lod/pyramid/blurred_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "lod/pyramid/level_selection.h"
+#include "lod/shapes.h"
+
+namespace defocus {
+namespace {
+
+// Level 0 is a ball of radius 1 with a colour by place; level 1 is the same with what `change` makes of it.
+Pyramid withLevel(const std::function<glm::vec4(const glm::vec3&)>& colour,
+                  const std::function<void(PyramidLevel&)>& change, std::size_t helpers = 0) {
+    Mesh mesh = sphere(96, 48);
+    for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.colors.push_back(colour(p));
+    Pyramid pyramid = fullDetail(mesh);
+    for (glm::vec3& normal : pyramid.levels[0].normals) normal = glm::normalize(normal);
+    pyramid.levels.push_back(pyramid.levels[0]);
+    change(pyramid.levels[1]);
+    measureBlurredErrors(pyramid, helpers);
+    return pyramid;
+}
+
+glm::vec4 striped(const glm::vec3& p) {
+    return {0.5f + 0.4f * std::sin(9 * p.x), 0.3f + 0.2f * p.z, 0.6f, 1};
+}
+
+void brighten(PyramidLevel& level, float factor) {
+    for (glm::vec4& colour : level.colors) colour *= factor;
+}
+
+double sideOf(const Pyramid& pyramid, int number) {
+    return pyramid.smallestPatch * std::exp2(number);
+}
+
+// A level 1 + ε times as bright is wrong by ε times what its patches show in the mean, and samples by what they don't:
+// of both together, the mean square is all of the light's.
+TEST(BlurredError, aBrighterLevelAndTheSamplesShareTheLight) {
+    constexpr double more = 0.125;
+    const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1 + more); });
+    const double all = squaredError(pyramid, 1, 0) / (more * more);
+    EXPECT_GT(all, 1) << "no mean square is below the square of the mean";
+    EXPECT_EQ(squaredContrast(pyramid, 0), 0);
+    for (int i = 0; i < 7; ++i) {
+        const double side = sideOf(pyramid, i);
+        EXPECT_NEAR(squaredError(pyramid, 1, side) / (more * more) + squaredContrast(pyramid, side), all, 1e-3 * all)
+            << "side " << side;
+    }
+    // The ball covers 38 % of a patch as wide as the diagonal of its box, 2√3, at most.
+    EXPECT_GT(squaredContrast(pyramid, 2 * std::sqrt(3)), 0.6);
+}
+
+TEST(BlurredError, halfTheErrorIsHalfTheTable) {
+    const Pyramid whole = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.25f); });
+    const Pyramid half = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.125f); });
+    for (const double side : {0.0, 0.01, 0.1, 0.7, 3.0, 40.0})
+        EXPECT_NEAR(squaredError(whole, 1, side) / squaredError(half, 1, side), 4, 1e-3) << "side " << side;
+}
+
+// A pattern of half-waves 0.1 wide that the level lacks is gone under patches five times as wide; a shift of the colour
+// is there under all of them.
+TEST(BlurredError, aBlurHidesAPatternButNoShift) {
+    const auto wave = [](const glm::vec3& p) { return 0.2f * std::sin(31.4f * p.x) * std::sin(31.4f * p.z); };
+    const auto grey = [](const glm::vec3&) { return glm::vec4(0.5f, 0.5f, 0.5f, 1); };
+    const Pyramid pattern = withLevel(grey, [&](PyramidLevel& level) {
+        for (std::size_t v = 0; v < level.colors.size(); ++v) level.colors[v] += wave(level.positions[v]);
+    });
+    const Pyramid shift = withLevel(grey, [](PyramidLevel& level) {
+        for (glm::vec4& colour : level.colors) colour += 0.1f;
+    });
+    const auto left = [](const Pyramid& pyramid, double side) {
+        return std::sqrt(squaredError(pyramid, 1, side) / squaredError(pyramid, 1, 0));
+    };
+    EXPECT_LT(left(pattern, 0.5), 0.2);
+    EXPECT_GT(left(pattern, 0.02), 0.8);
+    EXPECT_GT(left(shift, 0.5), 0.75);
+}
+
+// A ball that is smaller by ε lacks a rim of area 2πε: the mean square of what it changes is in proportion.
+TEST(BlurredError, anOutlineCountsByTheAreaThatItLoses) {
+    const auto white = [](const glm::vec3&) { return glm::vec4(1); };
+    const auto shrunk = [&](float factor) {
+        return squaredError(withLevel(white,
+                                      [&](PyramidLevel& level) {
+                                          for (glm::vec3& p : level.positions) p *= factor;
+                                      }),
+                            1, 0);
+    };
+    const double lost = shrunk(0.96f);
+    EXPECT_NEAR(lost / shrunk(0.98f), 2, 0.3);
+    // The rim is lit by 0.2 at least and 1 at most, in units of a mean between 0.2 and 1.
+    EXPECT_GT(lost, 0.2 * 0.2 * 2 * 0.04);
+    EXPECT_LT(lost, 5 * 5 * 2 * 0.04);
+}
+
+TEST(BlurredError, normalsCountByTheLight) {
+    const auto white = [](const glm::vec3&) { return glm::vec4(1); };
+    const auto turned = [&](float angle) {
+        return withLevel(white, [&](PyramidLevel& level) {
+            for (glm::vec3& n : level.normals)
+                n = {std::cos(angle) * n.x - std::sin(angle) * n.y, std::sin(angle) * n.x + std::cos(angle) * n.y, n.z};
+        });
+    };
+    EXPECT_LT(squaredError(turned(0), 1, 0.1), 1e-8);
+    EXPECT_NEAR(squaredError(turned(0.1f), 1, 0) / squaredError(turned(0.05f), 1, 0), 4, 0.4);
+}
+
+// So small a thing is a spot: what a blur leaves of it falls as the blur's width.
+TEST(BlurredError, fallsAsASpotBeyondTheMesh) {
+    const Pyramid pyramid = withLevel(striped, [](PyramidLevel& level) { brighten(level, 1.25f); });
+    EXPECT_NEAR(squaredError(pyramid, 1, 100) / squaredError(pyramid, 1, 1000), 100, 1e-6);
+}
+
+TEST(BlurredError, theSameWithAnyNumberOfThreads) {
+    const auto brighter = [](PyramidLevel& level) { brighten(level, 1.25f); };
+    const Pyramid one = withLevel(striped, brighter, 0);
+    const Pyramid four = withLevel(striped, brighter, 3);
+    EXPECT_EQ(one.smallestPatch, four.smallestPatch);
+    EXPECT_EQ(one.contrast, four.contrast);
+    EXPECT_EQ(one.levels[1].blurredError, four.levels[1].blurredError);
+}
+
+TEST(BlurredError, ofWhatHasNoLightOrNoSecondLevelIsNothing) {
+    const auto black = [](const glm::vec3&) { return glm::vec4(0, 0, 0, 1); };
+    const Pyramid dark = withLevel(black, [](PyramidLevel&) {});
+    EXPECT_EQ(squaredError(dark, 1, 0.1), 0);
+    EXPECT_EQ(levelOfBlurredError(dark, std::array{0.1}, 0.5), 0);
+    const Pyramid single = fullDetail(sphere(12, 6));
+    EXPECT_EQ(levelOfBlurredError(single, std::array{0.1}, 0.5), 0);
+    EXPECT_EQ(levelOfBlurredError(Pyramid{}, std::array{0.1}, 0.5), 0);
+}
+
+// λ is where the level's error is the share of the contrast: at a whole λ exactly, in between by a straight line.
+TEST(BlurredError, theLevelMeetsTheShare) {
+    const Pyramid pyramid = buildPyramid(sphere(96, 48, 0.05));
+    ASSERT_GT(pyramid.levels.size(), 4u);
+    const std::array sides{0.05, 0.4};
+    const auto mean = [&](const auto& squared) { return std::sqrt(squared(sides[0]) + squared(sides[1])); };
+    const double contrast = mean([&](double side) { return squaredContrast(pyramid, side); });
+    const auto error = [&](std::size_t l) {
+        return l == 0 ? 0 : mean([&](double side) { return squaredError(pyramid, l, side); });
+    };
+    for (std::size_t l = 0; l + 1 < pyramid.levels.size(); ++l) {
+        EXPECT_NEAR(levelOfBlurredError(pyramid, sides, error(l) / contrast), static_cast<double>(l), 1e-9);
+        const double between = 0.75 * error(l) + 0.25 * error(l + 1);
+        EXPECT_NEAR(levelOfBlurredError(pyramid, sides, between / contrast), static_cast<double>(l) + 0.25, 1e-9);
+    }
+    EXPECT_EQ(levelOfBlurredError(pyramid, sides, 1e6), static_cast<double>(pyramid.levels.size() - 1));
+    EXPECT_EQ(levelOfBlurredError(pyramid, sides, 0), 0);
+}
+
+// Errors grow by a tenth from level to level, so that λ moves by at most 11 levels a unit of the target's logarithm;
+// and a patch a thousandth wider changes E² and V² by at most 4 and 2 thousandths.
+TEST(BlurredError, theLevelIsContinuousInTheBlur) {
+    Mesh mesh = sphere(64, 32, 0.05);
+    for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.colors.push_back(striped(p));
+    const Pyramid pyramid = buildPyramid(mesh);
+    constexpr double step = 1.001;
+    constexpr double most = 11 * (4 + 2) / 2 * (step - 1) * 1.05;
+    double last = levelOfBlurredError(pyramid, std::array{1e-3, 2e-3}, 0.1);
+    double coarsest = last;
+    for (double side = 1e-3; side < 50; side *= step) {
+        const double level = levelOfBlurredError(pyramid, std::array{side, 2 * side}, 0.1);
+        ASSERT_LE(std::abs(level - last), most) << "at " << side;
+        last = level;
+        coarsest = std::max(coarsest, level);
+    }
+    EXPECT_GT(coarsest, 2) << "the sweep goes through levels";
+}
+
+TEST(BlurredError, theThresholdFollowsTheSamples) {
+    const auto light = [](std::uint32_t samples) { return defaultThresholds(LodMetric::measured, samples).light; };
+    EXPECT_GT(light(16), light(64));
+    EXPECT_NEAR(light(64) / light(1024), std::pow(16, 0.65), 1e-9);
+    EXPECT_EQ(expectedSampleError(1), 1);
+    const GivenThresholds fixed =
+        fixedThresholds(chosenThresholds({}, LodMetric::measured, 64), LodMetric::measured, 2);
+    EXPECT_FALSE(fixed.blur || fixed.size);
+    EXPECT_EQ(chosenThresholds(fixed, LodMetric::measured, 7).light, 2 * light(64));
+}
+
+}  // namespace
+}  // namespace defocus
