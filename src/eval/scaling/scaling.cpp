@@ -128,14 +128,14 @@ std::string tooLarge(const ScalingPoint& point, const Machine& machine) {
 }
 
 // The world of the point before, which the next may share.
-struct ScalingSubject {
+struct Subject {
     Machine machine;
     ScalingPoint point;
     std::unique_ptr<ScalingWorld> world;
 };
 
 // Empty once the point is measured.
-std::string measuredOrWhyNot(ScalingSubject& subject, const ScalingPoint& point, const ScalingOptions& options,
+std::string measuredOrWhyNot(Subject& subject, const ScalingPoint& point, const ScalingOptions& options,
                              const ScalingVisitor& visitor, const Progress& progress) {
     std::string reason = tooLarge(point, subject.machine);
     if (!reason.empty()) return reason;
@@ -252,7 +252,7 @@ void measureScaling(const ScalingOptions& options, const ScalingVisitor& visitor
     for (const ScalingAxis axis : options.axes)
         for (const ScalingPoint& point : scalingPoints(axis, options.large)) points.push_back(point);
 
-    ScalingSubject subject{thisMachine(), {}, {}};
+    Subject subject{thisMachine(), {}, {}};
     for (std::size_t i = 0; i < points.size(); ++i) {
         report(progress, "points", i, points.size());
         const std::string reason = measuredOrWhyNot(subject, points[i], options, visitor, progress);
