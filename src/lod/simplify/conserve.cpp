@@ -1,9 +1,8 @@
 #include "lod/simplify/conserve.h"
 
-#include <algorithm>
-#include <glm/geometric.hpp>
+#include <cstdint>
+#include <vector>
 
-#include "lod/simplify/anchored.h"
 #include "lod/simplify/grouping.h"
 #include "lod/simplify/surface_mean.h"
 
@@ -37,36 +36,6 @@ void conserveColor(const FitSource& source, const LevelMesh& level, LevelFit& fi
 void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
     conserveOutline(source, level, fit);
     conserveColor(source, level, fit);
-}
-
-PatchMeans patchMeans(const FitSource& source, const LevelMesh& level, const LevelFit& fit,
-                      const Numbered<MeshVertexNumber, Anchor>& anchors,
-                      const Numbered<TriangleNumber, std::uint32_t>& patchOf) {
-    std::size_t count = 0;
-    for (const std::uint32_t patch : patchOf) count = std::max<std::size_t>(count, std::size_t{patch} + 1);
-    PatchMeans means;
-    for (std::vector<double>* areas : {&means.areas, &means.areas0}) areas->assign(count, 0);
-    for (std::vector<glm::dvec4>* colors : {&means.colors, &means.colors0}) colors->assign(count, glm::dvec4(0));
-    for (const TriangleNumber t : level.triangles.numbers()) {
-        const auto corners = level.triangles.corners(t);
-        const double area =
-            0.5 * glm::length(triangleCross(corners, [&](LevelVertexNumber v) { return fit.positions[v]; }));
-        means.areas[patchOf[t]] += area;
-        for (const LevelVertexNumber v : corners)
-            if (!fit.colors.empty()) means.colors[patchOf[t]] += area / 3 * glm::dvec4(fit.colors[v]);
-    }
-    const Numbered<MeshVertexNumber, Anchored> values = anchoredValues(source, anchors);
-    for (const MeshVertexNumber v : anchors.numbers()) {
-        if (isUnused(anchors[v])) continue;
-        const std::uint32_t patch = patchOf[anchors[v].triangle];
-        means.areas0[patch] += double{values[v].area};
-        means.colors0[patch] += double{values[v].area} * glm::dvec4(values[v].color);
-    }
-    for (std::size_t patch = 0; patch < count; ++patch) {
-        if (means.areas[patch] > 0) means.colors[patch] /= means.areas[patch];
-        if (means.areas0[patch] > 0) means.colors0[patch] /= means.areas0[patch];
-    }
-    return means;
 }
 
 }  // namespace defocus

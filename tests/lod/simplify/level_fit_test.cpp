@@ -157,11 +157,6 @@ TEST(LevelFit, meanColourBecomesLevel0s) {
     const glm::vec4 mean = (fit.colors[{0}] + fit.colors[{1}] + fit.colors[{2}]) / 3.0f;
     EXPECT_LT(glm::distance(mean, glm::vec4(source.meanColor)), 1e-6f);
     EXPECT_NEAR(fit.colors[{0}].r - fit.colors[{1}].r, 1, 1e-6) << "all are shifted alike";
-
-    const PatchMeans means = patchMeans(source, level, fit, t.anchors, {0});
-    EXPECT_NEAR(means.areas.at(0), 50, 1e-6);
-    EXPECT_LT(glm::distance(means.colors[0], source.meanColor), 1e-6);
-    EXPECT_LT(glm::distance(means.colors0.at(0), glm::dvec4(0, 0, 0, 1)), 1e-6);
 }
 
 // u = x², v = y over a triangle: the line that shows most of the texture where it was.
