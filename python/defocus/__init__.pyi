@@ -74,13 +74,14 @@ class Keywords(TypedDict, total=False):
     lod: Optional[Literal["fractional", "continuous", "nearest", "off"]]
     blur_threshold: Optional[float]
     size_threshold: Optional[float]  # px
+    light_threshold: Optional[float]
     cache_folder: Optional[Path]
     no_cache: Optional[bool]
     method: Optional[str]
     layer_format: Optional[Literal["automatic", "rgb9e5", "rgba16f", "rgba32f", "rgba8"]]
     tone_map: Optional[Literal["none", "aces", "agx"]]
     exposure: Optional[float]  # EV
-    lod_metric: Optional[Literal["size", "error", "halving"]]
+    lod_metric: Optional[Literal["size", "error", "halving", "measured"]]
     level_vertices: Optional[Literal["fitted", "surviving"]]
     lod_coc: Optional[Literal["smallest", "centre"]]
     coc_tolerance: Optional[float]  # px

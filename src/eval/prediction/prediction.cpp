@@ -15,7 +15,7 @@ namespace defocus {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-constexpr std::uint32_t manySamples = 1024;  // so many that what is left of them is small beside a level's error
+constexpr std::uint32_t enoughSamples = 1024;  // so many that what is left of them is small beside a level's error
 
 // One mesh alone before nothing, without skin or animation, focused far away.
 struct Stand {
@@ -122,7 +122,7 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
     const auto lightAt = [](std::uint32_t samples) { return defaultThresholds(LodMetric::measured, samples).light; };
     for (const double coc : options.cocs) {
         blurBy(stand, coc);
-        const FramePlan plan = planOf(stand, manySamples, 0);
+        const FramePlan plan = planOf(stand, enoughSamples, 0);
         if (plan.objects.empty()) return;
         const auto sides = blurredPatches(plan.objects.front(), plan);
         const double finest = levelOfBlurredError(pyramid, sides, lightAt(512));
@@ -143,7 +143,7 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
             row.triangles = pyramid.levels[row.level].triangleCount;
             row.predicted = rootMean(sides, [&](double side) { return squaredError(pyramid, row.level, side); });
             row.rendered =
-                renderedError(truth, imageOf(stand, planOf(stand, manySamples, row.level), options.renderer));
+                renderedError(truth, imageOf(stand, planOf(stand, enoughSamples, row.level), options.renderer));
             row.used = row.level < coarsest + 1 && row.level > finest - 1;
             visit(row);
             report(progress, "levels", ++done, total);
