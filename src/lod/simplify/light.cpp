@@ -76,7 +76,8 @@ double forEachLitPoint(const LitSurface& surface, std::size_t leastPoints, const
             const float length = glm::length(normal);
             LitPoint point;
             if (length > 0) point.normal = normal / length;
-            point.agreement = std::clamp(w.x * lengths[0] + w.y * lengths[1] + w.z * lengths[2], leastTurnedAgreement, 1.0f);
+            point.agreement =
+                std::clamp(w.x * lengths[0] + w.y * lengths[1] + w.z * lengths[2], leastTurnedAgreement, 1.0f);
             point.weight = static_cast<float>(share * area) * (w.x * colors[0] + w.y * colors[1] + w.z * colors[2]);
             visit(point);
         });

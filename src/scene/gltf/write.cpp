@@ -182,8 +182,7 @@ Json addVertices(GlbBuilder& builder, const Vertices& vertices, const std::vecto
     addUv("TEXCOORD_0", vertices.uv0);
     if (!vertices.uv0.empty()) addUv("TEXCOORD_1", vertices.uv1);  // sets are numbered without a gap
     if (!vertices.colors.empty())
-        attributes["COLOR_0"] =
-            builder.add(chosen(vertices.colors, order), floatType, "VEC4", vertexData);
+        attributes["COLOR_0"] = builder.add(chosen(vertices.colors, order), floatType, "VEC4", vertexData);
     return attributes;
 }
 
