@@ -83,7 +83,8 @@ TEST_F(SceneOptionsTest, whatIsGivenBesideAPresetWinsWhereverItStands) {
                                    {"coc", "centre"},
                                    {"vertices", "surviving"},
                                    {"blurThreshold", 0.25},
-                                   {"sizeThreshold", 3.3}}));
+                                   {"sizeThreshold", 3.3},
+                                   {"lightThreshold", 0.0}}));  // no metric of edges has one
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"--preset", "jeong2011", "--sequence", "r2", "--lod-coc", "smallest"},
              {"--lod-coc", "smallest", "--sequence", "r2", "--preset", "jeong2011"}}) {
