@@ -25,6 +25,7 @@ const std::set<std::string> triedAlone = {
     " --shader-dir",
     "bench speedup --allow-changed",
     "bench popping --allow-changed",
+    "bench prediction --allow-changed",
     "bench convergence --allow-changed",
     "bench scaling --allow-changed",
     "bench stability --allow-changed",
@@ -189,7 +190,7 @@ TEST_F(OwnOption, changedSourcesAreRefusedUnlessAllowed) {
     EXPECT_THROW(refuseChangedSources("out", false, "0123-changed"), Error);
     EXPECT_NO_THROW(refuseChangedSources("out", true, "0123-changed"));
     const bool changed = programCommit().ends_with("-changed");
-    for (const char* command : {"bench speedup", "bench popping", "bench convergence"}) {
+    for (const char* command : {"bench speedup", "bench popping", "bench prediction", "bench convergence"}) {
         const Words line = withoutOption(usualLine(command), "--allow-changed");
         EXPECT_EQ(run(line).exitCode, changed ? 1 : 0) << command;
         fs::remove_all(folder() / "result");
