@@ -29,10 +29,18 @@ enum class LodMode {
 
 // What levels are chosen by.
 enum class LodMetric {
-    size,      // target edge length in px, against the edges that the levels have
-    error,     // target deviation in px
-    halving,   // target edge length in px, as if each level had exactly half the triangles (Jeong, Kim and Lee 2011)
-    measured,  // target error of the light that a blur leaves, as a share of how it varies there
+    automatic,  // `size` where a blur or a size threshold is given, else `measured`
+    size,       // target edge length in px, against the edges that the levels have
+    error,      // target deviation in px
+    halving,    // target edge length in px, as if each level had exactly half the triangles (Jeong, Kim and Lee 2011)
+    measured,   // target error of the light that a blur leaves, as a share of how it varies there
+};
+
+// What hides that a level is coarse. Benches ask for one alone; images need both.
+enum class LodCause {
+    blurAndSize,
+    size,  // only that the object is small in the image, as if the lens were a pinhole
+    blur,  // only the blur of the lens, as if the image had infinitely many pixels
 };
 
 // What coarser levels of a mesh are made of.
@@ -56,7 +64,8 @@ struct RenderSettings {
     std::uint32_t seed = 0;         // picks another set of sample points
     std::uint32_t firstSample = 0;  // offset into the sequence (a reference takes its own)
     LodMode lod = LodMode::fractional;
-    LodMetric metric = LodMetric::size;
+    LodMetric metric = LodMetric::automatic;
+    LodCause lodCause = LodCause::blurAndSize;
     bool lodCocAtCentre = false;  // c at the box's centre (the paper) instead of the smallest over the box
     LevelVertices levelVertices = LevelVertices::fitted;
     GivenThresholds thresholds;

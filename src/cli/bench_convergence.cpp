@@ -242,7 +242,7 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                 return modes[parseChoice(part, {"off", "nearest", "fractional", "continuous"})];
             });
     addList(
-        command, "--metrics", "size,error,halving,measured", options.metrics, "size", "What levels are chosen by",
+        command, "--metrics", "size,error,halving,measured", options.metrics, "measured", "What levels are chosen by",
         [](const std::string& part) {
             constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving, LodMetric::measured};
             return metrics[parseChoice(part, {"size", "error", "halving", "measured"})];

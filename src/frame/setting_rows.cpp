@@ -384,17 +384,16 @@ Rows sampleRows() {
                             "sample split over its pixels, one level, or full detail"),
             "/lod"),
         inShot(number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(settings.thresholds.blur),
-                      "Target in pixels per pixel of blur; without it, by the number of samples"),
+                      "Levels by size: target in pixels per pixel of blur; without it, by the number of samples"),
                "/blurThreshold"),
         withUnit(inShot(number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(settings.thresholds.size),
-                               "Least target in pixels; without it, by the number of samples"),
+                               "Levels by size: least target in pixels; without it, by the number of samples"),
                         "/sizeThreshold"),
                  "px"),
-        inShot(
-            number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(settings.thresholds.light),
-                   "Error of levels by --lod-metric measured, in standard deviations of their light within the blur; "
-                   "without it, by the number of samples"),
-            "/lightThreshold"),
+        inShot(number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(settings.thresholds.light),
+                      "Error of measured levels, in standard deviations of their light within the blur; "
+                      "without it, by the number of samples"),
+               "/lightThreshold"),
         path("cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
              "Where simplified meshes are kept; without it, $XDG_CACHE_HOME/defocus or ~/.cache/defocus"),
         truth("noCache", "--no-cache", MEMBER(noCache), "Simplify the meshes anew and store nothing"),
@@ -439,17 +438,19 @@ Rows displayRows() {
 // What only those need who measure or mend the program.
 Rows developerRows() {
     return {
-        inShot(choice<LodMetric>(
-                   "lodMetric", "--lod-metric",
-                   {{"size", LodMetric::size},
-                    {"error", LodMetric::error},
-                    {"halving", LodMetric::halving},
-                    {"measured", LodMetric::measured}},
-                   MEMBER(settings.metric),
-                   "Levels are chosen by the projected size of their edges, of their error, or of full detail's edges "
-                   "as if each level had exactly half the triangles; or by what the blur leaves of how they change the "
-                   "light"),
-               "/lodMetric"),
+        inShot(
+            choice<LodMetric>(
+                "lodMetric", "--lod-metric",
+                {{"automatic", LodMetric::automatic},
+                 {"size", LodMetric::size},
+                 {"error", LodMetric::error},
+                 {"halving", LodMetric::halving},
+                 {"measured", LodMetric::measured}},
+                MEMBER(settings.metric),
+                "Levels are chosen by what the blur leaves of how they change the light (measured); by the projected "
+                "size of their edges, of their error, or of full detail's edges as if each level had exactly half the "
+                "triangles (halving). automatic: by size where one of its thresholds is given, else measured"),
+            "/lodMetric"),
         inShot(choice<LevelVertices>(
                    "levelVertices", "--level-vertices",
                    {{"fitted", LevelVertices::fitted}, {"surviving", LevelVertices::surviving}},

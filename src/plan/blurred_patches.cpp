@@ -16,9 +16,11 @@ double cocAtCentre(const ObjectPlan& object, const FramePlan& plan) {
 
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan) {
     const double scale = largestScale(object.pose);
+    const double pixel = plan.settings.lodCause == LodCause::blur ? 0 : 1;
+    const double blur = plan.settings.lodCause == LodCause::size ? 0 : 1;
     const auto sideAt = [&](double depth, double coc) {
         const double pixelsPerUnit = scale * plan.view.width / (2 * plan.tanHalfHorizontal * depth);
-        return std::sqrt(1 + 0.75 * coc * coc) / pixelsPerUnit;
+        return std::sqrt(pixel + 0.75 * blur * coc * coc) / pixelsPerUnit;
     };
     std::array<double, patchDepths> sides;
     if (plan.settings.lodCocAtCentre) {

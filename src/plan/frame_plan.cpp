@@ -32,7 +32,7 @@ void checkRequest(const View& view, const RenderSettings& settings) {
         chosenThresholds(settings.thresholds, settings.metric, std::max(settings.sampleCount, 1u));
     if (!(thresholds.blur >= 0) || !(thresholds.size >= 0) || !(thresholds.light >= 0))
         fail("level-of-detail thresholds must be 0 or more");
-    const bool measured = settings.metric == LodMetric::measured;
+    const bool measured = chosenMetric(settings.metric, settings.thresholds) == LodMetric::measured;
     if (measured ? settings.thresholds.blur || settings.thresholds.size : settings.thresholds.light.has_value())
         fail("levels by {} have {} alone", lodMetricName(settings.metric),
              measured ? "a light threshold" : "a blur and a size threshold");
@@ -100,7 +100,10 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     query.pixelsPerUnit =
         largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * object.nearestDepth);
     query.coc = plan.settings.lodCocAtCentre ? cocAtCentre(object, plan) : object.coc.smallest;
-    return levelOfDetail(pyramid, query, plan.settings.metric, plan.thresholds);
+    LodThresholds thresholds = plan.thresholds;
+    if (plan.settings.lodCause == LodCause::size) thresholds.blur = 0;
+    if (plan.settings.lodCause == LodCause::blur) thresholds.size = 0;
+    return levelOfDetail(pyramid, query, plan.settings.metric, thresholds);
 }
 
 // λ, the two levels around it and the samples that draw each.
@@ -262,6 +265,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     FramePlan plan;
     plan.view = view;
     plan.settings = settings;
+    plan.settings.metric = chosenMetric(settings.metric, settings.thresholds);
     plan.thresholds = chosenThresholds(settings.thresholds, settings.metric, settings.sampleCount);
     plan.tanHalfHorizontal = tanHalfHorizontalFov(view.lens);
     plan.apertureDiameter = apertureDiameter(view.lens);

@@ -78,9 +78,7 @@ RenderSettings BlockSchedule::nextBlock() const {
     RenderSettings settings = settings_;
     settings.firstSample += samples_;
     settings.sampleCount = std::min(blockSamples, stop_.sampleLimit - samples_);
-    const LodThresholds thresholds =
-        chosenThresholds(settings.thresholds, settings.metric, static_cast<std::uint32_t>(thresholdSamples()));
-    settings.thresholds = fixedThresholds(thresholds, settings.metric);
+    fixThresholds(settings, static_cast<std::uint32_t>(thresholdSamples()));
     return settings;
 }
 

@@ -48,9 +48,8 @@ std::optional<LevelError> FrameRun::measuredLevels(RenderSettings settings) {
         return renderer_->image();
     };
     const auto withThresholdsFor = [&](std::uint32_t samples) {
-        const LodThresholds thresholds = chosenThresholds(settings.thresholds, settings.metric, samples);
         RenderSettings levels = settings;
-        levels.thresholds = fixedThresholds(thresholds, settings.metric);
+        fixThresholds(levels, samples);
         return levels;
     };
     settings.sampleCount = LevelError::drawn;

@@ -65,9 +65,7 @@ void ProgressiveImage::planBlock() {
     }
     RenderSettings settings = settings_;
     settings.firstSample += block_ * blockSamples;
-    const LodThresholds thresholds =
-        chosenThresholds(settings.thresholds, settings.metric, (block_ + 1) * blockSamples);
-    settings.thresholds = fixedThresholds(thresholds, settings.metric);
+    fixThresholds(settings, (block_ + 1) * blockSamples);
     plan_ = withAllLevels(planFrame(*world_, view_, settings));
 }
 

@@ -47,8 +47,9 @@ void levelSection(ViewState& state) {
     Request& request = state.options;
     settingRow(request, "lod");
     settingRow(request, "lodMetric");
-    const LodThresholds standard = defaultThresholds(request.settings.metric, request.settings.sampleCount);
-    if (request.settings.metric == LodMetric::measured) {
+    const LodMetric metric = chosenMetric(request.settings.metric, request.settings.thresholds);
+    const LodThresholds standard = defaultThresholds(metric, request.settings.sampleCount);
+    if (metric == LodMetric::measured) {
         settingRow(request, "lightThreshold", fmt::format("{:.3g}", standard.light));
     } else {
         settingRow(request, "blurThreshold", fmt::format("{}", standard.blur));

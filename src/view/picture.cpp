@@ -161,8 +161,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     const View view = resized(request.view, quality.resolution);
     RenderSettings settings = request.settings;
     settings.sampleCount = quality.samples;
-    const LodThresholds thresholds = chosenThresholds(settings.thresholds, settings.metric, quality.samples);
-    settings.thresholds = fixedThresholds(thresholds, settings.metric, quality.thresholdBias);
+    fixThresholds(settings, quality.samples, quality.thresholdBias);
     first_->drawFrame(view, settingsOf(settings, request.first));
     if (second_) second_->drawFrame(view, settingsOf(settings, *request.second));
     workCurrent_ = workGrows_ = false;

@@ -46,8 +46,7 @@ protected:
         popping.sampleCounts = {samples};
         popping.plan = frame.settings;
         // As coarse as few samples allow, whatever their number: levels change in sight.
-        const LodThresholds coarse = defaultThresholds(frame.settings.metric, 32);
-        popping.plan.thresholds = {coarse.blur, coarse.size};
+        fixThresholds(popping.plan, 32);
         double nearest = 0;
         double fractional = 0;
         PoppingVisitor visitor;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -227,6 +228,54 @@ TEST(FramePlan, thresholdsOfAnotherMetricAreErrors) {
     EXPECT_NO_THROW(planFrame(small->world, small->view, settings));
     settings.metric = LodMetric::size;
     EXPECT_THROW(planFrame(small->world, small->view, settings), Error);
+}
+
+TEST(FramePlan, aThresholdOfTheirSizeChoosesLevelsBySizeAndNoneTheMeasuredOnes) {
+    const auto small = fiveSpheres();
+    RenderSettings settings;
+    const auto metricWith = [&](const GivenThresholds& given) {
+        settings.thresholds = given;
+        return planFrame(small->world, small->view, settings).settings.metric;
+    };
+    EXPECT_EQ(metricWith({}), LodMetric::measured);
+    EXPECT_EQ(metricWith({.light = 0.1}), LodMetric::measured);
+    EXPECT_EQ(metricWith({.blur = 0.1}), LodMetric::size);
+    EXPECT_EQ(metricWith({.size = 2}), LodMetric::size);
+    EXPECT_THROW(metricWith({.size = 2, .light = 0.1}), Error);
+    settings.metric = LodMetric::error;
+    EXPECT_EQ(metricWith({.size = 2}), LodMetric::error);
+}
+
+// With one cause alone levels are no coarser than with both, a pinhole has size alone, and what isn't blurred has no
+// cause left.
+TEST(FramePlan, levelsByOneCauseAloneAreFiner) {
+    const auto small = fiveSpheres();
+    for (const LodMetric metric : {LodMetric::size, LodMetric::error, LodMetric::measured}) {
+        RenderSettings settings;
+        settings.metric = metric;
+        const auto lambdas = [&](LodCause cause) {
+            settings.lodCause = cause;
+            std::map<int, double> result;
+            for (const ObjectPlan& object : planFrame(small->world, small->view, settings).objects)
+                result[object.object] = object.lambda;
+            return result;
+        };
+        small->view.lens.dofEnabled = true;
+        const auto both = lambdas(LodCause::blurAndSize);
+        const auto bySize = lambdas(LodCause::size);
+        const auto byBlur = lambdas(LodCause::blur);
+        double finer = 0;
+        for (const auto& [object, lambda] : both) {
+            EXPECT_LE(bySize.at(object), lambda) << lodMetricName(metric) << ' ' << object;
+            EXPECT_LE(byBlur.at(object), lambda) << lodMetricName(metric) << ' ' << object;
+            finer += lambda - byBlur.at(object);
+        }
+        EXPECT_GT(finer, 0) << lodMetricName(metric);
+        small->view.lens.dofEnabled = false;
+        EXPECT_EQ(lambdas(LodCause::blurAndSize), lambdas(LodCause::size)) << lodMetricName(metric);
+        for (const auto& [object, lambda] : lambdas(LodCause::blur))
+            EXPECT_EQ(lambda, 0) << lodMetricName(metric) << ' ' << object;
+    }
 }
 
 TEST(FramePlan, impossibleRequestsAreErrors) {

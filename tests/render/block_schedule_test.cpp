@@ -139,11 +139,10 @@ TEST(BlockSchedule, levelsFollowTheSamplesThatAreExpected) {
         for (int block = 0; block < 2; ++block) {
             const RenderSettings settings = schedule->nextBlock();
             const LodThresholds standard = defaultThresholds(settings.metric, 4 * schedule->expectedSamples());
-            EXPECT_EQ(settings.thresholds.blur, standard.blur);
-            EXPECT_EQ(settings.thresholds.size, standard.size);
+            EXPECT_EQ(settings.thresholds.light, standard.light);
             schedule->endBlock(planOf(settings, 64), 0, [&] { return frame.mean(schedule->samples()); });
         }
-    EXPECT_LT(far.nextBlock().thresholds.size, 0.5 * *near.nextBlock().thresholds.size);
+    EXPECT_LT(far.nextBlock().thresholds.light, 0.5 * *near.nextBlock().thresholds.light);
 
     RenderSettings given;
     given.thresholds.size = 2.5;
@@ -159,7 +158,7 @@ TEST(BlockSchedule, measuredLevelsKeepToHalfOfTheTargetAndCountInTheEstimate) {
     BlockSchedule schedule(RenderSettings{}, targetOf(0.01), levels);
     for (;;) {
         const RenderSettings settings = schedule.nextBlock();
-        EXPECT_LE(*settings.thresholds.size, defaultThresholds(settings.metric, 512).size);
+        EXPECT_LE(*settings.thresholds.light, defaultThresholds(settings.metric, 512).light);
         if (!schedule.endBlock(planOf(settings, 64), 0, [&] { return frame.mean(schedule.samples()); })) break;
     }
     EXPECT_EQ(schedule.stopped(), StopReason::targetError);

@@ -66,13 +66,13 @@ std::vector<ConvergenceCase> casesOf(const MethodUse& use, std::uint32_t samples
         }
         for (const LodMetric metric : options.metrics)
             for (const double factor : options.thresholdFactors) {
-                const LodThresholds standard = defaultThresholds(metric, samples);
                 ConvergenceCase levels = fullDetailCase(use, samples, options.plan);
                 levels.setting = settingOf(use, fmt::format("lod={} metric={} thresholds={:g}", lodModeName(mode),
                                                             lodMetricName(metric), factor));
                 levels.plan.lod = mode;
                 levels.plan.metric = metric;
-                levels.plan.thresholds = fixedThresholds(standard, metric, factor);
+                levels.plan.thresholds = {};
+                fixThresholds(levels.plan, samples, factor);
                 cases.push_back(std::move(levels));
             }
     }

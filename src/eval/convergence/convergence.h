@@ -30,7 +30,7 @@ struct ConvergenceOptions {
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
     // For methods that draw levels of detail. Accumulation at full detail is always measured, in this list or not.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
-    std::vector<LodMetric> metrics = {LodMetric::size};
+    std::vector<LodMetric> metrics = {LodMetric::measured};
     std::vector<double> thresholdFactors = {0.5, 1, 2};  // on defaultThresholds for the number of samples
     int runs = 3;                                        // of each case, ≥ 1
     RendererOptions renderer;                            // its `settings` are not used

@@ -81,15 +81,12 @@ private:
     ReferenceImage image_;
 };
 
-// By what levels are chosen.
-enum class Thresholds { both, size, blur };
-
 // One of the frames that are compared with each other.
 struct SpeedupSubject {
     const SpeedupForm* form = nullptr;
     MethodUse use;
     LodMode mode = LodMode::off;
-    Thresholds thresholds = Thresholds::both;
+    LodCause cause = LodCause::blurAndSize;
     const SpeedupSubject* fullDetail = nullptr;  // of the same form
     std::unique_ptr<Renderer> renderer;
     FramePlan plan;
@@ -107,25 +104,23 @@ bool followsLevels(const Method& method) {
 // In the order in which the rows come; what belongs to a row follows it.
 std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const std::vector<MethodUse>& methods) {
     std::deque<SpeedupSubject> subjects;  // their places stay
-    const auto add = [&](const SpeedupForm& form, const MethodUse& use, LodMode mode, Thresholds thresholds) {
+    const auto add = [&](const SpeedupForm& form, const MethodUse& use, LodMode mode, LodCause cause) {
         SpeedupSubject& subject = subjects.emplace_back();
         subject.form = &form;
         subject.use = use;
         subject.mode = mode;
-        subject.thresholds = thresholds;
+        subject.cause = cause;
     };
     const MethodUse accumulation = parseMethodUse("accumulation");
     for (const SpeedupForm& form : forms) {
         const std::size_t first = subjects.size();
-        for (const LodMode mode : modes) add(form, accumulation, mode, Thresholds::both);
-        if (form.plan.metric != LodMetric::measured)  // which has neither threshold
-            for (const Thresholds one : {Thresholds::size, Thresholds::blur})
-                add(form, accumulation, LodMode::fractional, one);
+        for (const LodMode mode : modes) add(form, accumulation, mode, LodCause::blurAndSize);
+        for (const LodCause one : {LodCause::size, LodCause::blur}) add(form, accumulation, LodMode::fractional, one);
         for (std::size_t i = first; i < subjects.size(); ++i) subjects[i].fullDetail = &subjects[first];
     }
     const SpeedupSubject& lastFullDetail = *subjects.back().fullDetail;
     for (const MethodUse& use : methods) {
-        add(forms.back(), use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, Thresholds::both);
+        add(forms.back(), use, followsLevels(*use.method) ? LodMode::fractional : LodMode::off, LodCause::blurAndSize);
         subjects.back().fullDetail = &lastFullDetail;
     }
     return subjects;
@@ -135,8 +130,7 @@ FramePlan planOf(const SpeedupSubject& subject, const Setting& setting, std::uin
     RenderSettings settings = subject.form->plan;
     settings.sampleCount = samples;
     settings.lod = subject.mode;
-    if (subject.thresholds == Thresholds::size) settings.thresholds.blur = 0;
-    if (subject.thresholds == Thresholds::blur) settings.thresholds.size = 0;
+    settings.lodCause = subject.cause;
     return planFrame(*subject.form->world, setting.view, settings);
 }
 
@@ -199,8 +193,8 @@ void visitRows(const std::deque<SpeedupSubject>& subjects, const Setting& settin
                const std::function<void(const SpeedupRow&)>& visit) {
     for (std::size_t i = 0; i < subjects.size();) {
         SpeedupRow row = rowOf(setting, subjects[i], reference);
-        for (++i; i < subjects.size() && subjects[i].thresholds != Thresholds::both; ++i)
-            (subjects[i].thresholds == Thresholds::size ? row.sizeOnly : row.blurOnly) = partOf(subjects[i]);
+        for (++i; i < subjects.size() && subjects[i].cause != LodCause::blurAndSize; ++i)
+            (subjects[i].cause == LodCause::size ? row.sizeOnly : row.blurOnly) = partOf(subjects[i]);
         visit(row);
     }
 }

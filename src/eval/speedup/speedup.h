@@ -41,7 +41,7 @@ struct SpeedupOptions {
     RendererOptions renderer;
 };
 
-// Levels by one of the two thresholds, where the other is 0.
+// Levels that are coarse for one reason alone (LodCause).
 struct SpeedupPart {
     double milliseconds = 0;  // median, wall clock, of a frame
     double speedUp = 1;       // the median of full detail divided by this one

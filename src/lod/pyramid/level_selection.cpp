@@ -40,6 +40,8 @@ double between(double fine, double coarse, double target, LodMetric metric) {
 
 const char* lodMetricName(LodMetric metric) {
     switch (metric) {
+        case LodMetric::automatic:
+            return "automatic";
         case LodMetric::size:
             return "size";
         case LodMetric::error:
@@ -70,22 +72,33 @@ double expectedSampleError(std::uint32_t sampleCount) {
     return std::pow(std::max(sampleCount, 1u), -sampleErrorExponent);
 }
 
+LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given) {
+    if (metric != LodMetric::automatic) return metric;
+    return given.blur || given.size ? LodMetric::size : LodMetric::measured;
+}
+
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
-    if (metric == LodMetric::measured) return {.light = shareOfSampleError * expectedSampleError(sampleCount)};
+    if (chosenMetric(metric, {}) == LodMetric::measured)
+        return {.light = shareOfSampleError * expectedSampleError(sampleCount)};
     const LodThresholds& reference = metric == LodMetric::error ? referenceError : referenceSize;
     const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
     return {reference.blur * std::min(factor, largestFactor), reference.size * std::min(factor, 1.0)};
 }
 
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount) {
+    metric = chosenMetric(metric, given);
     const LodThresholds standard = defaultThresholds(metric, sampleCount);
     if (metric == LodMetric::measured) return {.light = given.light.value_or(standard.light)};
     return {given.blur.value_or(standard.blur), given.size.value_or(standard.size)};
 }
 
-GivenThresholds fixedThresholds(const LodThresholds& thresholds, LodMetric metric, double factor) {
-    if (metric == LodMetric::measured) return {.light = factor * thresholds.light};
-    return {.blur = factor * thresholds.blur, .size = factor * thresholds.size};
+void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor) {
+    const LodThresholds standard = chosenThresholds(settings.thresholds, settings.metric, sampleCount);
+    settings.metric = chosenMetric(settings.metric, settings.thresholds);
+    if (settings.metric == LodMetric::measured)
+        settings.thresholds.light = factor * standard.light;
+    else
+        settings.thresholds = {.blur = factor * standard.blur, .size = factor * standard.size};
 }
 
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,

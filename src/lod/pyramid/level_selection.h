@@ -13,6 +13,9 @@ namespace defocus {
 const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
+// The metric that `automatic` stands for; any other is itself.
+LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
+
 struct LodThresholds {
     double blur = 0;   // kBlur: target px per px of CoC
     double size = 0;   // kSize: least target in px
@@ -22,8 +25,8 @@ struct LodThresholds {
 // Takes the thresholds that are given, and the rest from defaultThresholds; those that the metric doesn't have are 0.
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount);
 
-// Those of the metric, times `factor`, so that they no longer follow the number of samples.
-GivenThresholds fixedThresholds(const LodThresholds& thresholds, LodMetric metric, double factor = 1);
+// Makes the thresholds those for `sampleCount` samples, times `factor`, whatever number of samples is drawn with them.
+void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor = 1);
 
 // The error of N lens samples, in units of that of one sample: N^(−0.65), as all sequences but a random one err on
 // rendered scenes (bench/results/llvmpipe-sequences.txt).

@@ -294,9 +294,8 @@ TEST(ConvergenceCases, thresholdsAreTimesTheStandardOnes) {
     options.thresholdFactors = {3};
     options.methods = {parseMethodUse("accumulation")};
     const ConvergenceCase levels = convergenceCases(options).at(1);
-    const LodThresholds standard = defaultThresholds(LodMetric::size, 64);
-    EXPECT_DOUBLE_EQ(levels.plan.thresholds.blur.value(), 3 * standard.blur);
-    EXPECT_DOUBLE_EQ(levels.plan.thresholds.size.value(), 3 * standard.size);
+    const LodThresholds standard = defaultThresholds(LodMetric::measured, 64);
+    EXPECT_DOUBLE_EQ(levels.plan.thresholds.light.value(), 3 * standard.light);
     EXPECT_TRUE(levels.usesLevels());
 }
 

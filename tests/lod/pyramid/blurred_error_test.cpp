@@ -178,10 +178,11 @@ TEST(BlurredError, theThresholdFollowsTheSamples) {
     EXPECT_GT(light(16), light(64));
     EXPECT_NEAR(light(64) / light(1024), std::pow(16, 0.65), 1e-9);
     EXPECT_EQ(expectedSampleError(1), 1);
-    const GivenThresholds fixed =
-        fixedThresholds(chosenThresholds({}, LodMetric::measured, 64), LodMetric::measured, 2);
-    EXPECT_FALSE(fixed.blur || fixed.size);
-    EXPECT_EQ(chosenThresholds(fixed, LodMetric::measured, 7).light, 2 * light(64));
+    RenderSettings fixed;
+    fixThresholds(fixed, 64, 2);
+    EXPECT_EQ(fixed.metric, LodMetric::measured);
+    EXPECT_FALSE(fixed.thresholds.blur || fixed.thresholds.size);
+    EXPECT_EQ(chosenThresholds(fixed.thresholds, LodMetric::measured, 7).light, 2 * light(64));
 }
 
 }  // namespace
