@@ -30,6 +30,7 @@
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "lod/pyramid/cache.h"
+#include "lod/pyramid/finish.h"
 #include "lod/pyramid/surface_distance.h"
 #include "scene/defaults.h"
 #include "scene/gltf/gltf.h"
@@ -343,6 +344,8 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     printWarnings(damageWarnings(scene), global);
     PyramidOptions options;
     options.vertices = arguments.request.settings.levelVertices;
+    const Finishes finishes(scene);
+    options.finishes = &finishes;
     if (const std::string failure = buildAll(scene, arguments.cacheFolder, options, reports, progress);
         !failure.empty())
         printWarnings({"a pyramid was not stored: " + failure}, global);

@@ -11,6 +11,7 @@
 #include "frame/prepared_frame.h"
 #include "frame/settings.h"
 #include "lod/pyramid/cache.h"
+#include "lod/pyramid/finish.h"
 #include "plan/plan_text.h"
 #include "scene/gltf/gltf.h"
 
@@ -81,6 +82,8 @@ std::string pyramidJson(const Request& request, const Progress& progress) {
     const Scene scene = loadScene(request, progress);
     PyramidOptions options;
     options.vertices = request.settings.levelVertices;
+    const Finishes finishes(scene);
+    options.finishes = &finishes;
     const std::vector<Pyramid> pyramids =
         cachedPyramids(scene.meshes, pyramidFolder(request), options, progress).pyramids;
     Json json = {{"meshes", Json::array()}};

@@ -20,6 +20,7 @@
 #include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid/cache.h"
+#include "lod/pyramid/finish.h"
 #include "scene/gltf/gltf.h"
 #include "school/fish_school.h"
 
@@ -211,6 +212,8 @@ void addPyramids(PreparedFrame& frame, const Progress& progress) {
     } else {
         PyramidOptions options;
         options.vertices = frame.settings.levelVertices;
+        const Finishes finishes(*frame.scene);
+        options.finishes = &finishes;
         CachedPyramids cached = cachedPyramids(meshes, frame.cacheFolder, options, progress);
         frame.world.pyramids = std::move(cached.pyramids);
         frame.pyramidsLoaded = cached.loaded;

@@ -3,6 +3,7 @@
 #include "scene/defaults.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -128,14 +129,10 @@ bool everythingSelfLit(const Scene& scene, const Pose& pose) {
     return anything;
 }
 
-// A directional light that stands `azimuth` to the right of the camera and `elevation` above it, seen from the scene.
-PlacedLight studioLight(const PlacedCamera& camera, const char* name, double azimuth, double elevation,
-                        const glm::vec3& color, float lux, const glm::dvec3& position) {
-    const glm::dvec3 toLight(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-                             std::cos(azimuth) * std::cos(elevation));
+PlacedLight placedAt(const StudioLight& studio, const PlacedCamera& camera, const glm::dvec3& position) {
     PlacedLight placed;
-    placed.light = {name, LightType::directional, color, lux};
-    placed.direction = -glm::normalize(glm::dvec3(camera.worldFromCamera * glm::dvec4(toLight, 0)));
+    placed.light = {studio.name, LightType::directional, studio.color, studio.illuminance};
+    placed.direction = -glm::normalize(glm::dvec3(camera.worldFromCamera * glm::dvec4(studio.toLight(), 0)));
     placed.position = position;
     return placed;
 }
@@ -170,17 +167,28 @@ glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose) {
                            : withoutScale(pose.worldFromNode[static_cast<std::size_t>(camera.node)]);
 }
 
+glm::dvec3 StudioLight::toLight() const {
+    return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+}
+
+std::span<const StudioLight> studioLights() {
+    // Illuminances are chosen together with the sky below: a diffuse ball of 18 % reflectance averages 18 % of display
+    // white.
+    static const std::array<StudioLight, 3> lights = {{
+        {"key", glm::radians(-42.0), glm::radians(38.0), {1.0f, 0.96f, 0.90f}, 2.6f},
+        {"fill", glm::radians(55.0), glm::radians(12.0), {0.88f, 0.94f, 1.0f}, 0.8f},
+        {"rim", glm::radians(155.0), glm::radians(35.0), {1.0f, 1.0f, 1.0f}, 2.2f},
+    }};
+    return lights;
+}
+
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera) {
     if (!pose.lights.empty()) return pose.lights;
     if (everythingSelfLit(scene, pose)) return {};
-    // Illuminances are chosen together with the sky below: a diffuse ball of 18 % reflectance averages 18 % of display
-    // white.
     const glm::dvec3 centre = pose.bounds.empty() ? glm::dvec3(0) : pose.bounds.centre();
-    return {
-        studioLight(camera, "key", glm::radians(-42.0), glm::radians(38.0), {1.0f, 0.96f, 0.90f}, 2.6f, centre),
-        studioLight(camera, "fill", glm::radians(55.0), glm::radians(12.0), {0.88f, 0.94f, 1.0f}, 0.8f, centre),
-        studioLight(camera, "rim", glm::radians(155.0), glm::radians(35.0), {1.0f, 1.0f, 1.0f}, 2.2f, centre),
-    };
+    std::vector<PlacedLight> lights;
+    for (const StudioLight& light : studioLights()) lights.push_back(placedAt(light, camera, centre));
+    return lights;
 }
 
 Environment environmentOrDefault(const Scene& scene) {

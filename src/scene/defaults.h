@@ -2,6 +2,7 @@
 // What a file leaves out: a camera that frames the scene, a soft three-light set-up and a sky.
 
 #include <glm/mat4x4.hpp>
+#include <span>
 
 #include "scene/pose.h"
 
@@ -21,6 +22,19 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::strin
 
 // Where the camera is in another pose of its scene; one that frames the scene stays where it is.
 glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose);
+
+// A directional light of scenes without any. It stands `azimuth` to the right of the camera and `elevation` above it,
+// as seen from the scene (rad).
+struct StudioLight {
+    const char* name = "";
+    double azimuth = 0;
+    double elevation = 0;
+    glm::vec3 color{1.0f};
+    float illuminance = 1;  // lux
+    // Unit, along the camera's right, up and back.
+    [[nodiscard]] glm::dvec3 toLight() const;
+};
+std::span<const StudioLight> studioLights();
 
 // The scene's own lights. Without any: directional key, fill and rim lights as seen from the camera, unless all that is
 // drawn is unlit or glows evenly. And its environment, or a soft sky; the two together show a grey card of 18 % at 18 %

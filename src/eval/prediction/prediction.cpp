@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <memory>
 
 #include "core/error.h"
 #include "lod/pyramid/blurred_error.h"
+#include "lod/pyramid/finish.h"
+#include "lod/pyramid/picture.h"
 #include "plan/blurred_patches.h"
 #include "scene/defaults.h"
 
@@ -21,8 +25,21 @@ constexpr std::uint32_t enoughSamples = 1024;  // so many that what is left of t
 struct Stand {
     World world;
     View view;
+    PlacedCamera camera;
     double depth = 0;  // m, of the mesh's centre
 };
+
+// Turns the mesh so that the camera sees it as the eye of a picture does.
+void turnTo(Stand& stand, const glm::dvec3& towards) {
+    const Pyramid& pyramid = stand.world.pyramids[0];
+    const Eye eye = eyeAlong(pyramid, towards, 1);
+    const glm::dmat3 turn =
+        glm::dmat3(stand.camera.worldFromCamera) * glm::transpose(glm::dmat3(eye.right, eye.up, eye.towards));
+    const glm::dvec3 centre = pyramid.bounds.centre();
+    glm::dmat4 worldFromObject(turn);
+    worldFromObject[3] = glm::dvec4(centre - turn * centre, 1);
+    for (Object& object : stand.world.pose.objects) object.worldFromObject = worldFromObject;
+}
 
 Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     const auto scene = std::make_shared<Scene>(*frame.scene);
@@ -42,18 +59,24 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     Stand stand;
     stand.world.scene = scene;
     stand.world.pose = poseAt(*scene, 0);
-    stand.world.pyramids = buildPyramids(scene->meshes);
+    const Finishes finishes(*scene);
+    stand.world.pyramids = buildPyramids(scene->meshes, {.finishes = &finishes});
     if (stand.world.pyramids[0].levels.size() < 2) fail("{}: no mesh has levels", frame.sceneName);
+    // A ball around the mesh fills the image, from whichever side it is seen.
+    const Bounds& bounds = stand.world.pyramids[0].bounds;
+    const glm::dvec3 radius(0.5 * glm::length(bounds.size()));
+    Pose ball = stand.world.pose;
+    ball.bounds = {bounds.centre() - radius, bounds.centre() + radius};
     const double aspect = static_cast<double>(options.width) / options.height;
-    const PlacedCamera placed = chooseCamera(*scene, stand.world.pose, "", aspect);
-    stand.world.lights = lightsOrDefault(*scene, stand.world.pose, placed);
+    stand.camera = chooseCamera(*scene, ball, "", aspect);
+    stand.world.lights = lightsOrDefault(*scene, stand.world.pose, stand.camera);
     stand.world.environment = environmentOrDefault(*scene);
     stand.world.environment.visible = false;
     stand.view.width = options.width;
     stand.view.height = options.height;
-    stand.view.worldFromCamera = placed.worldFromCamera;
-    stand.view.nearPlane = placed.camera.znear;
-    stand.depth = glm::distance(glm::dvec3(placed.worldFromCamera[3]), stand.world.pyramids[0].bounds.centre());
+    stand.view.worldFromCamera = stand.camera.worldFromCamera;
+    stand.view.nearPlane = stand.camera.camera.znear;
+    stand.depth = glm::distance(glm::dvec3(stand.camera.worldFromCamera[3]), bounds.centre());
     stand.view.lens.focusDistance = 1e6 * stand.depth;
     return stand;
 }
@@ -78,28 +101,41 @@ FramePlan planOf(const Stand& stand, std::uint32_t samples, std::uint32_t level)
     return plan;
 }
 
-Image imageOf(const Stand& stand, const FramePlan& plan, const RendererOptions& options) {
-    const auto renderer = methodNamed("accumulation").make(stand.world, options);
-    renderer->start(plan);
-    while (renderer->advance()) {
+// From each of the directions that the prediction looks from.
+std::vector<Image> imagesOf(Stand& stand, std::uint32_t samples, std::uint32_t level, const RendererOptions& options) {
+    std::vector<Image> images;
+    for (const glm::dvec3& towards : blurredErrorViews()) {
+        turnTo(stand, towards);
+        const auto renderer = methodNamed("accumulation").make(stand.world, options);
+        renderer->start(planOf(stand, samples, level));
+        while (renderer->advance()) {
+        }
+        images.push_back(renderer->image());
     }
-    return renderer->image();
+    return images;
 }
 
-// Root mean square of the difference over level 0's cover, in units of its mean light.
-double renderedError(const Image& truth, const Image& image) {
-    double squares = 0;
+// Root mean square of the difference over level 0's cover, in units of its mean light, of which no more is shown than
+// shownWhite.
+double renderedError(const std::vector<Image>& truths, const std::vector<Image>& images) {
     double light = 0;
     double cover = 0;
-    for (std::size_t i = 0; i < truth.pixels.size(); i += 4) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double difference = double{image.pixels[i + c]} - double{truth.pixels[i + c]};
-            squares += difference * difference / 3;
-            light += double{truth.pixels[i + c]} / 3;
+    for (const Image& truth : truths)
+        for (std::size_t i = 0; i < truth.pixels.size(); i += 4) {
+            for (std::size_t c = 0; c < 3; ++c) light += double{truth.pixels[i + c]} / 3;
+            cover += double{truth.pixels[i + 3]};
         }
-        cover += double{truth.pixels[i + 3]};
-    }
-    return light > 0 ? std::sqrt(squares / cover) / (light / cover) : 0;
+    if (!(light > 0)) return 0;
+    const double white = shownWhite * light / cover;
+    double squares = 0;
+    for (std::size_t view = 0; view < truths.size(); ++view)
+        for (std::size_t i = 0; i < truths[view].pixels.size(); ++i) {
+            if (i % 4 == 3) continue;
+            const double difference =
+                std::min(double{images[view].pixels[i]}, white) - std::min(double{truths[view].pixels[i]}, white);
+            squares += difference * difference / 3;
+        }
+    return std::sqrt(squares / cover) / (light / cover);
 }
 
 // Of the squares over all patches.
@@ -127,7 +163,7 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         const auto sides = blurredPatches(plan.objects.front(), plan);
         const double finest = levelOfBlurredError(pyramid, sides, lightAt(512));
         const double coarsest = levelOfBlurredError(pyramid, sides, lightAt(16));
-        const Image truth = imageOf(stand, plan, options.renderer);
+        const std::vector<Image> truth = imagesOf(stand, enoughSamples, 0, options.renderer);
 
         PredictionRow row;
         row.mesh = stand.world.scene->meshes[0].name;
@@ -135,15 +171,14 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         row.triangles = pyramid.levels[0].triangleCount;
         row.predicted = rootMean(sides, [&](double side) { return squaredContrast(pyramid, side); }) *
                         expectedSampleError(fewSamples);
-        row.rendered = renderedError(truth, imageOf(stand, planOf(stand, fewSamples, 0), options.renderer));
+        row.rendered = renderedError(truth, imagesOf(stand, fewSamples, 0, options.renderer));
         row.used = true;
         visit(row);
         report(progress, "levels", ++done, total);
         for (row.level = 1; row.level < levels; ++row.level) {
             row.triangles = pyramid.levels[row.level].triangleCount;
             row.predicted = rootMean(sides, [&](double side) { return squaredError(pyramid, row.level, side); });
-            row.rendered =
-                renderedError(truth, imageOf(stand, planOf(stand, enoughSamples, row.level), options.renderer));
+            row.rendered = renderedError(truth, imagesOf(stand, enoughSamples, row.level, options.renderer));
             row.used = row.level < coarsest + 1 && row.level > finest - 1;
             visit(row);
             report(progress, "levels", ++done, total);

@@ -1,10 +1,11 @@
 #pragma once
 // Is a level as wrong as its pyramid says (blurred_error.h)? The mesh of a scene that has the most triangles is drawn
-// alone, level by level, under growing blur, and each image of 1,024 lens samples is compared with level 0's.
+// alone, level by level, under growing blur, from the directions that the prediction looks from, and each image of
+// 1,024 lens samples is compared with level 0's.
 //
 // Held equal between predicted and rendered: mesh, level, lens, the patches of the blur. Both errors are of linear
-// light, over the three channels and the area that level 0 covers, in units of its mean light; the renderer's own
-// shading with the scene's materials and textures stands against the fixed light and pattern of the prediction.
+// light up to white, over the three channels and the area that level 0 covers, in units of its mean light. The
+// renderer's shading, with normal maps and the scene's own sky, stands against the simpler one of the prediction.
 
 #include <functional>
 #include <string>

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/hash.h"
+#include "lod/pyramid/finish.h"
 #include "scene/vertex_block.h"
 
 namespace defocus {
@@ -61,7 +62,7 @@ void append(std::vector<std::byte>& bytes, const std::vector<T>& values) {
 PyramidFileHeader headerOf(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {
     const auto& [vertices, source, indices, levels, bounds, jointBounds, morphBounds, smallestPatch, contrast,
                  repairedFaces, end] = pyramid;
-    const auto& [leastTriangles, mostLevels, levelVertices] = key.options;
+    const auto& [leastTriangles, mostLevels, levelVertices, finishes] = key.options;
     PyramidFileHeader header;
     header.mesh = key.mesh;
     header.leastTriangles = leastTriangles;
@@ -244,7 +245,8 @@ std::uint64_t meshHash(const Mesh& mesh) {
 PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options) {
     // The build's hash of this folder's sources: no file outlives a change of what buildPyramid does.
     constexpr std::uint64_t sources[1] = {DEFOCUS_PYRAMID_SOURCES};
-    return {hashBytes(std::as_bytes(std::span(sources)), meshHash(mesh)), options};
+    const std::uint64_t own = meshHash(mesh) ^ (options.finishes == nullptr ? 0 : options.finishes->hash(mesh));
+    return {hashBytes(std::as_bytes(std::span(sources)), own), options};
 }
 
 std::vector<std::byte> encodePyramid(const Pyramid& pyramid, const Mesh& mesh, const PyramidKey& key) {

@@ -23,7 +23,7 @@ std::uint64_t meshHash(const Mesh& mesh);
 
 // What a pyramid depends on.
 struct PyramidKey {
-    std::uint64_t mesh = 0;  // meshHash, and the hash of the sources of src/lod
+    std::uint64_t mesh = 0;  // meshHash, and the hashes of its finishes and of the sources of src/lod
     PyramidOptions options;
 };
 

@@ -15,6 +15,7 @@
 #include "core/parallel.h"
 #include "lod/pyramid/blurred_error.h"
 #include "lod/pyramid/clusters.h"
+#include "lod/pyramid/finish.h"
 #include "lod/pyramid/surface_distance.h"
 #include "lod/pyramid/vertex_order.h"
 #include "lod/simplify/conserve.h"
@@ -216,6 +217,14 @@ std::vector<T> inOrder(const std::vector<T>& own, const Numbered<LevelVertexNumb
     return result;
 }
 
+// One a primitive; none without a scene.
+std::vector<Finish> finishesOf(const Mesh& mesh, const PyramidOptions& options) {
+    std::vector<Finish> finishes;
+    if (options.finishes == nullptr) return finishes;
+    for (const Primitive& primitive : mesh.primitives) finishes.push_back(options.finishes->of(primitive.material));
+    return finishes;
+}
+
 Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {
     // Join equal vertices; weld the positions of the rest.
     WeldedVertices unique = weldVertices(mesh);
@@ -323,7 +332,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         done = {};
     }
     separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));
-    measureBlurredErrors(pyramid, helpers);
+    measureBlurredErrors(pyramid, finishesOf(mesh, options), helpers);
     measureDeformations(pyramid, mesh);
     return pyramid;
 }

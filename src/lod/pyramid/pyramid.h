@@ -20,6 +20,8 @@
 
 namespace defocus {
 
+class Finishes;
+
 struct IndexRange {
     std::uint32_t first = 0;  // into Pyramid::indices
     std::uint32_t count = 0;  // a multiple of 3
@@ -88,6 +90,7 @@ struct PyramidOptions {
     std::uint32_t leastTriangles = 64;  // halving ends here (the last collapse may take one triangle more)
     int mostLevels = 24;                // level 0 included
     LevelVertices vertices = LevelVertices::fitted;
+    const Finishes* finishes = nullptr;  // of the scene that the meshes belong to; null: white and matt
 };
 
 const char* levelVerticesName(LevelVertices vertices);  // as the command line has it

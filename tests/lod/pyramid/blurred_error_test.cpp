@@ -22,7 +22,7 @@ Pyramid withLevel(const std::function<glm::vec4(const glm::vec3&)>& colour,
     for (glm::vec3& normal : pyramid.levels[0].normals) normal = glm::normalize(normal);
     pyramid.levels.push_back(pyramid.levels[0]);
     change(pyramid.levels[1]);
-    measureBlurredErrors(pyramid, helpers);
+    measureBlurredErrors(pyramid, {}, helpers);
     return pyramid;
 }
 

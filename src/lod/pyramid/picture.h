@@ -1,0 +1,35 @@
+#pragma once
+// Pictures of a level, from afar and without a lens: each cell shows what is nearest to the eye at its middle, under
+// the lights that scenes without any get (scene/defaults.h) and an even sky.
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "lod/pyramid/finish.h"
+#include "lod/pyramid/pyramid.h"
+
+namespace defocus {
+
+// A square grid at right angles to a direction, over a ball around the mesh.
+struct Eye {
+    glm::dvec3 centre{0}, right{0}, up{0}, towards{0};  // towards: from the mesh to the eye, unit
+    double cellsPerUnit = 0;
+    int resolution = 0;  // cells a side
+
+    // In cells; z grows towards the eye.
+    [[nodiscard]] glm::vec3 place(const glm::vec3& position) const;
+};
+
+Eye eyeAlong(const Pyramid& pyramid, const glm::dvec3& towards, int resolution);
+
+struct Picture {
+    std::vector<glm::vec3> light;  // linear, row by row; 0 where nothing is
+    std::size_t covered = 0;       // cells
+    double sum = 0;                // of the light's mean channels
+};
+
+// Of level `number`; `finishes` are those of the mesh's primitives.
+Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes);
+
+}  // namespace defocus
