@@ -47,9 +47,9 @@ struct Finish {
     float roughness = 1;
     float reflectance = 0;  // at normal incidence, of what isn't metal
     glm::vec3 emission{0.0f};
-    FinishMap baseColorMap;
-    FinishMap metallicRoughnessMap;  // y roughness, z metallic
-    FinishMap emissionMap;
+    FinishMap baseColorMap = {};
+    FinishMap metallicRoughnessMap = {};  // y roughness, z metallic
+    FinishMap emissionMap = {};
 };
 
 // The finishes of a scene, which must outlive it. Textures are read when they are first asked for; several threads may
