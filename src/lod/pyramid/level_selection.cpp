@@ -14,7 +14,7 @@ constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 sample
 constexpr LodThresholds referenceError{0.018, 0.18};  // px of deviation at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double shareOfSampleError = 0.1;
+constexpr double shareOfSampleError = 0.14;
 constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
 
 double storedSize(const PyramidLevel& level, LodMetric metric) {
