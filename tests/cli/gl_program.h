@@ -11,12 +11,12 @@ class GlProgramTest : public ProgramTest {
 protected:
     void SetUp() override {
         ProgramTest::SetUp();
-        if (const std::string reason = whyNoContext(); !reason.empty()) GTEST_SKIP() << reason;
+        static const std::string reason = whyNoContext();
+        if (!reason.empty()) GTEST_SKIP() << reason;
     }
 
 private:
-    // Empty where there is a context. A process of its own asks: the threads that a driver begins would keep run() from
-    // copying this one.
+    // Empty where there is a context. A process of its own asks, and a driver that fails, or crashes, does it there.
     static std::string whyNoContext() {
         int ends[2];
         if (::pipe(ends) != 0) return "no pipe";

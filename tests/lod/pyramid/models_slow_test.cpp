@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lod/invariants.h"
@@ -32,18 +34,33 @@ std::vector<fs::path> publicModels() {
     return models;
 }
 
+struct BuiltModel {
+    std::vector<Mesh> meshes;
+    std::vector<Pyramid> pyramids;  // one a mesh
+};
+
+// A process builds each model once, however many tests look at it.
+const BuiltModel& built(const fs::path& path) {
+    static std::map<fs::path, BuiltModel> known;
+    const auto found = known.find(path);
+    if (found != known.end()) return found->second;
+    BuiltModel model;
+    model.meshes = loadGltf(path).meshes;
+    model.pyramids = buildPyramids(model.meshes);
+    return known.emplace(path, std::move(model)).first->second;
+}
+
 TEST(RealModels, AllBecomePyramids) {
     const std::vector<fs::path> models = publicModels();
     if (models.empty()) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
     for (const fs::path& path : models) {
         SCOPED_TRACE(path.filename().string());
-        const Scene scene = loadGltf(path);
-        const std::vector<Pyramid> pyramids = buildPyramids(scene.meshes);
-        ASSERT_EQ(pyramids.size(), scene.meshes.size());
+        const auto& [meshes, pyramids] = built(path);
+        ASSERT_EQ(pyramids.size(), meshes.size());
         for (std::size_t m = 0; m < pyramids.size(); ++m) {
-            SCOPED_TRACE(testing::Message() << "mesh " << m << " " << scene.meshes[m].name);
-            expectPyramidInvariants(scene.meshes[m], pyramids[m]);
-            EXPECT_EQ(pyramids[m].repairedFaces, repairsOf(scene.meshes[m]).faces);
+            SCOPED_TRACE(testing::Message() << "mesh " << m << " " << meshes[m].name);
+            expectPyramidInvariants(meshes[m], pyramids[m]);
+            EXPECT_EQ(pyramids[m].repairedFaces, repairsOf(meshes[m]).faces);
         }
     }
 }
@@ -55,8 +72,7 @@ TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
     if (models.empty()) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
     std::vector<double> ratios;
     for (const fs::path& path : models) {
-        const Scene scene = loadGltf(path);
-        const std::vector<Pyramid> pyramids = buildPyramids(scene.meshes);
+        const auto& [meshes, pyramids] = built(path);
         for (std::size_t m = 0; m < pyramids.size(); ++m) {
             const Pyramid& pyramid = pyramids[m];
             const Surface mesh = prepareSurface(pyramid.levels[0].positions, levelIndices(pyramid, 0));
@@ -66,7 +82,7 @@ TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
                 const Surface surface = prepareSurface(level.positions, levelIndices(pyramid, l));
                 const double measured = surfaceDistance(mesh, surface, points).both.percentile99;
                 EXPECT_GE(level.error, 0.9 * measured)
-                    << path.filename().string() << " mesh " << m << " " << scene.meshes[m].name << " level " << l;
+                    << path.filename().string() << " mesh " << m << " " << meshes[m].name << " level " << l;
                 if (measured > 0) ratios.push_back(level.error / measured);
             }
         }
@@ -81,7 +97,7 @@ TEST(RealModels, StoredErrorsAreThoseOfTheFittedSurfaces) {
 TEST(RealModels, ClosedScansComeDownToTheFloor) {
     for (const char* name : {"skull.glb", "hammer.glb"}) {
         DEFOCUS_MODEL_OR_SKIP(path, name);
-        const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+        const Pyramid& pyramid = built(path).pyramids.at(0);
         ASSERT_TRUE(isClosed(pyramid.vertices.positions, levelIndices(pyramid, 0))) << name;
         EXPECT_EQ(pyramid.levels.back().triangleCount, 64u) << name;
     }
@@ -92,14 +108,15 @@ TEST(RealModels, ClosedMeshesStayClosed) {
     if (models.empty()) GTEST_SKIP() << "no models in " << modelsDirectory() << "; set DEFOCUS_MODELS_DIR";
     std::size_t closed = 0;
     for (const fs::path& path : models) {
-        const Scene scene = loadGltf(path);
-        for (const Mesh& mesh : scene.meshes) {
+        const auto& [meshes, pyramids] = built(path);
+        for (std::size_t m = 0; m < meshes.size(); ++m) {
+            const Mesh& mesh = meshes[m];
             std::vector<std::uint32_t> indices;
             for (const Primitive& primitive : mesh.primitives)
                 indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
             if (indices.empty() || !isClosed(mesh.vertices.positions, indices)) continue;
             ++closed;
-            const Pyramid pyramid = buildPyramid(mesh);
+            const Pyramid& pyramid = pyramids.at(m);
             for (std::size_t l = 1; l < pyramid.levels.size(); ++l)
                 EXPECT_TRUE(isClosed(pyramid.levels[l].positions, levelIndices(pyramid, l)))
                     << path.filename().string() << " mesh " << mesh.name << " level " << l;
@@ -112,17 +129,17 @@ TEST(RealModels, ClosedMeshesStayClosed) {
 // Its cap has four fifths of the area, and straps of many handles have the most triangles.
 TEST(RealModels, LeatherCapOutlastsItsStraps) {
     DEFOCUS_MODEL_OR_SKIP(path, "FlightHelmet/FlightHelmet.gltf");
-    const Scene scene = loadGltf(path);
-    const auto leather = std::find_if(scene.meshes.begin(), scene.meshes.end(),
-                                      [](const Mesh& mesh) { return mesh.name == "LeatherParts_low"; });
-    ASSERT_NE(leather, scene.meshes.end());
-    expectMainPartLasts(*leather, buildPyramid(*leather));
+    const auto& [meshes, pyramids] = built(path);
+    const auto leather =
+        std::find_if(meshes.begin(), meshes.end(), [](const Mesh& mesh) { return mesh.name == "LeatherParts_low"; });
+    ASSERT_NE(leather, meshes.end());
+    expectMainPartLasts(*leather, pyramids.at(static_cast<std::size_t>(leather - meshes.begin())));
 }
 
 TEST(RealModels, OpenMountainKeepsItsOutline) {
     // The outline shrinks by no more than what the stored error allows along its length.
     DEFOCUS_MODEL_OR_SKIP(path, "mountain.glb");
-    const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+    const Pyramid& pyramid = built(path).pyramids.at(0);
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
         Bounds bounds;
         for (const std::uint32_t v : levelIndices(pyramid, l)) bounds.extend(glm::dvec3(pyramid.vertices.positions[v]));
@@ -133,7 +150,7 @@ TEST(RealModels, OpenMountainKeepsItsOutline) {
 
 TEST(RealModels, SoupOfHundredLooseTrianglesLosesWholeOnes) {
     DEFOCUS_MODEL_OR_SKIP(path, "nasty/soup.glb");
-    const Pyramid pyramid = buildPyramid(loadGltf(path).meshes.at(0));
+    const Pyramid& pyramid = built(path).pyramids.at(0);
     EXPECT_EQ(pyramid.levels[0].triangleCount, 100u);
     ASSERT_EQ(pyramid.levels.size(), 2u);
     EXPECT_EQ(pyramid.levels[1].triangleCount, 64u);
