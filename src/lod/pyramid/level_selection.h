@@ -39,8 +39,9 @@ double expectedSampleError(std::uint32_t sampleCount);
 // N = 32, where trading samples for finer levels gains nothing, 2.4 times at 64 and less and less beyond, and both
 // vanish as N grows (school of fish, 512 × 384: bench/results/llvmpipe-thresholds.txt).
 //
-// Measured levels have a seventh of the error that N samples are expected to leave: one sample, anywhere on the lens, is
-// off by the standard deviation of the light within the blur, and N by expectedSampleError(N) times that. The root mean
+// Measured levels have a seventh of the error that 16 samples are expected to leave, and less with more samples: one
+// sample, anywhere on the lens, is off by the standard deviation of the light within the blur, and N by
+// expectedSampleError(N) times that; levels by 0.185·N^(−0.75) times that, so that they vanish beside it. The root mean
 // square of both together hardly grows by so little; but a level is wrong all over an object, in large soft spots,
 // where samples are at outlines and in fine ghosts, and FLIP, as eyes do, minds the former more.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
