@@ -45,7 +45,8 @@ protected:
         PreparedFrame frame = prepareFrame(options_);
         popping.sampleCounts = {samples};
         popping.plan = frame.settings;
-        // As coarse as few samples allow, whatever their number: levels change in sight.
+        // By size and as coarse as few samples allow, whatever their number: levels change in sight.
+        popping.plan.metric = LodMetric::size;
         fixThresholds(popping.plan, 32);
         double nearest = 0;
         double fractional = 0;
