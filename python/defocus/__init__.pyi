@@ -81,7 +81,7 @@ class Keywords(TypedDict, total=False):
     layer_format: Optional[Literal["automatic", "rgb9e5", "rgba16f", "rgba32f", "rgba8"]]
     tone_map: Optional[Literal["none", "aces", "agx"]]
     exposure: Optional[float]  # EV
-    lod_metric: Optional[Literal["size", "error", "halving", "measured"]]
+    lod_metric: Optional[Literal["automatic", "size", "error", "halving", "measured"]]
     level_vertices: Optional[Literal["fitted", "surviving"]]
     lod_coc: Optional[Literal["smallest", "centre"]]
     coc_tolerance: Optional[float]  # px
