@@ -15,23 +15,31 @@ namespace {
 
 constexpr float dielectric = 0.04f;  // reflectance, as glTF has it
 
-std::array<float, 256> decoded(bool srgb) {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const float value = static_cast<float>(i) / 255;
-        values[i] = srgb ? srgbDecode(value) : value;
-    }
-    return values;
+using Decoding = std::array<float, 256>;
+
+// The light, or the value, that each byte stands for.
+const Decoding& decoding(bool srgb) {
+    const auto made = [](const auto& decode) {
+        Decoding values{};
+        for (std::size_t i = 0; i < values.size(); ++i) values[i] = decode(static_cast<float>(i) / 255);
+        return values;
+    };
+    static const Decoding encoded = made([](float value) { return srgbDecode(value); });
+    static const Decoding linear = made([](float value) { return value; });
+    return srgb ? encoded : linear;
+}
+
+std::uint8_t byteOf(float value, bool srgb) {
+    return static_cast<std::uint8_t>(std::lround(255 * (srgb ? srgbEncode(value) : value)));
 }
 
 // The mean of each piece of the image; alpha is left out.
-FinishTexture reduced(const TextureImage& image, const Texture& texture, bool srgb) {
-    const std::array<float, 256> linear = decoded(srgb);
-    FinishTexture result;
-    result.width = std::min(image.width, FinishTexture::mostSide);
-    result.height = std::min(image.height, FinishTexture::mostSide);
-    result.wrapS = texture.wrapS;
-    result.wrapT = texture.wrapT;
+FinishImage reduced(const TextureImage& image, bool srgb) {
+    const Decoding& values = decoding(srgb);
+    FinishImage result;
+    result.width = std::min(image.width, FinishImage::mostSide);
+    result.height = std::min(image.height, FinishImage::mostSide);
+    result.srgb = srgb;
     result.texels.reserve(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height));
     const auto piece = [](int i, int count, int size) {
         const auto begin = std::int64_t{i} * size / count;
@@ -46,9 +54,10 @@ FinishTexture reduced(const TextureImage& image, const Texture& texture, bool sr
                 for (std::int64_t column = left; column < right; ++column) {
                     const std::uint8_t* const texel =
                         &image.rgba[4 * static_cast<std::size_t>(row * image.width + column)];
-                    sum += glm::vec3(linear[texel[0]], linear[texel[1]], linear[texel[2]]);
+                    sum += glm::vec3(values[texel[0]], values[texel[1]], values[texel[2]]);
                 }
-            result.texels.push_back(sum / static_cast<float>((bottom - top) * (right - left)));
+            const glm::vec3 mean = sum / static_cast<float>((bottom - top) * (right - left));
+            result.texels.emplace_back(byteOf(mean.r, srgb), byteOf(mean.g, srgb), byteOf(mean.b, srgb));
         }
     }
     return result;
@@ -68,23 +77,23 @@ std::uint64_t hashOf(const TextureImage& image) {
 
 }  // namespace
 
-glm::vec3 FinishTexture::at(const glm::vec2& uv) const {
+glm::vec3 FinishMap::at(const glm::vec2& uv0, const glm::vec2& uv1) const {
     constexpr float farthest = 1e6f;
+    if (!image) return glm::vec3(1);
+    const glm::vec2 uv(uvTransform * glm::vec3(uvSet == 0 ? uv0 : uv1, 1));
     if (!(std::abs(uv.x) < farthest && std::abs(uv.y) < farthest)) return glm::vec3(1);
-    const glm::vec2 place = uv * glm::vec2(width, height) - 0.5f;
+    const glm::vec2 place = uv * glm::vec2(image->width, image->height) - 0.5f;
     const glm::vec2 corner = glm::floor(place);
     const glm::vec2 f = place - corner;
-    const auto texel = [&](int dx, int dy) -> const glm::vec3& {
-        const int x = wrapped(static_cast<int>(corner.x) + dx, width, wrapS);
-        const int y = wrapped(static_cast<int>(corner.y) + dy, height, wrapT);
-        return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    const Decoding& values = decoding(image->srgb);
+    const auto texel = [&](int dx, int dy) {
+        const int x = wrapped(static_cast<int>(corner.x) + dx, image->width, wrapS);
+        const int y = wrapped(static_cast<int>(corner.y) + dy, image->height, wrapT);
+        const glm::u8vec3& t = image->texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(image->width) +
+                                             static_cast<std::size_t>(x)];
+        return glm::vec3(values[t.r], values[t.g], values[t.b]);
     };
     return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
-}
-
-glm::vec3 FinishMap::at(const glm::vec2& uv0, const glm::vec2& uv1) const {
-    if (!texture) return glm::vec3(1);
-    return texture->at(glm::vec2(uvTransform * glm::vec3(uvSet == 0 ? uv0 : uv1, 1)));
 }
 
 Finishes::Finishes(const Scene& scene) : scene_(scene), imageHashes_(scene.images.size(), 0) {
@@ -104,9 +113,10 @@ FinishMap Finishes::mapOf(const TextureUse& use, bool srgb) const {
     const TextureImage& image = scene_.images[static_cast<std::size_t>(texture.image)];
     if (image.width < 1 || image.height < 1) return {};
     const std::scoped_lock lock(mutex_);
-    auto& made = textures_[{use.texture, srgb}];
-    if (!made) made = std::make_shared<const FinishTexture>(reduced(image, texture, srgb));
-    return {made, use.uvSet, use.uvTransform};
+    auto& known = images_[{texture.image, srgb}];
+    std::shared_ptr<const FinishImage> own = known.lock();
+    if (!own) known = own = std::make_shared<const FinishImage>(reduced(image, srgb));
+    return {own, texture.wrapS, texture.wrapT, use.uvSet, use.uvTransform};
 }
 
 Finish Finishes::of(int material) const {

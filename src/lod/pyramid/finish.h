@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/gtc/type_precision.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -17,25 +18,23 @@
 
 namespace defocus {
 
-// A texture no larger than such a picture can show, linear Rec.709.
-struct FinishTexture {
-    static constexpr int mostSide = 512;  // texels
+// An image no larger than such a picture can show.
+struct FinishImage {
+    static constexpr int mostSide = 256;  // texels
 
     int width = 0;
     int height = 0;
-    Wrap wrapS = Wrap::repeat;
-    Wrap wrapT = Wrap::repeat;
-    std::vector<glm::vec3> texels;  // row by row from the top
-
-    // Linear between texels.
-    [[nodiscard]] glm::vec3 at(const glm::vec2& uv) const;
+    bool srgb = false;
+    std::vector<glm::u8vec3> texels;  // encoded as the file's, row by row from the top
 };
 
 struct FinishMap {
-    std::shared_ptr<const FinishTexture> texture;  // null: none
+    std::shared_ptr<const FinishImage> image;  // null: none
+    Wrap wrapS = Wrap::repeat;
+    Wrap wrapT = Wrap::repeat;
     int uvSet = 0;
     glm::mat3 uvTransform{1.0f};
-    // By the texture coordinates of both sets; 1 where there is no texture.
+    // By the texture coordinates of both sets, linear Rec.709 and linear between texels; 1 where there is no image.
     [[nodiscard]] glm::vec3 at(const glm::vec2& uv0, const glm::vec2& uv1) const;
 };
 
@@ -52,8 +51,8 @@ struct Finish {
     FinishMap emissionMap = {};
 };
 
-// The finishes of a scene, which must outlive it. Textures are read when they are first asked for; several threads may
-// ask at once.
+// The finishes of a scene, which must outlive it. Images are reduced when they are asked for, and kept as long as a
+// finish has them; several threads may ask at once.
 class Finishes {
 public:
     explicit Finishes(const Scene& scene);
@@ -68,7 +67,7 @@ private:
     const Scene& scene_;
     std::vector<std::uint64_t> imageHashes_;  // of those that materials use; else 0
     mutable std::mutex mutex_;
-    mutable std::map<std::pair<int, bool>, std::shared_ptr<const FinishTexture>> textures_;  // by texture, sRGB or not
+    mutable std::map<std::pair<int, bool>, std::weak_ptr<const FinishImage>> images_;  // by image, sRGB or not
 };
 
 }  // namespace defocus
