@@ -274,7 +274,7 @@ TEST_F(Render, uniformBackgroundIsThatColour) {
 
 TEST_F(Render, fullDiskIsOneLineAndKeepsTheFileThatWasThere) {
     std::ofstream(folder() / "a.exr") << "kept";
-    const Outcome outcome = render({"-o", "a.exr", "--quiet"}, 512);
+    const Outcome outcome = render({"-o", "a.exr"}, 512);
     expectOneLine(outcome, 1);
     EXPECT_NE(outcome.err.find("a.exr: cannot be written"), std::string::npos) << outcome.err;
     EXPECT_EQ(textOf(folder() / "a.exr"), "kept");
