@@ -14,7 +14,7 @@ constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 sample
 constexpr LodThresholds referenceError{0.018, 0.18};  // px of deviation at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double mostLight = 0.185;  // a seventh of the error of 16 samples
+constexpr double lightAtOneSample = 0.185;  // at 16 samples it is a seventh of what they leave
 constexpr double lightExponent = 0.75;
 constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
 
@@ -80,7 +80,7 @@ LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given) {
 
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
     if (chosenMetric(metric, {}) == LodMetric::measured)
-        return {.light = mostLight * std::pow(std::max(sampleCount, 1u), -lightExponent)};
+        return {.light = lightAtOneSample * std::pow(std::max(sampleCount, 1u), -lightExponent)};
     const LodThresholds& reference = metric == LodMetric::error ? referenceError : referenceSize;
     const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
     return {reference.blur * std::min(factor, largestFactor), reference.size * std::min(factor, 1.0)};

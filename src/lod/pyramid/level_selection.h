@@ -41,9 +41,9 @@ double expectedSampleError(std::uint32_t sampleCount);
 //
 // Measured levels have a seventh of the error that 16 samples are expected to leave, and less with more samples: one
 // sample, anywhere on the lens, is off by the standard deviation of the light within the blur, and N by
-// expectedSampleError(N) times that; levels by 0.185·N^(−0.75) times that, so that they vanish beside it. The root mean
-// square of both together hardly grows by so little; but a level is wrong all over an object, in large soft spots,
-// where samples are at outlines and in fine ghosts, and FLIP, as eyes do, minds the former more.
+// expectedSampleError(N) times that deviation. Levels are off by 0.185·N^(−0.75) times it and so vanish beside the
+// samples. The root mean square of both together hardly grows by so little; but a level is wrong all over an object, in
+// large soft spots, where samples are at outlines and in fine ghosts, and FLIP, as eyes do, minds the former more.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 struct LevelQuery {
