@@ -19,9 +19,9 @@ namespace defocus {
 namespace {
 
 constexpr std::uint32_t fewSamples = 64;
-constexpr std::uint32_t enoughSamples = 1024;  // so many that what is left of them is small beside a level's error
+constexpr std::uint32_t enoughSamples = 1024;  // of each of the two sets, whose own errors cancel
 
-// One mesh alone before nothing, without skin or animation, focused far away.
+// One mesh alone before nothing, without skin or animation, under the default lights, focused far away.
 struct Stand {
     World world;
     View view;
@@ -50,6 +50,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     scene->meshes = {Mesh(*largest)};
     scene->cameras.clear();
     scene->lights.clear();
+    scene->environment.reset();
     scene->skins.clear();
     scene->clips.clear();
     Node node;
@@ -88,9 +89,10 @@ void blurBy(Stand& stand, double coc) {
     lens.fStop = lens.focalLength / (1000 * aperture);
 }
 
-FramePlan planOf(const Stand& stand, std::uint32_t samples, std::uint32_t level) {
+FramePlan planOf(const Stand& stand, std::uint32_t samples, std::uint32_t level, std::uint32_t seed = 0) {
     RenderSettings settings;
     settings.sampleCount = samples;
+    settings.seed = seed;
     settings.lod = LodMode::off;
     settings.keepAll = true;
     FramePlan plan = planFrame(stand.world, stand.view, settings);
@@ -101,41 +103,61 @@ FramePlan planOf(const Stand& stand, std::uint32_t samples, std::uint32_t level)
     return plan;
 }
 
+using Views = std::vector<Image>;
+
 // From each of the directions that the prediction looks from.
-std::vector<Image> imagesOf(Stand& stand, std::uint32_t samples, std::uint32_t level, const RendererOptions& options) {
-    std::vector<Image> images;
+Views viewsOf(Stand& stand, std::uint32_t samples, std::uint32_t level, std::uint32_t seed,
+              const RendererOptions& options) {
+    Views views;
     for (const glm::dvec3& towards : blurredErrorViews()) {
         turnTo(stand, towards);
         const auto renderer = methodNamed("accumulation").make(stand.world, options);
-        renderer->start(planOf(stand, samples, level));
+        renderer->start(planOf(stand, samples, level, seed));
         while (renderer->advance()) {
         }
-        images.push_back(renderer->image());
+        views.push_back(renderer->image());
     }
-    return images;
+    return views;
 }
 
-// Root mean square of the difference over level 0's cover, in units of its mean light, of which no more is shown than
-// shownWhite.
-double renderedError(const std::vector<Image>& truths, const std::vector<Image>& images) {
-    double light = 0;
+// Two sets of lens samples that have nothing in common.
+using TwoSets = std::array<Views, 2>;
+
+TwoSets twoSetsOf(Stand& stand, std::uint32_t level, const RendererOptions& options) {
+    return {viewsOf(stand, enoughSamples, level, 1, options), viewsOf(stand, enoughSamples, level, 2, options)};
+}
+
+// The mean light of what covers the images, and how much they cover, in pixels.
+struct Light {
+    double mean = 0;
     double cover = 0;
-    for (const Image& truth : truths)
-        for (std::size_t i = 0; i < truth.pixels.size(); i += 4) {
-            for (std::size_t c = 0; c < 3; ++c) light += double{truth.pixels[i + c]} / 3;
-            cover += double{truth.pixels[i + 3]};
+};
+
+Light lightOf(const Views& views) {
+    Light light;
+    for (const Image& image : views)
+        for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+            for (std::size_t c = 0; c < 3; ++c) light.mean += double{image.pixels[i + c]} / 3;
+            light.cover += double{image.pixels[i + 3]};
         }
-    if (!(light > 0)) return 0;
-    const double white = shownWhite * light / cover;
-    double squares = 0;
-    for (std::size_t view = 0; view < truths.size(); ++view)
-        for (std::size_t i = 0; i < truths[view].pixels.size(); ++i) {
-            if (i % 4 == 3) continue;
-            const double difference =
-                std::min(double{images[view].pixels[i]}, white) - std::min(double{truths[view].pixels[i]}, white);
-            squares += difference * difference / 3;
-        }
-    return std::sqrt(squares / cover) / (light / cover);
+    if (light.cover > 0) light.mean /= light.cover;
+    return light;
+}
+
+// Root mean square over the cover, in units of the mean light, of which no more is shown than shownWhite. What the two
+// sets of samples change is multiplied: the chance of each cancels, and what N → ∞ samples would leave remains.
+double renderedError(const TwoSets& truth, const TwoSets& level) {
+    const Light light = lightOf(truth[0]);
+    if (!(light.mean > 0)) return 0;
+    const double white = shownWhite * light.mean;
+    const auto change = [&](std::size_t set, std::size_t view, std::size_t i) {
+        return std::min(double{level[set][view].pixels[i]}, white) - std::min(double{truth[set][view].pixels[i]}, white);
+    };
+    double products = 0;
+    for (std::size_t view = 0; view < truth[0].size(); ++view)
+        for (std::size_t i = 0; i < truth[0][view].pixels.size(); ++i)
+            if (i % 4 != 3) products += change(0, view, i) * change(1, view, i) / 3;
+    return std::sqrt(std::max(products, 0.0) / light.cover) / light.mean;
 }
 
 // Of the squares over all patches.
@@ -163,7 +185,7 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         const auto sides = blurredPatches(plan.objects.front(), plan);
         const double finest = levelOfBlurredError(pyramid, sides, lightAt(512));
         const double coarsest = levelOfBlurredError(pyramid, sides, lightAt(16));
-        const std::vector<Image> truth = imagesOf(stand, enoughSamples, 0, options.renderer);
+        const TwoSets truth = twoSetsOf(stand, 0, options.renderer);
 
         PredictionRow row;
         row.mesh = stand.world.scene->meshes[0].name;
@@ -171,14 +193,15 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         row.triangles = pyramid.levels[0].triangleCount;
         row.predicted = rootMean(sides, [&](double side) { return squaredContrast(pyramid, side); }) *
                         expectedSampleError(fewSamples);
-        row.rendered = renderedError(truth, imagesOf(stand, fewSamples, 0, options.renderer));
+        const Views few = viewsOf(stand, fewSamples, 0, 0, options.renderer);
+        row.rendered = renderedError(truth, {few, few});
         row.used = true;
         visit(row);
         report(progress, "levels", ++done, total);
         for (row.level = 1; row.level < levels; ++row.level) {
             row.triangles = pyramid.levels[row.level].triangleCount;
             row.predicted = rootMean(sides, [&](double side) { return squaredError(pyramid, row.level, side); });
-            row.rendered = renderedError(truth, imagesOf(stand, enoughSamples, row.level, options.renderer));
+            row.rendered = renderedError(truth, twoSetsOf(stand, row.level, options.renderer));
             row.used = row.level < coarsest + 1 && row.level > finest - 1;
             visit(row);
             report(progress, "levels", ++done, total);

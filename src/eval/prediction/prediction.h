@@ -1,11 +1,12 @@
 #pragma once
 // Is a level as wrong as its pyramid says (blurred_error.h)? The mesh of a scene that has the most triangles is drawn
-// alone, level by level, under growing blur, from the directions that the prediction looks from, and each image of
-// 1,024 lens samples is compared with level 0's.
+// alone, level by level, under growing blur, from the directions that the prediction looks from, and compared with
+// level 0. What N lens samples miss is not the level's error: each comparison is made with two sets of 1,024 samples,
+// and only what both agree on counts.
 //
-// Held equal between predicted and rendered: mesh, level, lens, the patches of the blur. Both errors are of linear
-// light up to white, over the three channels and the area that level 0 covers, in units of its mean light. The
-// renderer's shading, with normal maps and the scene's own sky, stands against the simpler one of the prediction.
+// Held equal between predicted and rendered: mesh, level, lens, the patches of the blur, the default lights. Both errors
+// are of linear light up to white, over the three channels and the area that level 0 covers, in units of its mean light.
+// The renderer's shading, with normal maps and the default sky, stands against the simpler one of the prediction.
 
 #include <functional>
 #include <string>

@@ -21,6 +21,9 @@ constexpr int mostResolution = 512;  // its patches of 2, 4, … 512 cells fill 
 static_assert(mostResolution == 1 << (blurSizes - 1));
 constexpr double leastBlurredGrowth = 1.1;  // from level to level
 constexpr double leastError = 1e-6;         // of level 1
+// Half as many triangles double the error of a smooth surface (it goes with the square of the edges). Twice that bounds
+// from below the error of a level whose triangles are too small for a picture.
+constexpr float mostUnseenGrowth = 4;
 
 // ---- what is left over patches
 
@@ -200,6 +203,12 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
             own[i] =
                 static_cast<float>(std::max({std::sqrt(sums[i]), leastBlurredGrowth * double{before[i]}, leastError}));
         before = own;
+    }
+    for (std::size_t l = pyramid.levels.size() - 1; --l > 0;) {
+        if (pyramid.levels[l].triangleCount * viewCount <= covered) continue;
+        BlurTable& own = pyramid.levels[l].blurredError;
+        const BlurTable& coarser = pyramid.levels[l + 1].blurredError;
+        for (std::size_t i = 0; i < blurSizes; ++i) own[i] = std::max(own[i], coarser[i] / mostUnseenGrowth);
     }
 }
 

@@ -32,7 +32,7 @@ PyramidKey pyramidKey(const Mesh& mesh, const PyramidOptions& options);
 struct PyramidFileHeader {
     static constexpr std::uint64_t expectedMagic = 0x3150445053554644ull;  // "DFUSPDP1"
     // It changes with the format alone. What buildPyramid makes of a mesh is in the key: see pyramidKey.
-    static constexpr std::uint32_t expectedVersion = 5;
+    static constexpr std::uint32_t expectedVersion = 6;
 
     std::uint64_t magic = expectedMagic;
     std::uint64_t checksum = 0;  // hashBytes of all that follows this field
