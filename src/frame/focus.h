@@ -1,6 +1,6 @@
 #pragma once
-// Where a lens is focused: at a distance, on a node, on what a pixel shows, on the middle of the image, or along a
-// plane through three pixels.
+// Focuses a lens: at a distance, on a node, on what a pixel shows, on the middle of the image, or along a plane through
+// three pixels.
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -12,10 +12,10 @@
 
 namespace defocus {
 
-// Sets the focus distance of `view`'s lens, and for three points its tilt and swing too; all else of the view must be
-// set. In this order: what the options ask for, the camera's own, the depth of the scene's centre. Throws Error where
-// nothing is to be seen at a pixel, for a node behind the camera, and for three points on a line or on a plane that
-// meets the view axis behind the camera.
+// Sets the focus distance of `view`'s lens, and for three points its tilt and swing too. Everything else of the view
+// must be set. It takes the first of these that there is: what the request asks for, the camera's own distance, the
+// depth of the scene's centre. Throws Error if a pixel shows nothing, if a node lies behind the camera, and for three
+// points on a line or on a plane that meets the view axis behind the camera.
 void chooseFocus(const Request& request, const Camera& camera, const Scene& scene, const Pose& pose, View& view);
 
 // Sets the focus distance, tilt and swing so that the focus plane goes through three points in view space (m; the

@@ -1,5 +1,5 @@
 #pragma once
-// What a person should know of a picture, from its plan alone.
+// Warns of what a person should know about a picture, from its plan alone.
 
 #include <string>
 #include <vector>
@@ -8,13 +8,14 @@
 
 namespace defocus {
 
-// A line each, with what helps:
+// Returns a line, with what helps, for each of these:
 // - the lens is open, but nothing is blurred by half a pixel;
 // - `samplesFill` (each sample is an image of its own, as the accumulation's are), and an object's blur is so large for
 //   the number of samples that they show as copies: N points spread over a disk of c px lie about c·√(π/(4N)) px apart.
 std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill);
 
-// What of the scene's file isn't drawn, a line each; faults of the file are damageWarnings (prepared_frame.h).
+// Returns a line for each thing in the scene's file that isn't drawn. For faults of the file see damageWarnings
+// (prepared_frame.h).
 std::vector<std::string> ignoredWarnings(const Scene& scene);
 
 }  // namespace defocus

@@ -1,5 +1,5 @@
 #pragma once
-// From a request to a world and a view that can be planned and rendered.
+// Makes a world and a view of a request, so that they can be planned and rendered.
 
 #include <filesystem>
 #include <memory>
@@ -19,7 +19,7 @@ struct PreparedFrame {
     RenderSettings settings;
     std::string sceneName;  // the file's name, or "fish school"
     std::string cameraName;
-    Lens cameraLens;                             // as it would be without the request's values
+    Lens cameraLens;                             // the lens without the request's values
     std::vector<std::string> refusedLensValues;  // of the camera's extras, a line each
     double loadMilliseconds = 0;
     double pyramidMilliseconds = 0;
@@ -28,48 +28,50 @@ struct PreparedFrame {
     std::string cacheFailure;           // why a pyramid couldn't be stored there
 };
 
-// The scene that a request names, or the built-in school of fish. Throws Error for a file that can't be read.
+// Loads the scene that a request names, or makes the built-in school of fish. Throws Error for a file that can't be
+// read.
 Scene loadScene(const Request& request, const Progress& progress = {});
 
 // Loads the scene and places camera, lens and lights; the world has no pyramids yet. Throws Error for whatever the
 // request asks for and the scene doesn't have.
 PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
-// The same in a scene that is open already, with its nodes' blur as it is; it is not written to. `environment`: the
-// surroundings, where they are known from a frame before; null: those that the request asks for.
+// Does the same in a scene that is loaded already. The scene isn't changed, so its nodes keep the blur they have.
+// `environment`: the surroundings, if they are known from an earlier frame; null: those that the request asks for.
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
                          const Environment* environment = nullptr);
 
 // Scales the blur of the nodes that the request names. Throws Error for a name that the scene doesn't have.
 void setNodeBlur(const Request& request, Scene& scene);
 
-// The part of it that the request's camera and lens decide, again for another camera. The lights stay.
+// Sets camera and lens of a placed frame anew, for a request with another camera. The lights stay.
 void placeCamera(PreparedFrame& frame, const Request& request);
 
-// The surroundings that the request asks for. Throws Error for a map that can't be read or can't light a scene.
+// Returns the surroundings that the request asks for. Throws Error for a map that can't be read or can't light a scene.
 Environment chosenEnvironment(const Request& request, const Scene& scene);
 
-// The image of an aperture. Throws Error for one that can't be read or lets no light pass.
+// Loads the image of an aperture. Throws Error for one that can't be read or lets no light pass.
 std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path);
 
-// The near plane (m) for cameras that go where no file has put them: that of the camera they started from, or nearer
-// where the scene is small.
+// Returns the near plane (m) for cameras that go where no file has put them: that of the camera they started from, or a
+// nearer one if the scene is small.
 double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds);
 
-// Where the request keeps simplified meshes; empty: nowhere.
+// Returns the folder in which the request keeps simplified meshes; empty if it keeps none.
 std::filesystem::path pyramidFolder(const Request& request);
 
-// Simplifies the meshes where the cache doesn't have them, or only brings them into the pyramids' form when the
-// settings use no other level.
+// Simplifies the meshes that the cache doesn't have. If the settings use full detail only, makes pyramids of level 0
+// alone.
 void addPyramids(PreparedFrame& frame, const Progress& progress = {});
 
-// Both.
+// Calls placeFrame, then addPyramids.
 PreparedFrame prepareFrame(const Request& request, const Progress& progress = {});
 
-// A line for each kind of damage in the scene's file.
+// Returns a line for each kind of damage in the scene's file.
 std::vector<std::string> damageWarnings(const Scene& scene);
 
-// That, values of the camera that aren't used, a focus that no lens has, pyramids that couldn't be stored: a line each.
+// Returns the lines of damageWarnings, and one for each value of the camera that isn't used, for a focus that no lens
+// has, and for pyramids that couldn't be stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus

@@ -1,6 +1,6 @@
 #pragma once
-// Presets: settings that belong together, by name. Setting a preset sets them; what is set after it wins, and a request
-// remembers no preset: it has one while all of its settings are as the preset has them.
+// Presets name settings that belong together. Applying a preset sets them, and later settings override it. A request
+// doesn't remember a preset; it has one as long as all of the preset's settings are as the preset sets them.
 
 #include <optional>
 #include <span>
@@ -23,7 +23,7 @@ struct Preset {
     std::vector<PresetValue> values;
 };
 
-// All of them; their names are the choices of the setting "preset".
+// Returns all presets; their names are the choices of the setting "preset".
 std::span<const Preset> presets();
 
 // Throws UsageError for an unknown name.
@@ -34,7 +34,7 @@ void applyPreset(const Preset& preset, Request& request);
 // Takes the preset's settings back to those of a default-made request.
 void clearPreset(const Preset& preset, Request& request);
 
-// The first whose settings the request has; null where there is none.
+// Returns the first preset whose settings the request has; null if there is none.
 const Preset* presetOf(const Request& request);
 
 }  // namespace defocus

@@ -1,19 +1,19 @@
 #pragma once
-// What a result says about the program that made it.
+// Says which program made a result.
 
 #include <string>
 #include <vector>
 
 namespace defocus {
 
-// "0.1.0", of the build.
+// Returns the version of the build, such as "0.1.0".
 std::string programVersion();
 
-// The commit that the program was built from, "-changed" added where the sources differ from it; empty where it wasn't
-// built in a git checkout.
+// Returns the commit that the program was built from, followed by "-changed" if the sources differ from it. It is empty
+// if the program wasn't built in a git checkout.
 std::string programCommit();
 
-// A program's arguments as a shell would take them, the program by its name alone.
+// Returns a program's arguments as a shell would take them. The program has its name alone, without folders.
 std::string commandLine(std::vector<std::string> words);
 
 }  // namespace defocus

@@ -1,7 +1,7 @@
 #pragma once
-// The converged image that methods are measured against: full detail, many lens samples of its own (an offset into
-// their sequence), 32-bit float layers. It is kept as an EXR with a hash of all that it depends on, and it knows how
-// far it may still be from the limit.
+// Makes the converged image that methods are measured against: full detail, many lens samples of its own (they begin at
+// an offset in their sequence), 32-bit float layers. It is kept as an EXR with a hash of everything that it depends on,
+// and with an estimate of its own error.
 //
 // It is the mean of two halves, each of its own lens samples. Were their errors independent, the mean's would be half
 // the difference between the two: the difference between the mean and either half. Neighbouring stretches of a Halton
@@ -37,24 +37,23 @@ struct ReferenceImage {
     bool reused = false;      // read from the folder
 };
 
-// For a row whose PSNR or FLIP from the reference says nothing but that it is below the reference's own error: that, in
-// words; else empty.
+// Returns a remark for a row whose PSNR, FLIP or both are below the reference's own error; empty if neither is.
 std::string belowReferenceText(bool psnr, bool flip);
 
-// Rendered, and kept nowhere. Needs a current GL context. Throws Error for an impossible number of samples.
+// Renders a reference without storing it. Needs a current GL context. Throws Error for an impossible number of samples.
 ReferenceImage renderedReference(const World& world, const View& view, const ReferenceOptions& options,
                                  const Progress& progress = {});
 
-// What ReferenceImage::hash will be. Needs no pyramids.
+// Returns what ReferenceImage::hash will be. Needs no pyramids.
 std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options);
 
-// Does the folder hold a reference, or the half of one, of another hash, which referenceImage would replace? Files that
-// can't be read as images are worth nothing.
+// Returns whether the folder holds a reference, or half of one, with another hash, which referenceImage would replace.
+// Files that can't be read as images don't count.
 bool holdsOtherReference(const std::filesystem::path& folder, std::uint64_t hash);
 
-// Takes `folder`/reference.exr where it has the hash and is whole, else renders it and writes it there; a half that a
-// killed run has left (reference-half.exr) is used. Needs a current GL context for the rendering. Throws Error for an
-// impossible number of samples and where the files can't be written.
+// Reads `folder`/reference.exr if it has the hash and is whole. Else renders the image and writes it there, continuing
+// from the half that a killed run may have left (reference-half.exr). Rendering needs a current GL context. Throws
+// Error for an impossible number of samples and if the files can't be written.
 ReferenceImage referenceImage(const World& world, const View& view, const ReferenceOptions& options,
                               const std::filesystem::path& folder, const Progress& progress = {});
 

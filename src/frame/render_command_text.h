@@ -1,5 +1,5 @@
 #pragma once
-// The `defocus render` command that makes the picture of a view, to paste into a shell.
+// Writes the `defocus render` command that makes the picture of a view, to paste into a shell.
 
 #include <string>
 
@@ -17,13 +17,13 @@ struct RenderCommandText {
     std::string output = "out.png";
 };
 
-// Options that have their standard value are left out.
+// Returns the command. Options that have their standard value are left out.
 std::string renderCommand(const RenderCommandText& text);
 
-// The command that films a shot which was recorded in a view: with what no shot file says.
+// Returns the command that films a shot which was recorded in a view. It has the options that no shot file holds.
 std::string captureCommand(const std::filesystem::path& shot, const Request& options);
 
-// A word as a shell reads it back: as it is, or in single quotes.
+// Returns a word so that a shell reads it back: as it is, or in single quotes.
 std::string shellWord(const std::string& word);
 
 }  // namespace defocus

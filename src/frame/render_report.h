@@ -1,5 +1,5 @@
 #pragma once
-// What a render says about itself: metadata in its images, numbers in --stats, a line for people.
+// Writes what a render says about itself: metadata in its images, numbers in --stats, a line for people.
 
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// The request of the public API, with what the library's own rooms need to read it.
+// Includes the request of the public API, with what the library's own rooms need to read it.
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -19,14 +19,13 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
     return {pixel.column, pixel.row};
 }
 
-// The method with its settings. Throws UsageError for settings that it doesn't take.
+// Returns the method with its settings. Throws UsageError for settings that it doesn't take.
 MethodUse chosenMethod(const Request& request);
 
-// checkStop of render/frame_run.h for the request's method and shutter.
+// Calls checkStop (render/frame_run.h) for the request's method and shutter.
 void checkStop(const Request& request);
 
-// Throws UsageError that names the setting for a value out of its range, however it came into the struct, and for more
-// than one focus.
+// Throws UsageError, which names the setting, for a value out of its range and for more than one focus.
 void checkRequest(const Request& request);
 
 }  // namespace defocus

@@ -1,5 +1,6 @@
 #pragma once
-// The patches of an object that one pixel shows the mean of: by the blur, and by the pixel itself.
+// Computes the patches of an object whose mean one pixel shows: the blur spreads them, and so does the pixel's own
+// size.
 
 #include <array>
 #include <cstddef>
@@ -10,14 +11,14 @@ namespace defocus {
 
 inline constexpr std::size_t patchDepths = 5;
 
-// Their sides, object units, at depths evenly spread over the object's box, which lies in front of the near plane. A
-// disk of diameter c and a pixel, both as wide as the square of side √(1 + ¾c²) px by their variance along an axis. The
-// circle of confusion is the one in the middle of the image, within the box's range; with
-// RenderSettings::lodCocAtCentre the box's centre stands for all depths. RenderSettings::lodCause takes one of the two
-// alone.
+// Returns their sides, in object units, at depths evenly spread over the object's box, which must lie in front of the
+// near plane. A disk of diameter c and a pixel, one after the other, spread a point as far as a square of side √(1 +
+// ¾c²) px does: they have the same variance along an axis. The circle of confusion is the one in the middle of the
+// image, clamped to those of the box. With RenderSettings::lodCocAtCentre, the box's centre stands for all depths.
+// RenderSettings::lodCause can leave out the disk or the pixel.
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan);
 
-// At the centre of the object's box in view space, px.
+// Returns the diameter of the circle of confusion at the centre of the object's box in view space, px.
 double cocAtCentre(const ObjectPlan& object, const FramePlan& plan);
 
 }  // namespace defocus

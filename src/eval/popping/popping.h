@@ -11,9 +11,8 @@
 //   step:   I_t minus the same view and pose drawn with the levels and splits of the frame before. This is the pop
 //           alone.
 // Both are measured over the whole image and over the objects' pixels, which an object or its blur touches in either
-// frame. For the step, only the objects count whose draws differ: a pop is seen where it happens, however many objects
-// are quiet elsewhere. (Several that step in one frame are not the worse for it, nor is one that pops alone the
-// better.)
+// frame. For the step, only the objects count whose draws differ. So quiet objects don't dilute a pop, and its error is
+// about the same whether one object pops in a frame or several do.
 //
 // How large should a step be? If a whole level pops, N samples share the difference, which is blurred by c px. The
 // difference of one sample is sharp, w px wide. So the step of one sample is √(c/w)/N of the whole pop. If less than

@@ -1,8 +1,8 @@
 #pragma once
-// Is a level as wrong as its pyramid says (blurred_error.h)? The mesh of a scene that has the most triangles is drawn
-// alone, level by level, under growing blur, from the directions that the prediction looks from, and compared with
-// level 0. What N lens samples miss is not the level's error: each comparison is made with two sets of 1,024 samples,
-// and only what both agree on counts.
+// Tests whether a level is as wrong as its pyramid says (blurred_error.h). The mesh of a scene that has the most
+// triangles is drawn alone, level by level, under growing blur, from the directions that the prediction looks from, and
+// compared with level 0. What N lens samples miss is not the level's error: each comparison is made with two sets of
+// 1,024 samples, and only what both agree on counts.
 //
 // Held equal between predicted and rendered: mesh, level, lens, the patches of the blur, the default lights. Both errors
 // are of linear light up to white, over the three channels and the area that level 0 covers, in units of its mean light.
@@ -32,8 +32,8 @@ struct PredictionRow {
     std::uint32_t triangles = 0;
     double predicted = 0;
     double rendered = 0;
-    // Whether the level is drawn at this blur with LodMetric::measured and 16 to 512 samples. The errors of the levels
-    // below and above count as well where λ lies between two.
+    // True if the level is drawn at this blur with LodMetric::measured and any number of samples from 16 to 512. If λ
+    // lies between two levels, both are drawn.
     bool used = false;
 
     [[nodiscard]] bool withinTwo() const { return predicted <= 2 * rendered && rendered <= 2 * predicted; }

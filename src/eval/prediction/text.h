@@ -12,7 +12,8 @@ namespace defocus {
 std::string predictionHeader();                        // two lines
 std::string predictionLine(const PredictionRow& row);  // one line
 
-// How many of the levels that are used are predicted within a factor of two, and the worst, in a sentence.
+// Says in a sentence how many of the levels that are used are predicted within a factor of two, how far off the worst
+// one is, and how far the mean.
 std::string predictionSummary(std::span<const PredictionRow> rows);
 
 std::string predictionCsv(std::span<const PredictionRow> rows);

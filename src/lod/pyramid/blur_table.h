@@ -1,5 +1,5 @@
 #pragma once
-// What a blur leaves of a difference: its root mean square once it is averaged over patches of growing size.
+// Says what a blur leaves of a difference: its root mean square once it is averaged over patches of growing size.
 
 #include <array>
 #include <cstddef>

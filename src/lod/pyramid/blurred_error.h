@@ -1,13 +1,13 @@
 #pragma once
-// How wrong is a level once it is blurred? Each level and level 0 are looked at from a few directions (picture.h), with
-// the materials of the mesh, under the lights of scenes that have none. So colour, light (by normals) and the place of
-// outlines all count, as far as each can be seen. What the level changes is averaged over square patches first, with
-// its sign, and then squared: E(level, s) is what a blur of size s leaves of it.
+// Measures how wrong a level is once it is blurred. Each level and level 0 are drawn from a few directions (picture.h),
+// with the materials of the mesh, under the lights that a scene without lights gets. So colour, light (by normals) and
+// the place of outlines all count, as far as each can be seen. The difference from level 0 is first averaged over
+// square patches, with its sign, and then squared: E(level, s) is what a blur of size s leaves of the difference.
 //
-// The same pictures of level 0 tell how much a lens sample errs: V(s) is the standard deviation of the light within
-// patches of side s, which is what one sample that falls anywhere in a blur of that size is off by; N samples of a
-// sequence are off by V · N^−p. Both are in the same unit, so that how bright the object is and how it is shown cancel.
-// Light above four times the mesh's mean counts as that much, after the blur, as it does in a picture of it: it is
+// The same pictures of level 0 tell how wrong a lens sample is. V(s) is the standard deviation of the light within
+// patches of side s: one sample that falls anywhere in a blur of that size is off by so much, and N samples of a
+// sequence by V · N^−p. E and V have the same unit, so their ratio doesn't depend on how bright the object is or how it
+// is shown. Light above four times the mesh's mean counts as that much, after the blur, because a picture shows it as
 // white.
 
 #include <cstddef>
@@ -20,25 +20,25 @@
 
 namespace defocus {
 
-// Fills Pyramid::smallestPatch, Pyramid::contrast and PyramidLevel::blurredError from the rest and the finishes of the
-// mesh's primitives; none: all are white and matt. Deterministic, whatever the number of `helpers`, which are threads
-// beside the caller's. Errors grow by a tenth or more from level to level,
-// so that a level can be found for any target.
+// Fills Pyramid::smallestPatch, Pyramid::contrast and PyramidLevel::blurredError from the rest of the pyramid and the
+// finishes of the mesh's primitives. Without finishes all are white and matt. Errors grow by a tenth or more from level
+// to level, so that a level can be found for any target. `helpers`: threads beside the caller's; the result doesn't
+// depend on their number.
 void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, std::size_t helpers = 0);
 
-// The directions from the mesh to the eyes, unit.
+// Returns the directions from the mesh to the eyes; unit length.
 std::vector<glm::dvec3> blurredErrorViews();
 
-// Light that is brighter, in units of the mean light of the mesh, is shown as bright as that.
+// In units of the mean light of the mesh; brighter light is shown as if it were only this bright.
 inline constexpr double shownWhite = 4;
 
-// E and V squared for a patch of side `side`, in object units, ≥ 0; continuous in it. Beyond the largest patch E falls
-// as that of a spot, with the side.
+// Return E² and V² for a patch of side `side` (object units, ≥ 0). They are continuous in the side. Beyond the largest
+// patch of the table, E falls as 1/side, as that of a spot does.
 double squaredError(const Pyramid& pyramid, std::size_t level, double side);
 double squaredContrast(const Pyramid& pyramid, double side);
 
-// λ where the level's error is `share` times V, both root mean squares over patches of these sides (object units). It
-// is continuous in sides and share; 0 where no level's error is known.
+// Returns the λ at which the level's error is `share` times V, both as root mean squares over patches of these sides
+// (object units). It is continuous in sides and share, and 0 if no level's error is known.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double share);
 
 }  // namespace defocus

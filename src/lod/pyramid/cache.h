@@ -18,7 +18,7 @@ std::filesystem::path defaultCacheFolder();
 
 struct CachedPyramids {
     std::vector<Pyramid> pyramids;  // one a mesh
-    std::size_t loaded = 0;         // of them, the rest was built
+    std::size_t loaded = 0;         // how many of them; the rest was built
     std::string failure;            // why a built one wasn't stored; empty where nothing went wrong
 };
 
@@ -28,7 +28,7 @@ struct CachedPyramids {
 CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const std::filesystem::path& folder,
                               const PyramidOptions& options = {}, const Progress& progress = {});
 
-// Loads one pyramid; nothing where the folder doesn't have it whole and sound.
+// Loads one pyramid. Returns nothing if the folder doesn't have it whole and sound.
 std::optional<Pyramid> loadPyramid(const Mesh& mesh, const std::filesystem::path& folder,
                                    const PyramidOptions& options = {});
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a blur leaves of a surface, so that a level can be held against level 0: its mean colour, the light it throws
-// back, and the area it covers.
+// Measures what a blur leaves of a surface, so that a level can be compared with level 0: its mean colour, the light it
+// throws back, and the area it covers.
 
 #include <array>
 #include <cstdint>
@@ -23,11 +23,11 @@ struct Conserved {
     std::array<double, outlineDirections> outline{};
 };
 
-// The colour of a surface at a point: of the triangle with this first index into Pyramid::indices, at these
-// barycentric coordinates.
+// Returns the colour of a surface at a point: on the triangle that begins at `firstIndex` in Pyramid::indices, at the
+// barycentric coordinates `weights`.
 using ColourAt = std::function<glm::dvec3(std::uint32_t firstIndex, const glm::dvec3& weights)>;
 
-// The level's interpolated vertex colours; white without any.
+// Returns the level's interpolated vertex colours; white if it has none.
 ColourAt vertexColours(const Pyramid& pyramid, std::size_t level);
 
 // Measures a level with at least `points` points over its area for colour and light, and on a grid of `resolution`²
@@ -35,7 +35,7 @@ ColourAt vertexColours(const Pyramid& pyramid, std::size_t level);
 Conserved conservedBy(const Pyramid& pyramid, std::size_t level, const ColourAt& colour, std::size_t points,
                       int resolution);
 
-// How far a level is from level 0: the largest differences of the above.
+// The largest differences of these values between a level and level 0.
 struct ConservedDifference {
     double colour = 0;       // of a channel
     double light = 0;        // of a light

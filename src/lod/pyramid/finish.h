@@ -1,7 +1,7 @@
 #pragma once
-// What the surfaces of a scene's meshes look like, for the pictures that levels are judged by (picture.h): glTF's
-// metallic-roughness materials without normal and occlusion maps and without transparency, which the pictures leave
-// out of full detail and of levels alike.
+// Holds what the surfaces of a scene's meshes look like, for the pictures that levels are judged by (picture.h). These
+// are glTF's metallic-roughness materials. The pictures leave out normal maps, occlusion maps and transparency, of full
+// detail and of levels alike.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace defocus {
 
-// An image no larger than such a picture can show.
+// A texture, reduced to a size that such a picture can show.
 struct FinishImage {
     static constexpr int mostSide = 256;  // texels
 
@@ -34,11 +34,13 @@ struct FinishMap {
     Wrap wrapT = Wrap::repeat;
     int uvSet = 0;
     glm::mat3 uvTransform{1.0f};
-    // By the texture coordinates of both sets, linear Rec.709 and linear between texels; 1 where there is no image.
+    // Returns the map's linear value at texture coordinates, of which both sets are given. It is interpolated between
+    // texels, and 1 if there is no image.
     [[nodiscard]] glm::vec3 at(const glm::vec2& uv0, const glm::vec2& uv1) const;
 };
 
-// Without a scene everything is white and matt, with the colours of the vertices alone.
+// What one material looks like. The defaults are what meshes without a scene get: white and matt, coloured by their
+// vertices alone.
 struct Finish {
     bool unlit = false;
     glm::vec3 baseColor{1.0f};
@@ -51,21 +53,21 @@ struct Finish {
     FinishMap emissionMap = {};
 };
 
-// The finishes of a scene, which must outlive it. Images are reduced when they are asked for, and kept as long as a
-// finish has them; several threads may ask at once.
+// The finishes of a scene, which must outlive this object. An image is reduced when a finish first needs it, and kept
+// as long as a finish holds it. Several threads may ask at once.
 class Finishes {
 public:
     explicit Finishes(const Scene& scene);
-    // Of a primitive's material; −1: glTF's default.
+    // Returns the finish of a primitive's material; −1 is glTF's default material.
     [[nodiscard]] Finish of(int material) const;
-    // Of all that the look of the mesh depends on beside the mesh itself.
+    // Returns a hash of the materials and textures that the mesh uses, as far as finishes hold them.
     [[nodiscard]] std::uint64_t hash(const Mesh& mesh) const;
 
 private:
     [[nodiscard]] FinishMap mapOf(const TextureUse& use, bool srgb) const;
 
     const Scene& scene_;
-    std::vector<std::uint64_t> imageHashes_;  // of those that materials use; else 0
+    std::vector<std::uint64_t> imageHashes_;  // 0 for images that no finish uses
     mutable std::mutex mutex_;
     mutable std::map<std::pair<int, bool>, std::weak_ptr<const FinishImage>> images_;  // by image, sRGB or not
 };

@@ -1,6 +1,6 @@
 #pragma once
-// How coarse may an object be? A real-valued level λ, continuous in the camera, from its blur and its projected size
-// (Jeong, Kim and Lee 2011), and the split of N lens samples between the two levels around it.
+// Chooses how coarse an object may be. Its blur and its projected size give a real-valued level λ, which is continuous
+// in the camera (Jeong, Kim and Lee 2011). The N lens samples are split between the two levels around λ.
 
 #include <cstdint>
 
@@ -9,11 +9,11 @@
 
 namespace defocus {
 
-// As the command line has them.
+// The names on the command line.
 const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
 
-// The metric that `automatic` stands for; any other is itself.
+// Returns the metric that `automatic` stands for, and any other metric as it is.
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 
 struct LodThresholds {
@@ -22,28 +22,31 @@ struct LodThresholds {
     double light = 0;  // the error of measured levels, in standard deviations of the light within the blur
 };
 
-// Takes the thresholds that are given, and the rest from defaultThresholds; those that the metric doesn't have are 0.
+// Returns the thresholds that are given, and the rest from defaultThresholds. Those that the metric doesn't have are 0.
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount);
 
-// Makes the thresholds those for `sampleCount` samples, times `factor`, whatever number of samples is drawn with them.
+// Sets the thresholds to those for `sampleCount` samples, times `factor`. They stay so whatever number of samples is
+// drawn.
 void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor = 1);
 
-// The error of N lens samples, in units of that of one sample: N^(−0.65), as all sequences but a random one err on
-// rendered scenes (bench/results/llvmpipe-sequences.txt).
+// Returns the error of N lens samples relative to that of one sample: N^(−0.65), which is how all sequences but the
+// random one converge on rendered scenes (bench/results/llvmpipe-sequences.txt).
 double expectedSampleError(std::uint32_t sampleCount);
 
-// By size and by error the defaults follow the number of samples N: they are (64/N)^(2/3) times the thresholds at N =
-// 64, for `blur` at most twice those (N ≤ 22), for `size` no more than those: few samples don't blur what is in focus.
-// At N = 64 they are as coarse as 42 dB from full detail allow on the built-in school at 1024 × 768. The levels' error
-// grows as threshold^1.3, Sobol points err as N^(−0.65): the levels' error is 0.9 to 1.6 times the sampling error up to
-// N = 32, where trading samples for finer levels gains nothing, 2.4 times at 64 and less and less beyond, and both
-// vanish as N grows (school of fish, 512 × 384: bench/results/llvmpipe-thresholds.txt).
+// By size and by error, the defaults follow the number of samples N: they are (64/N)^(2/3) times the thresholds at N =
+// 64. `blur` is at most twice as large as there (N ≤ 22). `size` is never larger than there, because few samples don't
+// blur what is in focus. At N = 64 the levels are as coarse as 42 dB from full detail allow on the built-in school at
+// 1024 × 768. The levels' error grows as threshold^1.3, and that of Sobol points falls as N^(−0.65). So the levels'
+// error is 0.9 to 1.6 times the sampling error up to N = 32, where trading samples for finer levels gains nothing. It
+// is 2.4 times the sampling error at 64 and less and less beyond, and both vanish as N grows (school of fish, 512 ×
+// 384: bench/results/llvmpipe-thresholds.txt).
 //
-// Measured levels have a seventh of the error that 16 samples are expected to leave, and less with more samples: one
-// sample, anywhere on the lens, is off by the standard deviation of the light within the blur, and N by
-// expectedSampleError(N) times that deviation. Levels are off by 0.185·N^(−0.75) times it and so vanish beside the
-// samples. The root mean square of both together hardly grows by so little; but a level is wrong all over an object, in
-// large soft spots, where samples are at outlines and in fine ghosts, and FLIP, as eyes do, minds the former more.
+// Measured levels have a seventh of the error that 16 samples are expected to leave, and a smaller part with more
+// samples. One sample, anywhere on the lens, is off by the standard deviation of the light within the blur, and N
+// samples by expectedSampleError(N) times that deviation. Levels are off by 0.185·N^(−0.75) times it, so their error
+// vanishes beside that of the samples. It hardly raises the root mean square of both together. But a level is wrong in
+// large soft spots all over an object, while samples are wrong at outlines and in fine ghosts, and FLIP, like the eye,
+// minds the spots more.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 struct LevelQuery {
@@ -52,13 +55,12 @@ struct LevelQuery {
     double coc = 0;  // CoC diameter the object may rely on, px, ≥ 0
 };
 
-// By size or by error; for measured levels see blurred_error.h. Chooses λ in [0, levels − 1], continuous in the query;
-// τ = max(blur·c, size).
+// Chooses λ in [0, levels − 1] by size, by halving or by error, with τ = max(blur·c, size); for measured levels see
+// blurred_error.h. λ is continuous in the query.
 //   size:  λ is where the stored mean edges, interpolated in their logarithm, project to τ.
 //   halving: λ = 2·log2(τ/d), d the mean edge of level 0 as it projects: edges grow by √2 where triangles are halved.
 //   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]) between the stored errors projected to px.
-// A projection of negative or infinite size, or of none that is a number, gives λ = 0; one of 0 px (a point) gives the
-// coarsest level.
+// λ is 0 if pixelsPerUnit is negative, infinite or NaN. If it is 0 (the object is a point), λ is the coarsest level.
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Pictures of a level, from afar and without a lens: each cell shows what is nearest to the eye at its middle, under
-// the lights that scenes without any get (scene/defaults.h) and an even sky.
+// Draws pictures of a level, from afar and without a lens. Each cell shows what is nearest to the eye at its middle,
+// under an even sky and the lights that a scene without lights gets (scene/defaults.h).
 
 #include <glm/vec3.hpp>
 #include <span>
@@ -17,7 +17,7 @@ struct Eye {
     double cellsPerUnit = 0;
     int resolution = 0;  // cells a side
 
-    // In cells; z grows towards the eye.
+    // Returns where a position lies, in cells; z grows towards the eye.
     [[nodiscard]] glm::vec3 place(const glm::vec3& position) const;
 };
 
@@ -29,7 +29,7 @@ struct Picture {
     double sum = 0;                // of the light's mean channels
 };
 
-// Of level `number`; `finishes` are those of the mesh's primitives.
+// Draws level `number`; `finishes` has one finish for each primitive of the mesh.
 Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes);
 
 }  // namespace defocus

@@ -62,17 +62,18 @@ struct PyramidLevel {
     double longestEdge = 0;  // object units
 
     // Object units. The distance between the level's surface and level 0's (99th percentile over the area, whichever
-    // way it is larger), estimated on the safe side from 256 to 1,024 points each, and raised where needed so
-    // that e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0. See surface_distance.h. Of
-    // whole parts that the level lacks no point is farther from it, and none is larger (up to the box's diagonal).
+    // way it is larger), estimated on the safe side from 256 to 1,024 points each, and raised where needed so that
+    // e[l+1] ≥ 1.25·e[l] and e[1] ≥ 1e-6 of the bounding box's diagonal; e[0] = 0. See surface_distance.h. If the level
+    // lacks whole parts, the error is at least as large as they are and as far as any of their points is from the level
+    // (up to the box's diagonal).
     double error = 0;
 
     BlurTable blurredError{};  // see blurred_error.h; 0 of level 0
 };
 
 struct Pyramid {
-    // Of level 0, sorted by survival, equal ones joined; `normals` are level 0's. A few are there twice, for coarser
-    // levels that need two normals at one place.
+    // The vertices of level 0, sorted by survival, with equal ones joined; `normals` are level 0's. A few are there
+    // twice, for coarser levels that need two normals at one place.
     Vertices vertices;
     std::vector<std::uint32_t> source;   // for each vertex, which one of Mesh::vertices it is (morph targets follow it)
     std::vector<std::uint32_t> indices;  // of all levels
@@ -82,7 +83,7 @@ struct Pyramid {
     std::vector<Bounds> morphBounds;     // object units; of each morph target's displacements and 0
     double smallestPatch = 0;            // object units; of blur tables, 0 without a second level
     BlurTable contrast{};  // of level 0: the standard deviation of its light within patches; see blurred_error.h
-    std::uint32_t repairedFaces = 0;  // how many faces half-edges can't hold as they are; see manifold.h
+    std::uint32_t repairedFaces = 0;  // faces that half-edges can't hold as they are; see manifold.h
     PyramidEnd end = PyramidEnd::mostLevels;
 };
 
@@ -100,7 +101,8 @@ const char* levelVerticesName(LevelVertices vertices);  // as the command line h
 // beyond the vertices. `helpers`: threads that fit and measure levels while the caller's goes on collapsing.
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0);
 
-// How many helpers one of `meshes` gets that are built at once: its share of the cores, by triangles.
+// Returns how many helpers a mesh gets if the pyramids of all `meshes` are built at once: its share of the cores, by
+// triangles.
 std::size_t pyramidHelpers(const Mesh& mesh, std::span<const Mesh> meshes);
 
 // Builds one pyramid a mesh, on all cores.

@@ -1,7 +1,7 @@
 #pragma once
-// How far two triangle surfaces are apart, measured as Cignoni, Rocchini and Scopigno do (1998, Metro: Measuring Error
-// on Simplified Surfaces): at points spread evenly over the area of one, each to the closest point of the other, which
-// a tree of boxes finds.
+// Measures how far two triangle surfaces are apart, as Cignoni, Rocchini and Scopigno do (1998, Metro: Measuring Error
+// on Simplified Surfaces): from points spread evenly over the area of one surface to the closest points of the other,
+// which a tree of boxes finds.
 //
 // Lengths are object units. A triangle without area, or with a corner that isn't finite, is no part of a surface. A
 // surface may be empty: nothing is measured from it, and everything is infinitely far from it. Deterministic; equal
@@ -54,8 +54,8 @@ double distanceTo(const Surface& surface, const glm::dvec3& point);
 // empty.
 std::vector<double> sampleDistances(const Surface& from, const Surface& to, std::size_t count);
 
-// The `rank`-th largest (from 1) of what sampleDistances would return, or `least` if that is larger or there are fewer.
-// It doesn't look for the closest point where one that is near enough is found.
+// Returns the `rank`-th largest (from 1) of what sampleDistances would return, or `least` if that is larger or there
+// are fewer. It is faster, because it stops looking for the closest point once it has found one that is near enough.
 double largeDistance(const Surface& from, const Surface& to, std::size_t count, std::size_t rank, double least);
 
 struct Distances {

@@ -1,6 +1,6 @@
 #pragma once
-// The order of vertices and triangles in memory: first what is near in space is near in memory, for the simplifier; in
-// the end vertices are sorted by how long they survive, so that a level uses a prefix of them.
+// Sorts vertices and triangles in memory. For the simplifier, what is near in space becomes near in memory. In the end
+// vertices are sorted by how long they survive, so that a level uses a prefix of them.
 
 #include <cstdint>
 #include <vector>
@@ -10,8 +10,8 @@
 
 namespace defocus {
 
-// Whether triangles that follow each other, and their corners, have numbers far apart, so that caches are of little
-// help: on a grid in rows they are √n apart.
+// Returns whether triangles that follow each other, and their corners, have numbers so far apart that caches are of
+// little help. (On a grid in rows they are √n apart.)
 bool isScattered(const TriangleSet<MeshVertexNumber>& triangles, std::size_t vertexCount);
 // Numbers vertices anew, so that what is near in space is so in memory. `positions` are of the file's vertices.
 void sortSpatially(WeldedVertices& unique, const std::vector<glm::vec3>& positions);

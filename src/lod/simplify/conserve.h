@@ -1,5 +1,5 @@
 #pragma once
-// What a wide blur shows of a surface, and what a fitted level keeps of it.
+// Makes a fitted level keep what a wide blur shows of a surface.
 
 #include "lod/simplify/level_fit.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// What all levels of a mesh are fitted to: its vertices, what they share with each other, and what of the whole surface
-// the levels keep.
+// Holds what all levels of a mesh are fitted to: its vertices, what they share with each other, and what the levels
+// keep of the whole surface.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -18,13 +18,13 @@ namespace defocus {
 struct FitSource {
     const Vertices& vertices;
     const WeldedPositions& positions;
-    const VertexGroups& smoothing;                   // vertices of one share a normal
-    VertexGroups shades;                             // vertices of one share a colour; empty without colours
-    VertexGroups charts;                             // and here texture coordinates; empty without
-    Numbered<MeshVertexNumber, std::uint8_t> seams;  // 1: others at its position have other ones; empty without
+    const VertexGroups& smoothing;                   // vertices of one group share a normal
+    VertexGroups shades;                             // those of one group share a colour; empty without colours
+    VertexGroups charts;                             // those of one group share texture coordinates; empty without
+    Numbered<MeshVertexNumber, std::uint8_t> seams;  // 1: others at its position have other coordinates; empty without
     Numbered<MeshVertexNumber, float> areas;  // the share of level 0's surface that each vertex stands for, mean 1
     Bounds bounds;                            // of level 0's triangles
-    // What level 0 has of what levels keep (conserve.h).
+    // Level 0's values of what the levels keep (conserve.h).
     glm::dvec4 meanColor{0};
     std::vector<CoverGrid> outlines;
 };
@@ -33,7 +33,7 @@ struct FitSource {
 FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                      const TriangleSet<MeshVertexNumber>& triangles);
 
-// Texture coordinates, both sets; 0 of what the vertices don't have.
+// Both sets of texture coordinates; a set that the vertices don't have is 0.
 struct Coordinates {
     glm::vec2 uv0{0};
     glm::vec2 uv1{0};

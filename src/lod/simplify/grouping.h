@@ -59,7 +59,7 @@ LeastSquares equations(const LevelMesh& level, const Sums& sums, const Grouping&
     return result;
 }
 
-// Starts from the mean of what each unknown stands for; from `own(group)` where it stands for nothing.
+// Starts each unknown from the mean of what it stands for, or from own(group, channel) if it stands for nothing.
 template <std::size_t channels, typename Own>
 void startFromMeans(LeastSquares& fit, const Own& own) {
     for (const UnknownNumber g : fit.weights.numbers())

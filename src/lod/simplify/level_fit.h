@@ -1,6 +1,6 @@
 #pragma once
-// Positions, normals, colours and texture coordinates for a coarser level. The values that its vertices happen to have
-// pick up single spots of a pattern and single bumps of a relief, and a level whose vertices all lie on a bulging
+// Fits positions, normals, colours and texture coordinates for a coarser level. The values that its vertices happen to
+// have pick up single spots of a pattern and single bumps of a relief, and a level whose vertices all lie on a bulging
 // surface is too small for it. Instead what the level interpolates linearly is fitted to all vertices of level 0, in
 // the sense of least squares (as Hoppe et al. 1993, Mesh Optimization, fit positions; Jacobi-preconditioned conjugate
 // gradients, Hestenes and Stiefel 1952).
@@ -17,12 +17,12 @@ namespace defocus {
 struct Anchor {
     TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
-    // A vertex near this one, at whose anchor its area, colour and normal count; by default at none.
+    // Valid if the vertex has no anchor of its own: its area, colour and normal count at the anchor of this near one.
     MeshVertexNumber sharedWith = {};
 };
 
-// A component of a level is scaled about `centre`, once it is fitted, so that it has `area`: what the mesh had of it
-// and of those that it stands in for. It neither shrinks nor grows by more than `mostFactor`.
+// Says how a component of a level grows once it is fitted. It is scaled about `centre` until it has `area`, which is
+// what the mesh had of it and of those that it stands in for. It never shrinks, and grows by `mostFactor` at most.
 struct Growth {
     glm::dvec3 centre{0};  // object units
     double area = 0;       // object units squared
@@ -31,9 +31,9 @@ struct Growth {
 
 struct LevelMesh {
     TriangleSet<LevelVertexNumber> triangles;
-    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // whose values each vertex has; no twin
-    // 1: the vertex is on the other side of a thin sheet than the others at its place, and shares its normal
-    // and colour only with those that are as well.
+    Numbered<LevelVertexNumber, MeshVertexNumber> sources;  // the vertex whose values each one has; never a twin
+    // 1: the vertex lies on the other side of a thin sheet than the others at its place. It shares its normal and
+    // colour only with others that are apart.
     Numbered<LevelVertexNumber, std::uint8_t> apart;
     Numbered<ComponentNumber, Growth> growths;
     Numbered<LevelVertexNumber, ComponentNumber> growthsOf;  // empty without any

@@ -1,5 +1,6 @@
 #pragma once
-// The light that a matt surface throws back, in the mean over its area: what is left of its shading under a wide blur.
+// Computes the light that a matt surface throws back, averaged over its area. Nothing else is left of its shading under
+// a wide blur.
 
 #include <array>
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace defocus {
 inline constexpr std::size_t lightCount = 26;
 std::array<glm::dvec3, lightCount> directionsToLights();
 
-// Mean radiance under a light of illuminance π from each direction, one after the other: nothing shades anything, and
-// of colours the mean of the three channels counts.
+// The mean radiance under a light of illuminance π, for each of the directions that it may come from. Nothing casts
+// shadows, and a colour counts as the mean of its three channels.
 using LightMeans = std::array<double, lightCount>;
 
 // A surface with values at its vertices; `indices` are three a triangle.
@@ -26,7 +27,7 @@ struct LitSurface {
     bool coarse = true;  // normals shorter than 1 stand for some that differ, as in shaders/include/shading.glsl
 };
 
-// Measured at three points a triangle, or more where there are fewer than `leastPoints` of them.
+// Measures at three points of each triangle, or at more of them if these are fewer than `leastPoints` in all.
 LightMeans lightMeans(const LitSurface& surface, std::size_t leastPoints);
 
 }  // namespace defocus

@@ -1,7 +1,7 @@
 #pragma once
-// The area that a surface covers, seen from afar. A coarse level whose vertices lie on a bulging surface covers too
-// little of it, and a thin fin shrinks at its rim; no blur hides either. So the outlines of coarse levels are fitted to
-// those of level 0, on grids of points along some directions.
+// Measures and fits the area that a surface covers, seen from afar. A coarse level whose vertices lie on a bulging
+// surface covers too little of it, and a thin fin shrinks at its rim; no blur hides either. So the outlines of coarse
+// levels are fitted to those of level 0, on grids of points along some directions.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 namespace defocus {
 
-// Half of those to the 26 neighbours in a cube, unit length: what is covered is the same from the opposite side.
+// Half of the directions to the 26 neighbours in a cube, because a surface covers the same area from the opposite side.
+// Unit length.
 inline constexpr std::size_t outlineDirections = 13;
 std::array<glm::dvec3, outlineDirections> directionsOfOutlines();
 
@@ -22,20 +23,20 @@ std::array<glm::dvec3, outlineDirections> directionsOfOutlines();
 // are looked at lie in their middles.
 class CoverGrid {
 public:
-    // Over a ball around `box`, with `resolution`² cells, a multiple of 64.
+    // Lays `resolution`² cells over a ball around `box`; `resolution` is a multiple of 64.
     CoverGrid(const Bounds& box, const glm::dvec3& direction, int resolution);
 
-    // Adds triangles, three indices each, seen from either side.
+    // Marks what triangles cover, seen from either side; each has three indices.
     void add(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
 
-    // The same, with nothing covered.
+    // Returns the same grid with nothing covered.
     [[nodiscard]] CoverGrid emptied() const;
 
     [[nodiscard]] glm::dvec2 cellsOf(const glm::vec3& position) const;
     [[nodiscard]] bool covers(const glm::dvec2& cells) const;  // false outside of the grid
     [[nodiscard]] double area() const;                         // object units squared
     [[nodiscard]] double cell() const { return cell_; }        // object units; 0 of an empty box
-    // The way in space of one along the grid's plane.
+    // Turns a vector in the grid's plane into one in space, of the same length.
     [[nodiscard]] glm::dvec3 inSpace(const glm::dvec2& along) const { return along.x * across_ + along.y * up_; }
 
 private:
@@ -47,7 +48,7 @@ private:
     std::vector<std::uint64_t> cells_;  // a bit each, row by row
 };
 
-// Level 0's, along all directions.
+// Returns the grids of level 0, one for each direction.
 std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
                                   const Bounds& box);
 

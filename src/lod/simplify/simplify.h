@@ -1,5 +1,6 @@
 #pragma once
-// Half-edge collapse with quadrics: from a mesh, a sequence of ever coarser ones whose vertices are among the mesh's.
+// Makes a sequence of ever coarser meshes from a mesh by half-edge collapses with quadrics. Their vertices are among
+// the mesh's.
 //
 // The surface is joined by position over all primitives, so that seams and material borders stay shut; see manifold.h
 // for what becomes of surfaces that aren't manifold and wedges.h for the attributes. A collapse is
@@ -32,7 +33,7 @@ constexpr std::size_t fewestToGiveBack = 16'384;  // triangles of a mesh whose f
 struct SimplifyOptions {
     std::uint32_t leastTriangles = 64;  // halving ends here
     int mostLevels = 23;                // without level 0
-    bool anchors = true;                // levels come with them; without, no level can be fitted
+    bool anchors = true;                // whether levels get them; a level without anchors can't be fitted
 };
 
 struct Ball {
@@ -42,7 +43,7 @@ struct Ball {
 
 struct SimplifiedLevel {
     LevelMesh mesh;
-    // For each vertex of `mesh` the one that it is: of the mesh itself, or vertexCount + i for the twin i.
+    // For each vertex of `mesh`, its number in the mesh that is simplified, or vertexCount + i if it is twin i.
     Numbered<LevelVertexNumber, MeshVertexNumber> numbers;
     Numbered<MeshVertexNumber, Anchor> anchors;
     std::vector<Ball> removed;  // around each component that the level lacks
@@ -57,9 +58,9 @@ struct Simplification {
     PyramidEnd end = PyramidEnd::mostLevels;
 };
 
-// Makes levels of half the triangles each; they end where less than a quarter can be saved. Each is given to
-// take(l, level) once, l = 0 … levelCount − 1, by whichever thread of `tasks` has made its anchors; all are when
-// tasks.wait() has returned, which the caller does. `smoothing` and `vertices` are read until then.
+// Makes levels of half the triangles each, until less than a quarter can be saved. Calls take(l, level) once for each
+// level l = 0 … levelCount − 1, on the thread of `tasks` that has made its anchors. The caller must call tasks.wait()
+// to have them all, and must keep `smoothing` and `vertices` until then.
 Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                         const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);

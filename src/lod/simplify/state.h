@@ -1,5 +1,5 @@
 #pragma once
-// What simplify works on while it collapses. Private to this folder.
+// The state of simplify() while it collapses edges. Private to this folder.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -15,7 +15,7 @@
 
 namespace defocus {
 
-// The surface before any collapse, as far as it is asked for later. The caller keeps `vertices` and `smoothing`.
+// What is needed later of the surface before any collapse. The caller keeps `vertices` and `smoothing` alive.
 struct Origin {
     const Vertices& vertices;
     const VertexGroups& smoothing;
@@ -71,39 +71,42 @@ struct Simplifier {
 void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPositions& positions,
                        const VertexGroups& smoothing, const TriangleSet<MeshVertexNumber>& triangles);
 
-// collapse.cpp: how the faces around take the collapse along a half-edge, and their wedges.
+// collapse.cpp: judges what the collapse along a half-edge does to the faces around and to their wedges.
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along);
-// The same, but impossible where the topology forbids it. That is looked at last, and only where the collapse is no
-// worse than `worst`: Debian's OpenMesh is built with assertions, which make is_collapse_ok dear.
+// Does the same, but returns Fit::impossible if the topology forbids the collapse. The topology is tested last, and
+// only if the collapse is no worse than `worst`, because Debian's OpenMesh is built with assertions, which make
+// is_collapse_ok slow.
 Fit judgeCollapse(Simplifier& s, HalfedgeHandle along, Fit worst);
 // Collapses along the half-edge, which the topology must allow, and tells the modules.
 void collapseEdge(Simplifier& s, HalfedgeHandle along);
-// The vertex that `v` is or has collapsed onto; invalid if that was taken out.
+// Returns the vertex that `v` has collapsed onto, or `v` itself if it lives; invalid if it went with its component.
 VertexHandle survivorOf(Simplifier& s, VertexHandle v);
-// Numbers what lives anew, in the order it had, and gives back the memory of what is gone.
+// Removes what is gone from the mesh, numbers the rest anew in the same order, and gives back the memory.
 void compact(Simplifier& s);
 
-// components.cpp: whether the faces hang together, by faces alone.
+// components.cpp: returns whether all faces hang together by the vertices that they share. Equal positions don't count.
 bool isConnected(const Simplifier& s);
-// Whether many faces are of components that can be no smaller.
+// Returns whether more than a quarter of the faces are single triangles or parts of tetrahedra, which no collapse makes
+// smaller.
 bool manyAreSmallest(const Simplifier& s);
-// Finds the components of what is left of the mesh; the first call does, later ones do nothing.
+// Finds the components of what is left of the mesh. Only the first call does anything.
 void findComponents(Simplifier& s, const TriangleSet<MeshVertexNumber>& triangles);
 // Notes that the vertex's component has no collapse left that isn't bad.
 void spend(Simplifier& s, VertexHandle v);
-// How many of so many faces an area would have if they were spread evenly over the mesh's.
+// Returns how many of `faces` faces would lie on `area` if they were spread evenly over the whole area of the mesh.
 double evenShare(const Simplifier& s, double area, std::size_t faces);
-// Whether there are too few faces for the vertex's collapse, of this fit, on the way to a level of `target` faces. A
-// bad one leaves its component the even share of them. Others, where spent components have most of the faces, leave the
-// rest `share` of theirs.
+// Returns whether the vertex's collapse, which has this fit, must not be made on the way to a level of `target` faces.
+// A bad collapse must leave its component its even share of those faces. Other collapses are limited only if spent
+// components have more than half of them: then the remaining components must keep `share` of their even share.
 bool isKept(const Simplifier& s, VertexHandle v, Fit fit, std::size_t target, double share);
-// Takes whole components out of the mesh until `target` faces are left, or nothing that may go.
+// Removes whole components from the mesh until `target` faces are left, or until no further component may go.
 void removeComponents(Simplifier& s, std::size_t target);
+// See SimplifiedLevel::removed.
 std::vector<Ball> removedBalls(const Simplifier& s);
-// See SimplifiedLevel.
+// See LevelMesh::growths.
 Numbered<ComponentNumber, Growth> growths(const Simplifier& s);
 
-// A level as it was when the collapses had come to it, for what is found out about it while they go on.
+// A copy of a level, so that it can be measured and fitted while the collapses go on.
 struct Snapshot {
     TriangleSet<MeshVertexNumber> drawn;
     Numbered<TriangleCorner, VertexHandle> corners;       // the same triangles in vertices of the level's surface
@@ -111,14 +114,14 @@ struct Snapshot {
     Numbered<SurfaceVertexNumber, VertexHandle> nearest;  // Simplifier::current
     std::vector<MeshVertexNumber> twins;
     std::vector<MeshVertexNumber> behind;               // those of `drawn` whose corners all lie behind; sorted
-    std::vector<Ball> removed;                          // see SimplifiedLevel
-    Numbered<ComponentNumber, Growth> growths;          // the same
+    std::vector<Ball> removed;                          // see SimplifiedLevel::removed
+    Numbered<ComponentNumber, Growth> growths;          // see LevelMesh::growths
     Numbered<VertexHandle, ComponentNumber> growthsOf;  // empty without any
 };
 
-// snapshot.cpp: takes a picture of what compact() has left.
+// snapshot.cpp: copies what compact() has left.
 Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
-// The level of which the picture was taken, with its anchors unless they are not wanted.
+// Makes the level of which `picture` is a copy. Its anchors are found only if `withAnchors` is set.
 SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors);
 
 }  // namespace defocus

@@ -131,7 +131,7 @@ private:
     const Point* positions_ = nullptr;
 };
 
-// What judges, prices and follows collapses.
+// OpenMesh's types of a collapse and of a decimater module.
 using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<SurfaceMesh>;
 using CollapseModule = OpenMesh::Decimater::ModBaseT<SurfaceMesh>;
 
@@ -177,9 +177,9 @@ inline FaceCorners cornersOf(const SurfaceMesh& mesh, FaceHandle face) {
 // their corners' wedges.
 void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<MeshVertexNumber>& triangles);
 
-// What lives, numbered anew in the order that it had: garbage_collection() would fill gaps from the end, and what is
-// near in space would no longer be so in memory. Takes the wedge table along, without the wedges that no corner draws.
-// `vertexNumbers` gets the new number of each vertex, invalid for those that are gone.
+// Copies what lives, numbered anew in the order that it had. (garbage_collection() would fill gaps from the end, and
+// what is near in space would no longer be so in memory.) Moves the wedge table along, without the wedges that no
+// corner draws. `vertexNumbers` gets the new number of each vertex, invalid for those that are gone.
 std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle, VertexHandle>& vertexNumbers);
 
 }  // namespace defocus

@@ -8,7 +8,7 @@
 
 namespace defocus {
 
-// Takes back what turned a triangle by more than 60° from where it was, until none is: at worst everything.
+// Moves corners back to where they were until no triangle is turned by more than 60°; at worst all of them.
 // cornersOf(t) are the three items of both arrays, below `triangles`, that a triangle joins.
 template <typename Points, typename CornersOf>
 void keepFacesUpright(Points& fitted, const Points& original, std::size_t triangles, const CornersOf& cornersOf) {

@@ -29,7 +29,7 @@ public:
     // Makes one wedge a vertex, with the weighted attributes that the vertices have. `uvScale` leads from uv to lengths
     // of the unit frame.
     void assign(const Vertices& vertices, float uvScale);
-    // Gives each wedge an empty quadric; before addFace().
+    // Gives each wedge an empty quadric. Must be called before addFace().
     void startQuadrics();
     // Keeps the wedges that are named, in this order (ascending).
     void keep(std::span<const WedgeNumber> order);
@@ -47,16 +47,16 @@ public:
         const auto first = row(a);
         return std::equal(first.begin() + 3, first.end(), row(b).begin() + 3);
     }
-    // The square of the way between two wedges in texture space, in units of the frame.
+    // Returns the squared distance between two wedges in texture space, in units of the frame.
     [[nodiscard]] double uvDifference(WedgeNumber a, WedgeNumber b) const;
-    // How unlike two wedges are: the squares of the way between their normals, between their colours (which weighs 4)
-    // and in texture space.
+    // Returns how unlike two wedges are: the sum of the squared distances between their normals, between their colours
+    // (times 4) and in texture space.
     [[nodiscard]] double difference(WedgeNumber a, WedgeNumber b) const;
 
-    // Adds a face with these three wedges at its corners `places` to their quadrics; a sliver's gradients would be
-    // noise, so it is left out.
+    // Adds a face to the quadrics of the three wedges at its corners, which lie at `places`. Leaves a sliver out,
+    // because its gradients would be noise.
     void addFace(const WedgeNumber* corners, const glm::dvec3* places);
-    // What it costs to draw `to`, which is `step` away, where `from` was drawn; never negative.
+    // Returns the cost of drawing `to`, which is `step` away, where `from` was drawn; never negative.
     [[nodiscard]] float cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const;
     // Moves what the quadric of `from` holds to that of `to`, which is `step` away.
     void moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step);

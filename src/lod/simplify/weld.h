@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices are the same, which are at the same place, and which of those share a normal?
+// Finds vertices that are the same, vertices at the same place, and those of them that share a normal.
 
 #include <glm/vec3.hpp>
 #include <vector>
@@ -24,7 +24,7 @@ WeldedPositions weldPositions(const std::vector<glm::vec3>& positions);
 // Welds vertices of which every attribute is equal to the last bit, morph targets included.
 WeldedVertices weldVertices(const Mesh& mesh);
 
-// Of each vertex its group's first.
+// For each vertex, the first vertex of its group.
 using VertexGroups = Numbered<MeshVertexNumber, MeshVertexNumber>;
 
 // Vertices at one position whose normals agree within a degree share one group; others keep a crease between them.
