@@ -1,5 +1,6 @@
 #pragma once
-// A few linear equations with a symmetric matrix, by Cholesky's decomposition.
+// Solves a few linear equations with a symmetric matrix, by Cholesky's decomposition. Eigen would be a dependency for
+// these lines alone.
 
 #include <cmath>
 #include <cstddef>
