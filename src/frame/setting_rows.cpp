@@ -352,9 +352,10 @@ Rows sampleRows() {
     std::vector<std::pair<std::string, LodMode>> modes;
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off})
         modes.emplace_back(lodModeName(mode), mode);
-    Setting samples = inShot(whole("samples", "--samples", 1, mostSamples, MEMBER(settings.sampleCount),
-                                   "Lens samples; with --target-error or --time-limit the most, else 65536"),
-                             "/samples");
+    Setting samples =
+        inShot(whole("samples", "--samples", 1, mostSamples, MEMBER(settings.sampleCount),
+                     fmt::format("Lens samples; with --target-error or --time-limit the most, else {}", mostSamples)),
+               "/samples");
     samples.set = setSamples;
     samples.clear = [](Request& request) {
         request.settings.sampleCount = RenderSettings{}.sampleCount;
