@@ -26,22 +26,21 @@ using namespace defocus;
 constexpr int runs = 3;
 
 struct Fish {
-    Scene scene;
     World world;
     View view;
     RenderSettings settings;
 };
 
 void prepare(Fish& fish) {
-    fish.scene = fishSchool({.fishCount = 20, .trianglesPerFish = 20'000});
-    fish.world.scene = borrowed(fish.scene);
-    fish.world.pose = poseAt(fish.scene, 0);
+    fish.world.scene = std::make_shared<const Scene>(fishSchool({.fishCount = 20, .trianglesPerFish = 20'000}));
+    const Scene& scene = *fish.world.scene;
+    fish.world.pose = poseAt(scene, 0);
     fish.view.width = 512;
     fish.view.height = 384;
-    const PlacedCamera placed = chooseCamera(fish.scene, fish.world.pose, "", 4.0 / 3.0);
-    fish.world.lights = lightsOrDefault(fish.scene, fish.world.pose, placed);
-    fish.world.environment = environmentOrDefault(fish.scene);
-    fish.world.pyramids = buildPyramids(fish.scene.meshes);
+    const PlacedCamera placed = chooseCamera(scene, fish.world.pose, "", 4.0 / 3.0);
+    fish.world.lights = lightsOrDefault(scene, fish.world.pose, placed);
+    fish.world.environment = environmentOrDefault(scene);
+    fish.world.pyramids = buildPyramids(scene.meshes);
     fish.view.worldFromCamera = placed.worldFromCamera;
     fish.view.lens.fStop = placed.camera.lensValue("fStop").value();
     fish.view.lens.focusDistance = placed.camera.lensValue("focusDistance").value();

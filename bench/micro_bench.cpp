@@ -55,9 +55,9 @@ BENCHMARK(levelOfDetailOfObject)->ArgName("error")->Arg(0)->Arg(1);
 
 // The plan of a frame, 64 samples, 1024×768, levels as the pyramids have them.
 void planOfFrame(benchmark::State& state) {
-    const Scene scene = smallSchool(static_cast<int>(state.range(0)));
     World world;
-    world.scene = borrowed(scene);
+    world.scene = std::make_shared<const Scene>(smallSchool(static_cast<int>(state.range(0))));
+    const Scene& scene = *world.scene;
     world.pose = poseAt(scene, 0, -1);
     world.environment = environmentOrDefault(scene);
     world.pyramids = buildPyramids(scene.meshes);

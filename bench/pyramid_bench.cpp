@@ -232,32 +232,32 @@ void distanceRow(const std::string& name, const Mesh& mesh, DistanceRatios& all)
 
 // One mesh alone, without skin or animation, seen by a camera that frames it.
 struct Stage {
-    Scene scene;
     World world;
     View view;
     double depth = 0;  // of the mesh's centre, m
 };
 
 void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {
-    stage.scene.meshes = {mesh};
-    stage.scene.materials = source.materials;
-    stage.scene.textures = source.textures;
-    stage.scene.images = source.images;
+    Scene scene;
+    scene.meshes = {mesh};
+    scene.materials = source.materials;
+    scene.textures = source.textures;
+    scene.images = source.images;
     Node node;
     node.mesh = 0;
-    stage.scene.nodes = {node};
-    stage.scene.roots = {0};
-    stage.world.scene = borrowed(stage.scene);
-    stage.world.pose = poseAt(stage.scene, 0);
+    scene.nodes = {node};
+    scene.roots = {0};
+    stage.world.pose = poseAt(scene, 0);
     stage.view.width = 512;
     stage.view.height = 384;
-    const PlacedCamera placed = chooseCamera(stage.scene, stage.world.pose, "", 4.0 / 3.0);
-    stage.world.lights = lightsOrDefault(stage.scene, stage.world.pose, placed);
-    stage.world.environment = environmentOrDefault(stage.scene);
+    const PlacedCamera placed = chooseCamera(scene, stage.world.pose, "", 4.0 / 3.0);
+    stage.world.lights = lightsOrDefault(scene, stage.world.pose, placed);
+    stage.world.environment = environmentOrDefault(scene);
     stage.view.worldFromCamera = placed.worldFromCamera;
     stage.view.nearPlane = placed.camera.znear;
     stage.depth = glm::distance(glm::dvec3(placed.worldFromCamera[3]), mesh.bounds().centre());
     stage.view.lens.focusDistance = 1e6;
+    stage.world.scene = std::make_shared<const Scene>(std::move(scene));
 }
 
 double pixelsPerUnit(const Stage& stage) {
@@ -329,7 +329,7 @@ void forEachLevelInUse(Stage& stage, const std::function<void(std::uint32_t, dou
 void looksRows(const std::string& name, const Scene& source, const Mesh& mesh) {
     Stage stage;
     furnish(stage, source, mesh);
-    stage.world.pyramids = buildPyramids(stage.scene.meshes);
+    stage.world.pyramids = buildPyramids(stage.world.scene->meshes);
     forEachLevelInUse(stage, [&](std::uint32_t l, double coc) {
         const PyramidLevel& level = stage.world.pyramids[0].levels[l];
         const Image truth = drawn(stage, 0);
@@ -368,7 +368,7 @@ std::vector<glm::vec3> averagedNormals(const Pyramid& pyramid, const PyramidLeve
 void normalsRows(const std::string& name, const Scene& source, const Mesh& mesh) {
     Stage stage;
     furnish(stage, source, mesh);
-    stage.world.pyramids = buildPyramids(stage.scene.meshes);
+    stage.world.pyramids = buildPyramids(stage.world.scene->meshes);
     forEachLevelInUse(stage, [&](std::uint32_t l, double coc) {
         const Pyramid& pyramid = stage.world.pyramids[0];
         PyramidLevel& level = stage.world.pyramids[0].levels[l];
@@ -420,7 +420,7 @@ void conservedRows(const std::string& name, const Mesh& mesh) {
 void blurredRows(const std::string& name, const Scene& scene) {
     constexpr int box = 32;
     World world;
-    world.scene = borrowed(scene);
+    world.scene = std::make_shared<const Scene>(scene);
     world.pose = poseAt(scene, 0);
     View view;
     view.width = 384;

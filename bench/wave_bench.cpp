@@ -45,9 +45,8 @@ void measure(Renderer& renderer, const FramePlan& plan, float expected, Row& row
 
 int run() {
     const auto context = createHeadlessContext();
-    Scene scene;
     World world;
-    world.scene = borrowed(scene);
+    world.scene = std::make_shared<const Scene>();
     View view;
     RenderSettings settings;
     settings.keepAll = true;  // nothing is blurred: the lens would be left out

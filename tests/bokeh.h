@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -79,10 +80,10 @@ inline Scene rectangleScene(const View& view, const std::vector<Rectangle>& area
     return scene;
 }
 
-// The world of a scene whose nodes are all roots without children. `scene` must outlive it; there are no pyramids yet.
+// The world of a scene whose nodes are all roots without children; there are no pyramids yet.
 inline World flatWorld(const Scene& scene, const Environment& environment) {
     World world;
-    world.scene = borrowed(scene);
+    world.scene = std::make_shared<const Scene>(scene);
     world.environment = environment;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const glm::dmat4 matrix = scene.nodes[i].matrix.value_or(glm::dmat4(1.0));

@@ -12,15 +12,17 @@
 
 namespace defocus {
 
-// World keeps a pointer to the scene: not to be copied or moved.
 struct SmallWorld {
-    SmallWorld() { world.scene = borrowed(scene); }
+    SmallWorld() : SmallWorld(std::make_shared<Scene>()) {}
     SmallWorld(const SmallWorld&) = delete;
     SmallWorld& operator=(const SmallWorld&) = delete;
 
-    Scene scene;
+    Scene& scene;  // the world's, to be filled
     World world;
     View view;
+
+private:
+    explicit SmallWorld(const std::shared_ptr<Scene>& owned) : scene(*owned) { world.scene = owned; }
 };
 
 // A sphere of radius 1 with ripples, 2 · slices · stacks triangles about.

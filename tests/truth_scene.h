@@ -19,13 +19,12 @@
 
 namespace defocus {
 
-// World keeps a pointer to the scene: not to be copied or moved.
 struct TruthScene {
-    TruthScene() = default;
+    explicit TruthScene(const std::shared_ptr<Scene>& owned) : scene(*owned) { world.scene = owned; }
     TruthScene(const TruthScene&) = delete;
     TruthScene& operator=(const TruthScene&) = delete;
 
-    Scene scene;
+    Scene& scene;  // the world's
     World world;
     View view;
 };
@@ -57,9 +56,7 @@ inline void setLens(TruthScene& truth, const Camera& camera, double blur) {
 // A scene at full detail, `width` × `height` px; the camera's own lens where it has one, else blur up to 24 px at 512
 // px.
 inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height) {
-    auto truth = std::make_unique<TruthScene>();
-    truth->scene = bakedUnlit(std::move(scene));
-    truth->world.scene = borrowed(truth->scene);
+    auto truth = std::make_unique<TruthScene>(std::make_shared<Scene>(bakedUnlit(std::move(scene))));
     truth->world.pose = poseAt(truth->scene, 0, -1);
     truth->world.environment = environmentOrDefault(truth->scene);
     for (const Mesh& mesh : truth->scene.meshes) truth->world.pyramids.push_back(fullDetail(mesh));

@@ -203,11 +203,12 @@ Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
 }
 
 // Meshes without triangles have no sheet.
-void drawTurntables(const Scene& scene, std::vector<MeshReport>& reports, const fs::path& file,
+void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshReport>& reports, const fs::path& file,
                     const std::vector<std::string>& stems, const GlobalOptions& global, const Progress& progress) {
+    const Scene& scene = *drawn;
     const Pose pose = poseAt(scene, 0, -1);
     World world;
-    world.scene = borrowed(scene);
+    world.scene = drawn;
     world.environment = environmentOrDefault(scene);
     world.pyramids.resize(scene.meshes.size());
     for (MeshReport& report : reports) {
@@ -328,7 +329,8 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     if (!global.shaderDir.empty() && arguments.turntable.empty())
         throw UsageError("--shader-dir: nothing is drawn without --turntable");
     const Progress progress = terminalProgress(global);
-    const Scene scene = loadScene(arguments.request, progress);
+    const auto loaded = std::make_shared<const Scene>(loadScene(arguments.request, progress));
+    const Scene& scene = *loaded;
     std::vector<MeshReport> reports = chooseMeshes(scene, arguments.mesh);
     const std::vector<std::string> stems = fileStems(scene);
     if (!arguments.exportFolder.empty() && !reports.empty())
@@ -352,7 +354,7 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;
     if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);
-    if (context) drawTurntables(scene, reports, arguments.turntable, stems, global, progress);
+    if (context) drawTurntables(loaded, reports, arguments.turntable, stems, global, progress);
 
     if (arguments.json) {
         fmt::print("{}\n", reportJson(arguments, scene, reports).dump(2, ' ', false, Json::error_handler_t::replace));

@@ -45,9 +45,4 @@ struct World {
     std::vector<Pyramid> pyramids;  // one for each mesh of the scene
 };
 
-// Returns a pointer that doesn't own the scene. The caller must keep the scene alive for as long as the world.
-inline std::shared_ptr<const Scene> borrowed(const Scene& scene) {
-    return {std::shared_ptr<const void>(), &scene};
-}
-
 }  // namespace defocus

@@ -36,7 +36,7 @@ protected:
         climb.times = {0, 2};
         climb.values = {0, 0, -2, 0, 2, -2};
         scene_.clips.push_back({"Climb", {climb}, 2});
-        base_.scene = borrowed(scene_);
+        base_.scene = owned_;
         base_.fixedLens = {"focalLength"};
     }
 
@@ -49,7 +49,8 @@ protected:
     }
     static void expectNear(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::length(a - b), 1e-12); }
 
-    Scene scene_;
+    std::shared_ptr<Scene> owned_ = std::make_shared<Scene>();
+    Scene& scene_ = *owned_;
     SequenceBase base_;
 };
 

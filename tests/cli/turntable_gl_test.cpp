@@ -33,12 +33,13 @@ struct ShrinkingSphere {
             level.error = 1 - radii[l];
             for (glm::vec3& position : level.positions) position *= static_cast<float>(radii[l]);
         }
-        world.scene = borrowed(scene);
+        world.scene = owned;
         world.environment.type = EnvironmentType::none;
         world.pyramids.push_back(std::move(pyramid));
         object.mesh = 0;
     }
-    Scene scene;
+    std::shared_ptr<Scene> owned = std::make_shared<Scene>();
+    Scene& scene = *owned;
     World world;
     Object object;
 };

@@ -42,9 +42,9 @@ View boardView(int width, int height) {
 BoardScene::BoardScene(const View& boardsView, const std::vector<Board>& boards, const glm::vec3& background)
     : view(boardsView) {
     for (const Board& board : boards) {
-        const int index = static_cast<int>(scene.meshes.size());
-        scene.materials.push_back(boardMaterial(board.radiance));
-        scene.meshes.push_back(boardMesh(index));
+        const int index = static_cast<int>(scene->meshes.size());
+        scene->materials.push_back(boardMaterial(board.radiance));
+        scene->meshes.push_back(boardMesh(index));
         Object object;
         object.mesh = index;
         object.name = "board";
@@ -52,8 +52,8 @@ BoardScene::BoardScene(const View& boardsView, const std::vector<Board>& boards,
                                             glm::dvec3(board.halfSize, 1));
         world.pose.objects.push_back(object);
     }
-    world.scene = borrowed(scene);
-    world.pyramids = buildPyramids(scene.meshes);
+    world.scene = scene;
+    world.pyramids = buildPyramids(scene->meshes);
     world.environment = {EnvironmentType::uniform, background, background, background, nullptr, 1};
     settings.lod = LodMode::off;
     settings.keepAll = true;

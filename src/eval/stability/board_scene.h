@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "plan/frame_plan.h"
@@ -20,14 +21,10 @@ struct Board {
 // Returns a camera at the origin with a 50 mm lens on a sensor of 36 mm, f/1, focused at 2 m.
 View boardView(int width = 96, int height = 64);
 
-// It owns what its world points to, so it can't be copied or moved.
-class BoardScene {
-public:
+struct BoardScene {
     BoardScene(const View& boardsView, const std::vector<Board>& boards, const glm::vec3& background = glm::vec3(0));
-    BoardScene(const BoardScene&) = delete;
-    BoardScene& operator=(const BoardScene&) = delete;
 
-    Scene scene;
+    std::shared_ptr<Scene> scene = std::make_shared<Scene>();  // the world's
     World world;
     View view;
     RenderSettings settings;  // full detail, everything kept

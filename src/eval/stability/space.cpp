@@ -50,8 +50,8 @@ double ownDistanceError(double distance) {
     // In units of the mesh, whose corners stay what they are up to 2²³.
     const glm::vec3 offset(
         glm::round(glm::vec3(distance / worldFromObject[0].x, -0.5 * distance / worldFromObject[1].y, 0)));
-    for (glm::vec3& position : far.scene.meshes[0].vertices.positions) position += offset;
-    far.world.pyramids = buildPyramids(far.scene.meshes);
+    for (glm::vec3& position : far.scene->meshes[0].vertices.positions) position += offset;
+    far.world.pyramids = buildPyramids(far.scene->meshes);
     worldFromObject = glm::translate(worldFromObject, -glm::dvec3(offset));
     double largest = 0;
     for (int step = 0; step < 4; ++step) {

@@ -63,8 +63,8 @@ Mesh ballMesh() {
 // White before black: a pixel of a sample is 0 or 1.
 struct Ball : BoardScene {
     Ball() : BoardScene(boardView(), {{5, {0, 0}, {1, 1}, glm::vec3(1)}}) {
-        scene.meshes[0] = ballMesh();
-        world.pyramids = buildPyramids(scene.meshes);
+        scene->meshes[0] = ballMesh();
+        world.pyramids = buildPyramids(scene->meshes);
         world.pose.objects[0].worldFromObject[2][2] = 1;
         settings.sampleCount = renderedSamples;
         setBlur(view, 5, 6);

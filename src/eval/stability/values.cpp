@@ -79,8 +79,8 @@ double skyTexelError(LayerFormat format) {
 double lightTexelError(float metallic) {
     View view = boardView();
     BoardScene wall(view, {{3, {0, 0}, {10, 10}, glm::vec3(0.8f)}});
-    wall.scene.materials[0].unlit = false;
-    wall.scene.materials[0].metallicFactor = metallic;
+    wall.scene->materials[0].unlit = false;
+    wall.scene->materials[0].metallicFactor = metallic;
     const auto picture = [&](int x) {
         wall.world.environment = surroundings(x);
         return rendered(wall);
