@@ -1,6 +1,7 @@
 #pragma once
-// Where the models for tests lie. Real ones: $DEFOCUS_MODELS_DIR, else a folder beside the checkout; tests skip where
-// it is absent. The project's own (meshes/…): in the repository, always there.
+// Finds the models for tests. The project's own (meshes/…) and small public ones (tests/data/models) are in the
+// repository. Larger public ones lie in $DEFOCUS_MODELS_DIR, else in a folder beside the checkout; a test that needs
+// one skips where it is absent.
 
 #include <gtest/gtest.h>
 
@@ -12,15 +13,21 @@
 
 namespace defocus {
 
+// Public models in the repository, and all of them.
+inline std::filesystem::path keptModelsDirectory() {
+    return std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models";
+}
 inline std::filesystem::path modelsDirectory() {
     const char* given = std::getenv("DEFOCUS_MODELS_DIR");
     return given != nullptr ? given : DEFOCUS_DEFAULT_MODELS_DIR;
 }
 
-// A name that begins with "meshes/" or "tests/" is one of the project's own.
+// A name that begins with "meshes/" or "tests/" counts from the repository's root. Others are public models'.
 inline std::filesystem::path modelPath(const std::filesystem::path& name) {
-    const bool own = !name.empty() && (*name.begin() == "meshes" || *name.begin() == "tests");
-    return (own ? std::filesystem::path(DEFOCUS_SOURCE_DIR) : modelsDirectory()) / name;
+    if (!name.empty() && (*name.begin() == "meshes" || *name.begin() == "tests"))
+        return std::filesystem::path(DEFOCUS_SOURCE_DIR) / name;
+    const std::filesystem::path kept = keptModelsDirectory() / name;
+    return std::filesystem::exists(kept) ? kept : modelsDirectory() / name;
 }
 
 // A test's name may have letters, digits and _ of ASCII only.

@@ -1,10 +1,14 @@
 #pragma once
 // A scene file at one moment, and the same moment with every object's posed vertices as a mesh that stands still.
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "lod/pyramid/pyramid.h"
+#include "models.h"
 #include "plan/view.h"
 #include "scene/defaults.h"
 #include "scene/gltf/gltf.h"
@@ -13,12 +17,14 @@
 
 namespace defocus {
 
-// The models whose skins and morph targets move, with the clip that moves them. The first is the project's own, the
-// others may be absent.
+// The models whose skins and morph targets move, with the clip that moves them.
 struct PosedModel {
     const char* file;
     int clip;
 };
+inline std::string posedModelName(const testing::TestParamInfo<PosedModel>& tested) {
+    return testNameOf(std::string(tested.param.file) + "_" + std::to_string(tested.param.clip));
+}
 inline constexpr PosedModel posedModels[] = {{"meshes/reed.glb", 0},
                                              {"Fox.glb", 0},
                                              {"Fox.glb", 2},

@@ -23,20 +23,22 @@ Image rendered(const SmallWorld& small, Renderer& renderer) {
     return renderer.image();
 }
 
-TEST(PosedTruth, rasteriserAndRayTracerSeeTheSamePose) {
+class PosedTruth : public testing::TestWithParam<PosedModel> {};
+
+TEST_P(PosedTruth, rasteriserAndRayTracerSeeTheSamePose) {
+    const auto& [file, clip] = GetParam();
+    DEFOCUS_MODEL_OR_SKIP(path, file);
     const auto context = createHeadlessContext();
-    for (const auto& [file, clip] : posedModels) {
-        const std::filesystem::path path = modelPath(file);
-        if (!std::filesystem::exists(path)) continue;
-        const auto small = posedWorld(path, 0.7, clip);
-        small->scene = bakedUnlit(std::move(small->scene));
-        small->world.pyramids = buildPyramids(small->scene.meshes);
-        small->view.lens.fStop = 0.1;
-        const Image raster = rendered(*small, *methodNamed("accumulation").make(small->world, {}));
-        const Image traced = rendered(*small, *makeEmbreeRenderer(small->world, EmbreeSampling::planned));
-        EXPECT_GT(compareImages(traced, raster).psnr, 45) << file;
-    }
+    const auto small = posedWorld(path, 0.7, clip);
+    small->scene = bakedUnlit(std::move(small->scene));
+    small->world.pyramids = buildPyramids(small->scene.meshes);
+    small->view.lens.fStop = 0.1;
+    const Image raster = rendered(*small, *methodNamed("accumulation").make(small->world, {}));
+    const Image traced = rendered(*small, *makeEmbreeRenderer(small->world, EmbreeSampling::planned));
+    EXPECT_GT(compareImages(traced, raster).psnr, 45);
 }
+
+INSTANTIATE_TEST_SUITE_P(Models, PosedTruth, testing::ValuesIn(posedModels), posedModelName);
 
 }  // namespace
 }  // namespace defocus
