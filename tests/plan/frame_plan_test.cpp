@@ -159,46 +159,68 @@ TEST(FramePlan, boxThatReachesTheNearPlaneIsDrawnAtFullDetail) {
     EXPECT_EQ(found->lambda, 0);
 }
 
-TEST(FramePlan, lambdaIsContinuousAlongADolly) {
+struct DollyStep {
+    double distance = 0;  // m, of the sphere's centre
+    double lambda = 0;
+};
+
+constexpr double dollyRadius = 0.2;  // of the sphere, m
+
+// A sphere that goes from 1.2 to 12 m before the lens, each step `ratio` times as far.
+std::vector<DollyStep> dolly(const RenderSettings& settings, double ratio) {
     const auto small = fiveSpheres();
-    double previous = -1;
-    for (double z = 1.2; z < 12; z *= 1.0005) {
+    std::vector<DollyStep> steps;
+    for (double z = 1.2; z < 12; z *= ratio) {
         small->world.pose.objects[0].worldFromObject =
-            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(0.2));
-        const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
-        const auto found =
-            std::find_if(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& o) { return o.object == 0; });
-        ASSERT_NE(found, plan.objects.end());
-        if (previous >= 0) {
-            EXPECT_NEAR(found->lambda, previous, 0.05) << z;
-        }
-        previous = found->lambda;
+            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(dollyRadius));
+        const FramePlan plan = planFrame(small->world, small->view, settings);
+        const auto found = std::ranges::find(plan.objects, 0, &ObjectPlan::object);
+        if (found != plan.objects.end()) steps.push_back({z, found->lambda});
+    }
+    EXPECT_GT(steps.size(), std::log(10) / std::log(ratio));
+    return steps;
+}
+
+// How much may λ change in a step? An edge at distance n projects to a length that goes as 1/n. λ is where the levels'
+// edges, interpolated in their logarithm, project to τ = max(kBlur·c, kSize), and the edges of each level are at least
+// `growth` times those of the level before. So |Δλ| ≤ |Δ ln(n·τ)| / ln growth. Only c = K·|1/s − 1/n| changes τ, by at
+// most kBlur·K·(1/n − 1/n'), and τ is at least kSize.
+TEST(FramePlan, lambdaIsContinuousAlongADolly) {
+    const RenderSettings settings = settingsFor(64);
+    const auto small = fiveSpheres();
+    const std::vector<PyramidLevel>& levels = small->world.pyramids[0].levels;
+    double growth = std::numeric_limits<double>::infinity();
+    for (std::size_t l = 1; l < levels.size(); ++l)
+        growth = std::min(growth, levels[l].meanEdge / levels[l - 1].meanEdge);
+    const Lens& lens = small->view.lens;
+    const double blur = lens.focalLength / (1000 * lens.fStop) * small->view.width * lens.focalLength /
+                        lens.horizontalAperture;  // K, px·m
+    const double reach = 1.03 * dollyRadius;      // of the ripples
+    const std::vector<DollyStep> steps = dolly(settings, 1.001);
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+        const double before = steps[i - 1].distance - reach;
+        const double after = steps[i].distance - reach;
+        const double target = settings.thresholds.blur.value() * blur * (1 / before - 1 / after);
+        const double most = (std::log(after / before) + target / settings.thresholds.size.value()) / std::log(growth);
+        EXPECT_NEAR(steps[i].lambda, steps[i - 1].lambda, most) << steps[i].distance;
     }
 }
 
 TEST(FramePlan, measuredLevelsAreContinuousAlongADollyAndGrowWithBlur) {
-    const auto small = fiveSpheres();
     RenderSettings settings;
     settings.sampleCount = 64;
     settings.metric = LodMetric::measured;
-    double previous = -1;
-    double coarsest = 0;
-    double finest = 100;
-    for (double z = 1.2; z < 12; z *= 1.0005) {
-        small->world.pose.objects[0].worldFromObject =
-            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -z)), glm::dvec3(0.2));
-        const FramePlan plan = planFrame(small->world, small->view, settings);
-        const auto found =
-            std::find_if(plan.objects.begin(), plan.objects.end(), [](const ObjectPlan& o) { return o.object == 0; });
-        ASSERT_NE(found, plan.objects.end());
-        if (previous >= 0) {
-            EXPECT_NEAR(found->lambda, previous, 0.05) << z;
-        }
-        previous = found->lambda;
-        coarsest = std::max(coarsest, found->lambda);
-        finest = std::min(finest, found->lambda);
-    }
-    EXPECT_GT(coarsest, finest + 1) << "from focus to blur";
+    const auto largestChange = [](const std::vector<DollyStep>& steps) {
+        double largest = 0;
+        for (std::size_t i = 1; i < steps.size(); ++i)
+            largest = std::max(largest, std::abs(steps[i].lambda - steps[i - 1].lambda));
+        return largest;
+    };
+    const std::vector<DollyStep> steps = dolly(settings, 1.002);
+    // A continuous λ changes half as much over half a step; a jump stays as large.
+    EXPECT_LT(largestChange(dolly(settings, 1.001)), 0.6 * largestChange(steps));
+    const auto [finest, coarsest] = std::ranges::minmax(steps, {}, &DollyStep::lambda);
+    EXPECT_GT(coarsest.lambda, finest.lambda + 1) << "from focus to blur";
 }
 
 TEST(FramePlan, moreSamplesMeanFinerMeasuredLevels) {

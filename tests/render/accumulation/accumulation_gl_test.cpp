@@ -289,16 +289,6 @@ TEST_F(Accumulation, environmentMapOfOneColourIsTheUniformEnvironment) {
     EXPECT_LT(largestDifference(mapped, rendered(*small, settingsFor(8))), 5e-3);
 }
 
-// Radiance leaving a white Lambert-like wall under a white uniform sky is the sky's: the furnace.
-TEST_F(Accumulation, whiteRoughSurfaceVanishesInAUniformSky) {
-    const auto small = wall(1, 0.2);
-    small->scene.materials[0] = Material{};
-    small->scene.materials[0].metallicFactor = 0;
-    small->world.environment = {EnvironmentType::uniform, {1, 1, 1}, {}, {}, nullptr, 1};
-    const Image image = rendered(*small, settingsFor(4));
-    EXPECT_NEAR(image.at(48, 32)[0], 1, 0.02);  // what a rough surface of F0 = 0.04 mirrors is added, not taken away
-}
-
 // A lamp and a spotlight beside the sun.
 void addLocalLights(SmallWorld& small) {
     PlacedLight lamp;
