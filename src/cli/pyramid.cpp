@@ -118,13 +118,14 @@ std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidO
 // Returns why a pyramid couldn't be stored; empty where nothing went wrong.
 std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
                      std::vector<MeshReport>& reports, const Progress& progress) {
+    std::uint64_t all = 0;
+    for (const MeshReport& report : reports) all += scene.meshes[report.mesh].triangleCount();
     std::mutex mutex;
     std::uint64_t done = 0;
     std::string failure;
     parallelFor(reports.size(), [&](std::size_t i) {
         const Mesh& mesh = scene.meshes[reports[i].mesh];
-        const std::size_t helpers =
-            reports.size() > 1 ? pyramidHelpers(mesh, scene.meshes) : pyramidHelpers(mesh, {&mesh, 1});
+        const std::size_t helpers = pyramidHelpers(mesh, all);
         std::string failed = buildOrLoad(mesh, folder, options, helpers, reports[i]);
         reports[i].levels.resize(reports[i].pyramid.levels.size());
         const std::scoped_lock lock(mutex);

@@ -374,9 +374,13 @@ Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options, std::size_
     return build(mesh, options, helpers);
 }
 
-std::size_t pyramidHelpers(const Mesh& mesh, std::span<const Mesh> meshes) {
+std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
     std::uint64_t all = 0;
     for (const Mesh& each : meshes) all += each.triangleCount();
+    return all;
+}
+
+std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all) {
     const double share =
         static_cast<double>(mesh.triangleCount()) / static_cast<double>(std::max<std::uint64_t>(1, all));
     const auto cores = std::llround(share * std::max(1u, std::thread::hardware_concurrency()));
@@ -392,11 +396,12 @@ std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const Pyrami
         return meshes[a].triangleCount() > meshes[b].triangleCount();
     });
 
+    const std::uint64_t all = trianglesOf(meshes);
     std::vector<Pyramid> pyramids(meshes.size());
     std::mutex mutex;
     std::uint64_t done = 0;
     parallelFor(meshes.size(), [&](std::size_t i) {
-        pyramids[order[i]] = build(meshes[order[i]], options, pyramidHelpers(meshes[order[i]], meshes));
+        pyramids[order[i]] = build(meshes[order[i]], options, pyramidHelpers(meshes[order[i]], all));
         const std::scoped_lock lock(mutex);
         report(progress, "pyramids", ++done, meshes.size());
     });

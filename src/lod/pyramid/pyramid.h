@@ -101,9 +101,12 @@ const char* levelVerticesName(LevelVertices vertices);  // as the command line h
 // beyond the vertices. `helpers`: threads that fit and measure levels while the caller's goes on collapsing.
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0);
 
-// Returns how many helpers a mesh gets if the pyramids of all `meshes` are built at once: its share of the cores, by
-// triangles.
-std::size_t pyramidHelpers(const Mesh& mesh, std::span<const Mesh> meshes);
+// Returns how many triangles the meshes have together.
+std::uint64_t trianglesOf(std::span<const Mesh> meshes);
+
+// Returns how many helpers a mesh gets if it is built at once with others that have `all` triangles together: its share
+// of the cores.
+std::size_t pyramidHelpers(const Mesh& mesh, std::uint64_t all);
 
 // Builds one pyramid a mesh, on all cores.
 std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const PyramidOptions& options = {},

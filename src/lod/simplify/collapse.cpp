@@ -136,6 +136,10 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
 // triangles.
 constexpr float edgeWeight = 1e-4f;
 
+// OpenMesh's collapse walks around all four vertices of the edge's faces in search of a border. Around the middle of a
+// fan that would take the square of its faces.
+constexpr std::size_t mostSpokes = 8192;
+
 }  // namespace
 
 const std::string& ShapeModule::name() const {
@@ -146,6 +150,25 @@ const std::string& ShapeModule::name() const {
 float ShapeModule::collapse_priority(const CollapseInfo& collapse) {
     const bool allowed = keepsTopology(collapse.v0v1) && judge(collapse.v0v1) < Fit::bad;
     return static_cast<float>(allowed ? LEGAL_COLLAPSE : ILLEGAL_COLLAPSE);
+}
+
+ShapeModule::ShapeModule(SurfaceMesh& surface) : CollapseModule(surface, true) {
+    for (const VertexHandle v : surface.vertices()) {
+        if (!surface.halfedge_handle(v).is_valid()) continue;
+        std::size_t spokes = 0;
+        forEachSpoke(surface, v, [&](HalfedgeHandle) { ++spokes; });
+        if (spokes > mostSpokes) hubs_.push_back(v);
+    }
+}
+
+bool ShapeModule::besideHub(HalfedgeHandle along) {
+    const SurfaceMesh& surface = mesh();
+    const HalfedgeHandle back = surface.opposite_halfedge_handle(along);
+    return std::ranges::any_of(hubs_, [&](VertexHandle hub) {
+        return hub == surface.to_vertex_handle(along) || hub == surface.to_vertex_handle(back) ||
+               hub == surface.to_vertex_handle(surface.next_halfedge_handle(along)) ||
+               hub == surface.to_vertex_handle(surface.next_halfedge_handle(back));
+    });
 }
 
 bool ShapeModule::keepsTopology(HalfedgeHandle along) {
@@ -166,6 +189,7 @@ bool ShapeModule::keepsTopology(HalfedgeHandle along) {
 }
 
 Fit ShapeModule::judge(HalfedgeHandle along) {
+    if (besideHub(along)) return Fit::impossible;
     const SurfaceMesh& surface = mesh();
     const HalfedgeHandle back = surface.opposite_halfedge_handle(along);
     const VertexHandle from = surface.to_vertex_handle(back);
@@ -306,7 +330,7 @@ Candidate QuadricModule::cheapest(VertexHandle v) {
 
 Fit judgeFaces(Simplifier& s, HalfedgeHandle along) {
     const Fit shape = s.modules->shape.judge(along);
-    return shape == Fit::bad ? shape : std::max(shape, s.modules->wedges.judge(along));
+    return shape >= Fit::bad ? shape : std::max(shape, s.modules->wedges.judge(along));
 }
 
 Fit judgeCollapse(Simplifier& s, HalfedgeHandle along, Fit worst) {

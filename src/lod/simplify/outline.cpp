@@ -16,7 +16,9 @@ namespace defocus {
 
 namespace {
 
-constexpr int gridResolution = 512;
+constexpr int leastResolution = 128;
+constexpr int mostResolution = 512;
+constexpr double cellsPerEdge = 16;  // about, of an even mesh
 constexpr double gridMargin = 1.04;  // of the box's diagonal; levels may stand out a little
 
 constexpr int localRounds = 2;        // each edge of an outline follows level 0's
@@ -322,9 +324,12 @@ void CoverGrid::cover(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2
 
 std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
                                   const Bounds& box) {
+    const double edges = std::sqrt(static_cast<double>(indices.size()) / 3);
+    const int wanted = 64 * static_cast<int>(std::min(cellsPerEdge * edges, double{mostResolution}) / 64);
+    const int resolution = std::clamp(wanted, leastResolution, mostResolution);
     std::vector<CoverGrid> outlines;
     for (const glm::dvec3& direction : directionsOfOutlines())
-        outlines.emplace_back(box, direction, gridResolution).add(positions, indices);
+        outlines.emplace_back(box, direction, resolution).add(positions, indices);
     return outlines;
 }
 

@@ -186,6 +186,7 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     s.survivors.reserve(mesh.n_vertices());
     for (const auto v : numbersBelow<VertexHandle>(mesh.n_vertices())) s.survivors.push_back(v);
     s.current.assign(s.survivors.begin(), s.survivors.end());
+    s.modules.emplace(mesh);  // of the whole mesh
 }
 
 }  // namespace defocus

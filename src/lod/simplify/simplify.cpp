@@ -66,7 +66,7 @@ void enqueueBest(Simplifier& s, VertexHandle v) {
     best.fit = Fit::impossible;
     forEachSpoke(*s.mesh, v, [&](HalfedgeHandle spoke) {
         const Fit fit = judgeFaces(s, spoke);
-        if (fit == Fit::bad && best.fit < Fit::bad) return;
+        if (fit == Fit::impossible || (fit == Fit::bad && best.fit < Fit::bad)) return;
         const float cost = s.modules->quadrics.cost(spoke, std::numeric_limits<float>::infinity()) *
                            (fit == Fit::poor ? poorPenalty : 1);
         if (!(cost < best.cost) && (fit == Fit::bad || best.fit < Fit::bad)) return;

@@ -4,7 +4,9 @@
 
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "lod/shapes.h"
 #include "lod/simplify/drawn_surface.h"
@@ -98,6 +100,23 @@ TEST(Decimater, collapsesTheCheapestFirst) {
     }
     EXPECT_EQ(gone, 1u);
     expectWedgesInPlace(surface, mesh);
+}
+
+// Each collapse around the middle of a fan would walk around all of it.
+TEST(ShapeModule, leavesTheSpokesOfAHugeFanAlone) {
+    const auto fan = [](std::uint32_t spokes) {
+        Vertices vertices;
+        vertices.positions.emplace_back(0, 0, 0);
+        std::vector<std::uint32_t> indices;
+        for (std::uint32_t i = 0; i < spokes; ++i) {
+            const double angle = 2 * std::numbers::pi * i / spokes;
+            vertices.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+            indices.insert(indices.end(), {0, i + 1, (i + 1) % spokes + 1});
+        }
+        return singlePrimitive(std::move(vertices), std::move(indices));
+    };
+    EXPECT_EQ(buildPyramid(fan(8200)).levels.size(), 1u);
+    EXPECT_GT(buildPyramid(fan(800)).levels.size(), 1u);
 }
 
 // A square of one material inside another: no wedge of the one may draw the other's, so the border stays.
