@@ -1,10 +1,13 @@
 #include "lod/pyramid/cache.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <fstream>
 #include <mutex>
 #include <new>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <tuple>
@@ -12,7 +15,6 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "core/mapped_file.h"
 #include "core/parallel.h"
 #include "lod/pyramid/file.h"
 
@@ -60,16 +62,25 @@ std::optional<CacheFile> cacheFile(const fs::directory_entry& entry) {
     const NameKind kind = kindOf(entry.path().filename().string());
     std::error_code status;
     if (kind == NameKind::other || !fs::is_regular_file(entry.symlink_status(status))) return {};
-    const std::optional<MappedFile> file = MappedFile::open(entry.path());
-    const auto header = file ? pyramidHeader(file->bytes()) : std::nullopt;
+    std::array<std::byte, sizeof(PyramidFileHeader)> beginning;
+    std::ifstream file(entry.path(), std::ios::binary);
+    file.read(reinterpret_cast<char*>(beginning.data()), beginning.size());
+    const auto header = pyramidHeader(std::span(beginning).first(static_cast<std::size_t>(file.gcount())));
     if (!header) return {};
+    const std::uintmax_t size = entry.file_size(status);
     const fs::file_time_type written = entry.last_write_time(status);
-    return CacheFile{entry.path(), file->bytes().size(), written, header->triangleCount, kind == NameKind::pending};
+    return CacheFile{entry.path(), size, written, header->triangleCount, kind == NameKind::pending};
 }
 
 std::optional<Pyramid> load(const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
-    const std::optional<MappedFile> file = MappedFile::open(folder / fileName(key));
-    return file ? decodePyramid(file->bytes(), mesh, key) : std::nullopt;
+    const fs::path path = folder / fileName(key);
+    std::error_code status;
+    if (!fs::is_regular_file(path, status)) return {};
+    try {
+        return decodePyramid(readFile(path), mesh, key);
+    } catch (const Error&) {
+        return {};  // a miss, not a fault
+    }
 }
 
 void store(const Pyramid& pyramid, const Mesh& mesh, const fs::path& folder, const PyramidKey& key) {
@@ -121,6 +132,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
         return result;
     }
 
+    const std::uint64_t triangles = trianglesOf(meshes);
     // The largest first, so that no core is left with a large one at the end.
     std::vector<std::size_t> order(meshes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -142,7 +154,7 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
         const PyramidKey key = worthIt ? pyramidKey(mesh, options) : PyramidKey{};
         std::optional<Pyramid> loaded = worthIt ? load(mesh, folder, key) : std::nullopt;
         const bool found = loaded.has_value();
-        pyramid = found ? std::move(*loaded) : buildPyramid(mesh, options, pyramidHelpers(mesh, meshes));
+        pyramid = found ? std::move(*loaded) : buildPyramid(mesh, options, pyramidHelpers(mesh, triangles));
         const std::string failure =
             worthIt && !found && stillStoring() ? tryToStore(pyramid, mesh, folder, key) : std::string();
 
