@@ -213,6 +213,18 @@ std::optional<JsonReader> findPlace(const JsonReader& reader, std::string_view p
     return found;
 }
 
+// What an object of the shot at `place` ("" for the whole) may hold: settings, and its own.
+std::vector<std::string> keysAt(std::string_view place, std::vector<std::string> own) {
+    for (const Setting& setting : settings()) {
+        const std::string_view path = setting.shotPlace;
+        if (!path.starts_with(place) || path.size() <= place.size() || path[place.size()] != '/') continue;
+        const std::string_view rest = path.substr(place.size() + 1);
+        const std::string key(rest.substr(0, rest.find('/')));
+        if (std::ranges::find(own, key) == own.end()) own.push_back(key);
+    }
+    return own;
+}
+
 // Scene files beside the shot.
 std::string relativeToShot(const Setting& setting, const std::string& text, const Shot& shot) {
     return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;
@@ -222,14 +234,14 @@ std::string relativeToShot(const Setting& setting, const std::string& text, cons
 void readSettings(const JsonReader& reader, Shot& shot) {
     if (const auto fish = reader.find("fish")) {
         if (reader.has("scene")) fish->failWith("is for the built-in school of fish; this shot names a scene");
-        fish->requireObject({"count", "triangles"});
+        fish->requireObject(keysAt("/fish", {}));
     }
     if (const auto animation = reader.find("animation")) {
-        animation->requireObject({"clip", "start", "speed", "loop"});
+        animation->requireObject(keysAt("/animation", {"speed"}));
         if (const auto speed = animation->find("speed")) shot.animationSpeed = speed->number(-1e3, 1e3);
     }
     if (const auto shutter = reader.find("shutter")) {
-        shutter->requireObject({"angle", "seconds", "position", "segments", "exact"});
+        shutter->requireObject(keysAt("/shutter", {"angle", "exact"}));
         if (shutter->has("angle") == shutter->has("seconds")) shutter->failWith("give either 'angle' or 'seconds'");
         if (const auto angle = shutter->find("angle")) shot.shutterAngle = angle->number(0, 3600);
     }
@@ -261,12 +273,8 @@ void readOutput(const JsonReader& reader, Shot& shot) {
 
 Shot shotOf(const json& document, const fs::path& file) {
     const JsonReader reader(document, file.string());
-    reader.requireObject({"$schema",       "scene",       "fish",        "environment",   "background",
-                          "frameRate",     "range",       "animation",   "shutter",       "sequence",
-                          "camera",        "focus",       "lens",        "size",          "samples",
-                          "seed",          "animateSeed", "lod",         "lodMetric",     "blurThreshold",
-                          "sizeThreshold", "method",      "layerFormat", "output",        "exposure",
-                          "toneMap",       "video",       "preset",      "levelVertices", "lightThreshold"});
+    reader.requireObject(
+        keysAt("", {"$schema", "frameRate", "range", "camera", "focus", "lens", "animateSeed", "output", "video"}));
     Shot shot;
     shot.file = file;
     if (const auto schema = reader.find("$schema")) static_cast<void>(schema->text());

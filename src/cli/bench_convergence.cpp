@@ -24,6 +24,7 @@
 #include "eval/convergence/text.h"
 #include "eval/convergence/unlit_scene.h"
 #include "frame/prepared_frame.h"
+#include "frame/settings.h"
 #include "gl/context.h"
 #include "image/colour_map.h"
 #include "image/image_io.h"
@@ -70,12 +71,13 @@ std::string textIn(const fs::path& path) {
 }
 
 // What a journal's frames have in common: another scene, reference, device or program makes another subject.
-std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const ConvergenceOptions& options) {
-    const RenderSettings& plan = options.plan;
-    const std::string text =
-        fmt::format("{} {} {} {} {} {} {} {} {} {} {}", bench.program, bench.commit, bench.device, bench.driver,
-                    sequenceName(plan.sequence), plan.seed, plan.lodCocAtCentre, levelVerticesName(plan.levelVertices),
-                    plan.keepAll, static_cast<int>(options.renderer.layerFormat), options.renderer.wave);
+std::uint64_t subjectHash(std::uint64_t reference, const BenchSubject& bench, const Request& request) {
+    std::string text = fmt::format("{} {} {} {}", bench.program, bench.commit, bench.device, bench.driver);
+    for (const Setting& setting : settings()) {
+        const bool ofThePlan = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
+                               setting.group == SettingGroup::developer;
+        if (ofThePlan) text += fmt::format(" {}={}", setting.name, setting.text(request).value_or(""));
+    }
     return hashBytes(std::as_bytes(std::span(text)), reference);
 }
 
@@ -172,7 +174,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.renderer.shaderFolder = global.shaderDir;
     const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer};
     const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
-    const std::uint64_t hash = subjectHash(referenced, benchSubject(*context, global), options);
+    const std::uint64_t hash = subjectHash(referenced, benchSubject(*context, global), arguments.request);
     const std::vector<ConvergenceRun> done = earlierRuns(arguments, referenced, hash);
     const fs::path folder = resultsFolder(arguments);
     if (arguments.overwrite) writeFile(folder / "runs.csv", runsCsv({}, hash));

@@ -3,13 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
+#include "capture/setting_json.h"
 #include "capture/shot_json.h"
 #include "core/error.h"
+#include "frame/settings.h"
 #include "lens/lens_fields.h"
 
 namespace defocus {
@@ -216,6 +220,36 @@ TEST(ShotSchema, forbidsWhatDoesNotGoTogether) {
           R"({"focus": {"auto": false}})", R"({"focus": {"pixel": [1, 16384]}})", R"({"unknown": 1})"}) {
         EXPECT_FALSE(schema.accepts(json::parse(text))) << text;
         EXPECT_NE(parserFault(json::parse(text)), "") << text;
+    }
+}
+
+// A value that the setting takes.
+json valueFor(const Setting& setting) {
+    if (const std::optional<std::string> standard = setting.text(Request{}))
+        return json(settingJson(setting, *standard));
+    switch (setting.kind) {
+        case SettingKind::number:
+        case SettingKind::whole:
+            return std::clamp(setting.kind == SettingKind::whole ? 3.0 : 1.0, setting.least, setting.most);
+        case SettingKind::truth:
+            return true;
+        case SettingKind::choice:
+            return setting.choices.front();
+        default:
+            return "a";
+    }
+}
+
+// What the documentation says of a shot's keys is made from these places.
+TEST(ShotSchema, holdsEachSettingThatAShotMayGive) {
+    const Schema schema = publishedSchema();
+    for (const Setting& setting : settings()) {
+        if (setting.shotPlace.empty()) continue;
+        json shot = json::object();
+        if (setting.shotPlace.starts_with("/shutter/")) shot["shutter"]["seconds"] = 0.02;
+        shot[json::json_pointer(setting.shotPlace)] = valueFor(setting);
+        EXPECT_TRUE(schema.accepts(shot)) << shot;
+        EXPECT_EQ(parserFault(shot), "") << shot;
     }
 }
 
