@@ -20,6 +20,7 @@
 #include "capture/frame_files.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "image/quantise.h"
 #include "image/tone_map.h"
 
 extern char** environ;  // NOLINT: POSIX asks for this declaration
@@ -144,10 +145,9 @@ std::vector<std::uint8_t> displayBytes(const VideoFrame& frame, const Image& fir
     std::vector<std::uint8_t> bytes;
     bytes.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
     const auto channels = static_cast<std::size_t>(image.channels);
-    for (std::size_t i = 0; i < image.pixels.size(); i += channels)
-        for (std::size_t c = 0; c < 3; ++c)
-            bytes.push_back(
-                static_cast<std::uint8_t>(std::lround(255.0f * image.pixels[i + std::min(c, channels - 1)])));
+    const std::vector<std::uint8_t> own = quantised(image);
+    for (std::size_t i = 0; i < own.size(); i += channels)
+        for (std::size_t c = 0; c < 3; ++c) bytes.push_back(own[i + std::min(c, channels - 1)]);
     return bytes;
 }
 

@@ -14,6 +14,7 @@
 #include "core/file.h"
 #include "image/image_io.h"
 #include "image/oiio_names.h"
+#include "image/quantise.h"
 
 namespace defocus {
 
@@ -60,13 +61,6 @@ Image withoutAlpha(const ImageView& image) {
     for (std::size_t i = 0; i < opaque.pixels.size() / 3; ++i)
         std::copy_n(image.pixels.data() + 4 * i, 3, opaque.pixels.data() + 3 * i);
     return opaque;
-}
-
-std::vector<std::uint8_t> quantised(const Image& display) {
-    std::vector<std::uint8_t> bytes(display.pixels.size());
-    std::ranges::transform(display.pixels, bytes.begin(),
-                           [](float value) { return static_cast<std::uint8_t>(std::lround(255.0f * value)); });
-    return bytes;
 }
 
 // Adds the metadata in EXR's types, or as text for PNG, which has no other.
