@@ -48,7 +48,8 @@ inline std::unique_ptr<SmallWorld> posedWorld(const std::filesystem::path& path,
     const PlacedCamera camera = chooseCamera(small->scene, small->world.pose, "auto", 128.0 / 96);
     small->view.worldFromCamera = camera.worldFromCamera;
     small->view.nearPlane = camera.camera.znear;
-    small->view.lens.focusDistance = camera.camera.lens.at("focusDistance");
+    small->view.lens.focusDistance =
+        glm::distance(glm::dvec3(camera.worldFromCamera[3]), small->world.pose.bounds.centre());
     small->view.lens.focalLength = focalLengthFromFov(128.0 / 96 * std::tan(camera.camera.yfov / 2), 36);
     small->world.lights = lightsOrDefault(small->scene, small->world.pose, camera);
     small->world.environment = environmentOrDefault(small->scene);

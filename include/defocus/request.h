@@ -47,7 +47,7 @@ struct Request {
     int height = 768;
 
     // Lens, and where it is focused: at most one of lens.focusDistance and these four. Without any, the camera's own
-    // distance, else the depth of the scene's centre.
+    // distance, else the median depth of what the middle of the image shows.
     LensSettings lens;
     std::string focusNode;                            // the centre of this node
     std::optional<Pixel> focusPixel;                  // what is seen there

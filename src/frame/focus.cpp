@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <optional>
 
 #include "core/error.h"
 #include "plan/focus_depth.h"
@@ -18,6 +19,12 @@ constexpr double defaultFocusDistance = 2.5;  // m, where the scene lies beside 
 double depthOfCentre(const Bounds& bounds, const View& view) {
     const double depth = bounds.empty() ? 0 : -(glm::inverse(view.worldFromCamera) * glm::dvec4(bounds.centre(), 1)).z;
     return depth > view.nearPlane && std::isfinite(depth) ? depth : defaultFocusDistance;
+}
+
+// The middle of what the camera sees, which may be the front of a thing whose centre nobody sees.
+double depthOfSubject(const Scene& scene, const Pose& pose, const View& view) {
+    const std::optional<double> depth = depthOfMiddle(scene, pose, view);
+    return depth && *depth > view.nearPlane && std::isfinite(*depth) ? *depth : depthOfCentre(pose.bounds, view);
 }
 
 void focusAlong(const Scene& scene, const Pose& pose, const std::array<Pixel, 3>& pixels, View& view) {
@@ -61,7 +68,7 @@ void chooseFocus(const Request& request, const Camera& camera, const Scene& scen
     else if (request.focusAuto)
         lens.focusDistance = depthOfMiddle(scene, pose, view, "--focus-auto");
     else
-        lens.focusDistance = own && *own > 0 ? *own : depthOfCentre(pose.bounds, view);
+        lens.focusDistance = own && *own > 0 ? *own : depthOfSubject(scene, pose, view);
 }
 
 }  // namespace defocus

@@ -19,8 +19,8 @@ const LensField fields[] = {
     {"fStop", "--fstop", "N", 1e-3, 1e6, &Lens::fStop, &LensSettings::fStop,
      "f-number; without it, the camera's own, else 2.8"},
     {"focusDistance", "--focus-distance", "M", 1e-6, 1e12, &Lens::focusDistance, &LensSettings::focusDistance,
-     "Distance of the focus plane along the view axis; without any focus option, the camera's own, else the depth of "
-     "the scene's centre"},
+     "Distance of the focus plane along the view axis; without any focus option, the camera's own, else the median "
+     "depth of what the middle of the image shows"},
     {"horizontalAperture", "--horizontal-aperture", "MM", 1e-2, 1e6, &Lens::horizontalAperture,
      &LensSettings::horizontalAperture, "Width of the sensor; without it, the camera's own, else 36"},
     {"dofEnabled", "--dof", "", 0, 1, &Lens::dofEnabled, &LensSettings::dofEnabled, "Off: a pinhole, everything sharp"},

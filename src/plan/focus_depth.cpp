@@ -67,7 +67,7 @@ double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, cons
     return lens.focusDistance;
 }
 
-double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, const char* who) {
+std::optional<double> depthOfMiddle(const Scene& scene, const Pose& pose, const View& view) {
     const glm::dvec2 size(view.width, view.height);
     std::vector<glm::dvec2> places;
     for (int y = 0; y < middlePoints; ++y)
@@ -76,10 +76,16 @@ double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, con
     std::vector<double> depths;
     for (const auto& point : surfacesAt(scene, pose, view, unfocused(view.lens), places))
         if (point) depths.push_back(-point->z);
-    if (depths.empty()) fail("{}: the middle of the image shows no surface; choose another way to focus", who);
+    if (depths.empty()) return {};
     const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
     std::nth_element(depths.begin(), middle, depths.end());
     return *middle;
+}
+
+double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, const char* who) {
+    const std::optional<double> depth = depthOfMiddle(scene, pose, view);
+    if (!depth) fail("{}: the middle of the image shows no surface; choose another way to focus", who);
+    return *depth;
 }
 
 }  // namespace defocus

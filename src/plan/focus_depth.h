@@ -29,7 +29,9 @@ glm::dvec3 surfaceAtPixel(const Scene& scene, const Pose& pose, const View& view
 // surfaceAtPixel.
 double depthAtPixel(const Scene& scene, const Pose& pose, const View& view, const glm::ivec2& pixel, const char* who);
 
-// Returns the median depth of what the central third of the image shows. Throws Error if it shows no surface.
+// Returns the median depth of what the central third of the image shows; nothing if it shows no surface.
+std::optional<double> depthOfMiddle(const Scene& scene, const Pose& pose, const View& view);
+// The same, but throws Error if it shows no surface.
 double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, const char* who);
 
 }  // namespace defocus

@@ -89,7 +89,6 @@ PlacedCamera framingCamera(const Bounds& sceneBounds, double aspect) {
     placed.camera.yfov = 2 * std::atan(tangentY);
     placed.camera.aspectRatio = aspect;
     placed.camera.znear = std::max(0.1 * (distance - front), 1e-3 * radius);
-    placed.camera.lens["focusDistance"] = distance;
     const glm::dvec3 position = bounds.centre() + 0.5 * (right - left) * x + 0.5 * (top - bottom) * y + distance * z;
     placed.worldFromCamera = {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
     return placed;

@@ -48,8 +48,8 @@ TEST_F(SceneOptionsTest, lensValuesFallBackToTheDefaults) {
     EXPECT_EQ(lens("apertureDiameter", {"--no-dof"}), 0);
 }
 
-TEST_F(SceneOptionsTest, focusDefaultsToTheDepthOfTheScenesCentre) {
-    EXPECT_NEAR(lens("focusDistance", {}), 5, 1e-6);
+TEST_F(SceneOptionsTest, focusDefaultsToWhatTheMiddleShows) {
+    EXPECT_NEAR(lens("focusDistance", {}), 2, 1e-6);  // the nearer of the two, not the middle between them
 }
 
 TEST_F(SceneOptionsTest, focusOnANode) {

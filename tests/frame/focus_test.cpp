@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "small_world.h"
 
 namespace defocus {
 namespace {
@@ -49,6 +50,31 @@ TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
         EXPECT_EQ(lens.focusTilt, before.focusTilt);
         EXPECT_EQ(lens.focusSwing, before.focusSwing);
     }
+}
+
+// A box is sharp at its front, not in its middle, which nobody sees. Where the image's middle shows nothing, the scene's centre
+// counts.
+TEST(ChooseFocus, isWhatTheMiddleShowsWhereNobodySaysMore) {
+    SmallWorld small;
+    small.scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+    small.scene.meshes.push_back(quad(0));
+    place(small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4)));
+    place(small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -8)));
+    finish(small);
+    small.world.pose.bounds = {{-1, -1, -8}, {1, 1, -4}};
+    small.view.width = 64;
+    small.view.height = 48;
+    chooseFocus({}, {}, small.scene, small.world.pose, small.view);
+    EXPECT_NEAR(small.view.lens.focusDistance, 4, 1e-6);
+
+    Camera own;
+    own.lens["focusDistance"] = 7;
+    chooseFocus({}, own, small.scene, small.world.pose, small.view);
+    EXPECT_EQ(small.view.lens.focusDistance, 7);
+
+    small.view.worldFromCamera = glm::translate(glm::dmat4(1), glm::dvec3(100, 0, 0));  // beside all
+    chooseFocus({}, {}, small.scene, small.world.pose, small.view);
+    EXPECT_NEAR(small.view.lens.focusDistance, 6, 1e-6);
 }
 
 }  // namespace

@@ -49,8 +49,6 @@ TEST_P(Framing, boxFitsCentredWithLittleToSpare) {
         const double fill = std::max({-least.x, most.x, -least.y, most.y});
         EXPECT_LE(fill, 0.95);
         EXPECT_GE(fill, 0.85);
-        EXPECT_NEAR(placed.camera.lensValue("focusDistance").value(),
-                    -(cameraFromWorld * glm::dvec4(pose.bounds.centre(), 1)).z, 1e-6 * 5000);
     }
 }
 INSTANTIATE_TEST_SUITE_P(Aspects, Framing, testing::Values(1.0, 4.0 / 3, 2.39, 0.5));
@@ -88,7 +86,7 @@ TEST(ChooseCamera, byCameraOrNodeNameElseTheFirstThatWorks) {
     EXPECT_EQ(chooseCamera(scene, pose, "", 1).worldFromCamera[3].x, 1);
     EXPECT_EQ(chooseCamera(scene, pose, "shot", 1).worldFromCamera[3].x, 1);
     EXPECT_EQ(chooseCamera(scene, pose, "node2", 1).worldFromCamera[3].x, 2);
-    EXPECT_TRUE(chooseCamera(scene, pose, "auto", 1).camera.lensValue("focusDistance"));
+    EXPECT_EQ(chooseCamera(scene, pose, "auto", 1).camera.name, "auto");
 }
 
 TEST(ChooseCamera, matricesAreRigidWhateverTheNodesScale) {
