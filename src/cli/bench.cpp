@@ -89,18 +89,18 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     SpeedupOptions& options = arguments->speedup;
     command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
         ->delimiter(',')
-        ->check(CLI::Range(1u, mostSamples))
+        ->check(unnamed(CLI::Range(1u, mostSamples)))
         ->type_name("N,N,…")
         ->default_str("16,32,64,128,256,512")
         ->group(group);
     command->add_option("--fstops", options.fStops, "Further f-numbers, at 64 samples")
         ->delimiter(',')
-        ->check(CLI::PositiveNumber)
+        ->check(unnamed(CLI::PositiveNumber))
         ->type_name("N,N,…")
         ->group(group);
     command->add_option("--focus-distances", options.focusDistances, "Further focus distances, at 64 samples")
         ->delimiter(',')
-        ->check(CLI::PositiveNumber)
+        ->check(unnamed(CLI::PositiveNumber))
         ->type_name("M,M,…")
         ->group(group);
     addParsed(*command, "--methods", "NAME,NAME,…",
@@ -108,7 +108,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
     command->add_option("--runs", options.runs, "Runs of each mode; the median counts")
-        ->check(CLI::Range(1, 1000))
+        ->check(unnamed(CLI::Range(1, 1000)))
         ->type_name("N")
         ->default_str("3")
         ->group(group);
@@ -116,7 +116,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
         ->add_option("--reference-samples", options.referenceSamples,
                      "Lens samples of the converged reference that each lens is compared with; without it, eight times "
                      "the most that are measured with the lens; 0: no reference")
-        ->check(CLI::Range(0u, mostSamples))
+        ->check(unnamed(CLI::Range(0u, mostSamples)))
         ->type_name("N")
         ->group(group);
     CLI::Option* output =

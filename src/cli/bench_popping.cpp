@@ -103,7 +103,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     PoppingOptions& options = arguments->options;
     command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
         ->delimiter(',')
-        ->check(CLI::Range(1, 4096))
+        ->check(unnamed(CLI::Range(1, 4096)))
         ->type_name("N,N,…")
         ->default_str("8,16,32")
         ->group(group);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/bench_commands.h"
+#include "cli/option_text.h"
 #include "cli/request_options.h"
 #include "core/file.h"
 #include "eval/prediction/text.h"
@@ -65,7 +66,7 @@ void addPredictionCommand(CLI::App& bench, const GlobalOptions& global) {
         "expects against the rendered one");
     command->add_option("--cocs", arguments->options.cocs, "Blur of the mesh's centre")
         ->delimiter(',')
-        ->check(CLI::Range(0.01, 1e4))
+        ->check(unnamed(CLI::Range(0.01, 1e4)))
         ->type_name("PX,PX,…")
         ->default_str("1,4,16,64")
         ->group("Measurement");

@@ -149,6 +149,16 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
         };
 }
 
+// Of the first frame.
+void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
+                       const std::vector<FilmFrame>& film, const Method& method, const GlobalOptions& global) {
+    const SequenceFrame frame = frameAt(arguments.shot, base, film.front().frame);
+    prepared.world.pose = frame.pose;
+    prepared.world.shutter = frame.shutter;
+    const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
+    printWarnings(planWarnings(plan, method.usesLensSamples), global);
+}
+
 void printFigures(const FilmFigures& figures, std::size_t frames) {
     const double render = figures.renderMilliseconds / 1000;
     const double total = figures.totalMilliseconds / 1000;
@@ -208,12 +218,12 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     std::unique_ptr<GlContext> context;
     if (!allThere && use.method->needsGl && !arguments.dryRun) context = createHeadlessContext();
     if (!allThere || arguments.dryRun) addPyramids(prepared, progress);
+    progress = {};
     printFrameWarnings(prepared, global);
     printWarnings(ignoredWarnings(*prepared.scene), global);
-    if (arguments.dryRun) {
-        progress = {};
-        return printPlan(arguments, prepared, base, film);
-    }
+    if (!allThere) printPlanWarnings(arguments, prepared, base, film, *use.method, global);
+    if (arguments.dryRun) return printPlan(arguments, prepared, base, film);
+    progress = terminalProgress(global);
     FilmFigures figures;
     figures.finishedBefore = static_cast<int>(film.size());
     if (!allThere) figures = renderFrames(arguments, prepared, base, film, options, use, global, progress);

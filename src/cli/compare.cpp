@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/option_text.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "image/colour_map.h"
@@ -158,15 +159,15 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
                                          "FLIP for HDR images: the worst over several exposures, instead of at EV 0");
     command->add_option("--start-exposure", arguments->hdrFlip.startExposure, "First exposure of --hdr, EV")
         ->needs(hdr)
-        ->check(CLI::Range(-60.0, 60.0))
+        ->check(unnamed(CLI::Range(-60.0, 60.0)))
         ->capture_default_str();
     command->add_option("--stop-exposure", arguments->hdrFlip.stopExposure, "Last exposure of --hdr, EV")
         ->needs(hdr)
-        ->check(CLI::Range(-60.0, 60.0))
+        ->check(unnamed(CLI::Range(-60.0, 60.0)))
         ->capture_default_str();
     command->add_option("--exposures", arguments->hdrFlip.exposures, "Number of exposures of --hdr")
         ->needs(hdr)
-        ->check(CLI::Range(1, 64))
+        ->check(unnamed(CLI::Range(1, 64)))
         ->capture_default_str();
     command
         ->add_option("--fail-above", arguments->failAbove,

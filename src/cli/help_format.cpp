@@ -55,8 +55,7 @@ std::string HelpFormat::make_option_name(const CLI::Option* option, bool isPosit
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
     const bool takesValue = option->get_type_size() != 0 && !option->get_positional();
     const std::string type = option->get_type_name();
-    // What follows a colon are the names of checks, which only repeat the description.
-    return takesValue && !type.empty() ? " " + type.substr(0, type.find(':')) : "";
+    return takesValue && !type.empty() ? " " + type : "";
 }
 
 std::string HelpFormat::make_option_desc(const CLI::Option* option) const {

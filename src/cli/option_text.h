@@ -18,6 +18,11 @@ namespace defocus {
 CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
                        const std::string& description, std::function<void(const std::string&)> parse);
 
+// A check whose name --help leaves out: the description says what is allowed.
+inline CLI::Validator unnamed(const CLI::Validator& check) {
+    return check.description("");
+}
+
 // An option for a number that may be left empty. `target` must outlive the parse.
 CLI::Option* addNumber(CLI::App& command, const std::string& names, std::optional<double>& target, const Range& range,
                        const std::string& type, const std::string& description);

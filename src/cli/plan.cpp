@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/request_options.h"
 #include "frame/plan_warnings.h"
+#include "frame/unused_settings.h"
 #include "frame/prepared_frame.h"
 #include "plan/frame_plan.h"
 #include "plan/plan_text.h"
@@ -27,6 +28,7 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
     printFrameWarnings(frame, global);
     printWarnings(ignoredWarnings(*frame.scene), global);
+    printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
     printWarnings(planWarnings(plan, true), global);
 }
 

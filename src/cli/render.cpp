@@ -22,6 +22,7 @@
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
+#include "frame/unused_settings.h"
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "image/tone_map.h"
@@ -182,6 +183,18 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     if (method.needsGl || arguments.aovs.any()) context = createHeadlessContext();
     addPyramids(frame, progress);
 
+    // What is worth knowing before the work; where it decides how many samples there are, the rest comes after it.
+    progress = {};
+    printFrameWarnings(frame, global);
+    printWarnings(ignoredWarnings(*frame.scene), global);
+    printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
+    const auto warnOfPlan = [&](const FramePlan& plan) {
+        printWarnings(planWarnings(plan, method.usesLensSamples), global);
+    };
+    const bool counted = !arguments.request.stop.given();
+    if (counted) warnOfPlan(planFrame(frame.world, frame.view, frame.settings));
+    progress = terminalProgress(global);
+
     // Plan and render.
     RendererOptions options;
     options.layerFormat = arguments.request.layerFormat;
@@ -203,6 +216,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     }
     const RenderStats stats = arguments.sampleRange ? renderer->stats() : run.stats();
     progress = {};
+    if (!counted) warnOfPlan(plan);
 
     // Write.
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -219,9 +233,6 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     if (arguments.aovs.work)
         writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
     if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
-    printFrameWarnings(frame, global);
-    printWarnings(ignoredWarnings(*frame.scene), global);
-    printWarnings(planWarnings(plan, method.usesLensSamples), global);
     if (global.verbose) printChoices(context.get(), plan, report);
     if (!global.quiet) printSummary(arguments, report);
 }

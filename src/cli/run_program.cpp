@@ -16,6 +16,7 @@
 
 #include "cli/command.h"
 #include "cli/help_format.h"
+#include "cli/option_text.h"
 #include "core/error.h"
 #include "core/message.h"
 #include "core/suggestion.h"
@@ -43,7 +44,7 @@ void addGlobalOptions(CLI::App& program, GlobalOptions& global) {
         .add_option("--shader-dir", global.shaderDir,
                     "Read shaders from this folder instead of those built in, for live editing; of commands that draw")
         ->type_name("FOLDER")
-        ->check(CLI::ExistingDirectory);
+        ->check(unnamed(CLI::ExistingDirectory));
 }
 
 std::vector<std::string> namesOf(const CLI::App& program) {

@@ -13,6 +13,7 @@
 
 #include "capture/shot_schema.h"
 #include "cli/command.h"
+#include "cli/option_text.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "render/methods.h"
@@ -162,7 +163,7 @@ void addSettingsCommand(CLI::App& program) {
             ->add_option("--shot-schema", arguments->schema,
                          "This JSON schema of shots with the settings' types, ranges and descriptions as they are now")
             ->type_name("FILE")
-            ->check(CLI::ExistingFile);
+            ->check(unnamed(CLI::ExistingFile));
     json->excludes(page)->excludes(schema);
     page->excludes(schema);
     command->callback([arguments] {

@@ -17,6 +17,7 @@ namespace {
 constexpr double visibleShare = 0.02;  // of the image's width: a blur that shows at a glance
 constexpr double mostGap = 16;         // px between the images of a point that a disk may show
 constexpr double goodGap = 8;
+constexpr std::size_t mostIgnored = 20;  // lines
 
 // 1, 2 or 5 times a power of ten, near `value`.
 double roundNumber(double value) {
@@ -71,10 +72,16 @@ std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill) {
 
 std::vector<std::string> ignoredWarnings(const Scene& scene) {
     std::vector<std::string> lines;
-    for (const Ignored& ignored : scene.ignored)
-        if (!ignored.damage)
+    std::uint64_t more = 0;
+    for (const Ignored& ignored : scene.ignored) {
+        if (ignored.damage) continue;
+        if (lines.size() == mostIgnored)
+            ++more;
+        else
             lines.push_back(fmt::format("{}{}: {}", ignored.count > 1 ? grouped(ignored.count) + " x " : "",
                                         ignored.what, ignored.reason));
+    }
+    if (more > 0) lines.push_back(fmt::format("{} more kinds of things are ignored", grouped(more)));
     return lines;
 }
 

@@ -14,8 +14,8 @@ namespace defocus {
 //   the number of samples that they show as copies: N points spread over a disk of c px lie about c·√(π/(4N)) px apart.
 std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill);
 
-// Returns a line for each thing in the scene's file that isn't drawn. For faults of the file see damageWarnings
-// (prepared_frame.h).
+// Returns a line for each thing in the scene's file that isn't drawn, up to 20. For faults of the file see
+// damageWarnings (prepared_frame.h).
 std::vector<std::string> ignoredWarnings(const Scene& scene);
 
 }  // namespace defocus

@@ -7,6 +7,7 @@
 #include "core/stopwatch.h"
 #include "defocus/renderer.h"
 #include "frame/plan_warnings.h"
+#include "frame/unused_settings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "gl/context.h"
@@ -233,6 +234,7 @@ std::vector<std::string> SceneRenderer::State::warnings() const {
     std::vector<std::string> lines = frameWarnings(frame_);
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(ignoredWarnings(*frame_.scene));
+    add(unusedSettings(request_, *frame_.scene, frame_.view.lens));
     if (run_) add(planWarnings(run_->plan(), chosenMethod(request_).method->usesLensSamples));
     return lines;
 }

@@ -92,5 +92,13 @@ TEST(PlanWarnings, whatIsIgnoredIsNamedAndDamageIsNot) {
               (std::vector<std::string>{"extension KHR_x: not supported", "3 x lines: only triangles are drawn"}));
 }
 
+TEST(PlanWarnings, ofManyIgnoredThingsAFewAreNamed) {
+    Scene scene;
+    for (int i = 0; i < 1020; ++i) scene.ignored.push_back({"extension " + std::to_string(i), "not supported"});
+    const std::vector<std::string> lines = ignoredWarnings(scene);
+    ASSERT_EQ(lines.size(), 21u);
+    EXPECT_EQ(lines.back(), "1,000 more kinds of things are ignored");
+}
+
 }  // namespace
 }  // namespace defocus

@@ -1,0 +1,53 @@
+#include "frame/unused_settings.h"
+
+#include <gtest/gtest.h>
+
+#include "frame/settings.h"
+
+namespace defocus {
+namespace {
+
+struct Given {
+    const char* name;
+    const char* text;
+};
+
+std::vector<std::string> linesOf(const std::vector<Given>& given, const Scene& scene = {}) {
+    Request request;
+    for (const Given& each : given) setByName(request, each.name, each.text);
+    Lens lens;
+    lens.dofEnabled = request.lens.dofEnabled.value_or(true);
+    lens.exposureTime = request.lens.exposureTime.value_or(0);
+    return unusedSettings(request, scene, lens);
+}
+
+TEST(UnusedSettings, aDefaultRequestHasNone) {
+    EXPECT_TRUE(linesOf({}).empty());
+}
+
+TEST(UnusedSettings, eachIsNamedWithItsReason) {
+    const std::vector<std::pair<std::vector<Given>, std::string>> cases = {
+        {{{"method", "circular"}, {"seed", "2"}}, "--seed does nothing: the method circular draws no lens samples"},
+        {{{"method", "circular"}, {"bladeCount", "5"}, {"catEye", "0.5"}},
+         "--blades, --cat-eye do nothing: the method circular has a round aperture"},
+        {{{"method", "circular"}, {"shutter", "0.1"}}, "--shutter does nothing: the method circular draws no motion"},
+        {{{"motionSegments", "4"}}, "--motion-segments does nothing: without --shutter it is open for a moment"},
+        {{{"time", "2"}}, "--time does nothing: the scene has no animation"},
+        {{{"dofEnabled", "false"}, {"fStop", "2"}}, "--fstop does nothing: with --no-dof nothing is blurred"},
+        {{{"lod", "off"}, {"lightThreshold", "0.1"}},
+         "--light-threshold does nothing: with --lod off there is full detail alone"},
+        {{{"lodCoc", "centre"}}, "--lod-coc does nothing: measured levels take the blur over the whole object"}};
+    for (const auto& [given, line] : cases) EXPECT_EQ(linesOf(given), std::vector<std::string>{line});
+}
+
+TEST(UnusedSettings, whatHasItsOtherHalfIsUsed) {
+    Scene moving;
+    moving.clips.emplace_back();
+    EXPECT_TRUE(linesOf({{"seed", "2"}, {"bladeCount", "5"}, {"fStop", "2"}, {"lightThreshold", "0.1"}}).empty());
+    EXPECT_TRUE(linesOf({{"shutter", "0.1"}, {"motionSegments", "4"}, {"time", "1"}}, moving).empty());
+    EXPECT_TRUE(linesOf({{"dofEnabled", "false"}, {"fStop", "2"}, {"exposureTime", "0.1"}}).empty());
+    EXPECT_TRUE(linesOf({{"lodMetric", "size"}, {"lodCoc", "centre"}}).empty());
+}
+
+}  // namespace
+}  // namespace defocus
