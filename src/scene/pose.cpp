@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/suggestion.h"
 #include "scene/animation.h"
 #include "scene/posed_mesh.h"
 
@@ -234,6 +235,8 @@ int nodeNamed(const Scene& scene, std::string_view name) {
     for (const Node& node : scene.nodes)
         if (!node.name.empty()) names.push_back(node.name);
     if (names.empty()) fail("there is no node '{}': the scene's nodes have no names", name);
+    if (const std::string nearest = nearestWord(name, names); !nearest.empty())
+        fail("there is no node '{}'; did you mean '{}'?", name, nearest);
     const std::size_t listed = std::min(names.size(), namesListed);
     fail("there is no node '{}'; the scene has: {}{}", name,
          fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(listed), ", "),

@@ -93,6 +93,12 @@ TEST(Pose, unknownNamesListTheKnownOnes) {
     } catch (const Error& error) {
         EXPECT_STREQ(error.what(), "there is no node 'uncle'; the scene has: parent, child");
     }
+    try {
+        (void)nodeNamed(scene, "Parents");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "there is no node 'Parents'; did you mean 'parent'?");
+    }
 }
 
 // ---- key frames ---------------------------------------------------------------------------------
