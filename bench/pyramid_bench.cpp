@@ -45,6 +45,7 @@
 #include "image/boxes.h"
 #include "image/metrics.h"
 #include "lod/pyramid/conserved.h"
+#include "lod/pyramid/finish.h"
 #include "lod/pyramid/level_selection.h"
 #include "lod/pyramid/surface_distance.h"
 #include "lod/simplify/weld.h"
@@ -432,7 +433,8 @@ void blurredRows(const std::string& name, const Scene& scene) {
     view.nearPlane = placed.camera.znear;
     view.lens.focalLength = focalLengthFromFov(4.0 / 3.0 * std::tan(placed.camera.yfov / 2), 36);
     Bounds bounds;
-    world.pyramids = buildPyramids(scene.meshes);
+    const Finishes finishes(scene);
+    world.pyramids = buildPyramids(scene.meshes, {.finishes = &finishes});
     for (const Object& object : world.pose.objects) {
         const Bounds& own = world.pyramids[static_cast<std::size_t>(object.mesh)].bounds;
         if (!own.empty()) bounds.extend(glm::dvec3(object.worldFromObject * glm::dvec4(own.centre(), 1)));
