@@ -69,8 +69,8 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
               "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
               [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
         ->group(group);
-    command.add_option("--stats", arguments.stats, "Write times, triangles and memory as JSON")
-        ->type_name("FILE")
+    addParsed(command, "--stats", "FILE", "Write times, triangles and memory as JSON; - is standard output",
+              [&arguments](const std::string& text) { arguments.stats = text == "-" ? "/dev/stdout" : text; })
         ->group(group);
 }
 

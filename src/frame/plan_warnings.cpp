@@ -9,6 +9,7 @@
 
 #include "core/number_text.h"
 #include "defocus/settings.h"
+#include "lens/lens_fields.h"
 
 namespace defocus {
 
@@ -29,12 +30,14 @@ double roundNumber(double value) {
 std::string nothingBlurred(const FramePlan& plan) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const ObjectPlan& object : plan.objects) nearest = std::min(nearest, object.nearestDepth);
-    const double scale = plan.view.lens.blurScale * visibleShare * plan.view.width / plan.largestBlur;
+    const double scale = roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / plan.largestBlur);
+    const std::string help = scale <= lensFieldNamed("blurScale")->most
+                                 ? fmt::format("try --blur-scale {:g}, or a wider aperture", scale)
+                                 : "are the scene's units metres?";
     return fmt::format(
         "nothing is blurred: at most {:.2g} px, as what is seen lies {:.3g} m away or farther (focus at {:.3g} m, "
-        "f/{:g}); "
-        "try --blur-scale {:g}, or a wider aperture",
-        plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, roundNumber(scale));
+        "f/{:g}); {}",
+        plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
 // Of the objects whose boxes lie before the camera as a whole: the others' boxes say too much.

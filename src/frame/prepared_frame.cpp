@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <mutex>
@@ -236,6 +237,10 @@ std::vector<std::string> damageWarnings(const Scene& scene) {
     return lines;
 }
 
+// Squares of lengths in units of the scene must be numbers of single precision.
+constexpr double largestScene = 1e15;    // m
+constexpr double smallestScene = 1e-15;  // m
+
 std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
     std::vector<std::string> lines = damageWarnings(*frame.scene);
     for (const std::string& line : frame.refusedLensValues)
@@ -246,6 +251,15 @@ std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
             fmt::format("a focus at {:g} m lies inside the focal length of {:g} mm, where no real lens can be focused; "
                         "are the scene's units metres?",
                         lens.focusDistance, lens.focalLength));
+    if (const Bounds& bounds = frame.world.pose.bounds; !bounds.empty()) {
+        const glm::dvec3 reach = glm::max(glm::abs(bounds.minimum), glm::abs(bounds.maximum));
+        const double farthest = std::max({reach.x, reach.y, reach.z});
+        if (farthest > largestScene || farthest < smallestScene)
+            lines.push_back(
+                fmt::format("the scene reaches {:.2g} m from its origin: what lies beyond {:g} m, or is all "
+                            "smaller than {:g} m, isn't drawn right",
+                            farthest, largestScene, smallestScene));
+    }
     if (!frame.cacheFailure.empty())
         lines.push_back(fmt::format("simplified meshes are not kept for the next run: {}", frame.cacheFailure));
     return lines;

@@ -302,8 +302,10 @@ void ViewInput::release(const WindowEvent& event, const InputContext& context, V
     state.selected = surface->object;
     pullFocus(state, surface->depth * focusTerm(state, context.area, event.position), context.now);
     state.camera.pivotDistance = surface->depth;
-    if (lastClick_ >= 0 && context.now - lastClick_ < doubleClick) actions.frameSelection = true;
+    const bool samePlace = glm::length(event.position - lastClickAt_) < clickRadius;
+    if (lastClick_ >= 0 && context.now - lastClick_ < doubleClick && samePlace) actions.frameSelection = true;
     lastClick_ = context.now;
+    lastClickAt_ = event.position;
 }
 
 void ViewInput::drag(const WindowEvent& event, const InputContext& context, ViewState& state) {

@@ -45,6 +45,7 @@ private:
     glm::dvec2 last_{0.0};
     bool moved_ = false;
     double lastClick_ = -1;
+    glm::dvec2 lastClickAt_{0.0};  // window units
     std::set<int> held_;  // keys that went down without Control: with it they are commands, whichever is let go first
 };
 

@@ -213,6 +213,13 @@ TEST_F(Render, matricesOfTheMetadataPlaceAPointWhereTheImageShowsIt) {
     EXPECT_TRUE(std::isinf(depthAt(outside)));
 }
 
+TEST_F(Render, aDashIsStandardOutput) {
+    const Outcome run = render({"--stats", "-"});
+    ASSERT_EQ(run.exitCode, 0);
+    EXPECT_TRUE(json::parse(run.out).contains("renderMilliseconds")) << run.out;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "-"));
+}
+
 TEST_F(Render, statsHaveTheStatedKeys) {
     ASSERT_EQ(render({"--stats", "stats.json", "--lod", "off", "--wave", "3"}).exitCode, 0);
     const json stats = json::parse(textOf(folder() / "stats.json"));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "frame/prepared_frame.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -54,6 +55,32 @@ TEST(PlanWarnings, anOpenLensThatBlursNothingIsNamedWithAScaleThatHelps) {
     EXPECT_GT(blur, 0.02 * small->view.width / 1.7);  // rounded to 1, 2 or 5
     EXPECT_LT(blur, 0.02 * small->view.width * 1.7);
     EXPECT_TRUE(warningsOf(*small).empty());
+}
+
+TEST(PlanWarnings, noScaleIsNamedThatNoLensTakes) {
+    const auto small = quadsAt({2.27e9, 2.4e9});
+    small->view.lens.focusDistance = 2.3e9;
+    const std::vector<std::string> lines = warningsOf(*small);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_NE(lines[0].find("units"), std::string::npos) << lines[0];
+    EXPECT_EQ(lines[0].find("--blur-scale"), std::string::npos) << lines[0];
+}
+
+TEST(FrameWarnings, scenesThatSinglePrecisionCannotHoldAreNamed) {
+    const auto linesFor = [](double reach) {
+        PreparedFrame frame;
+        frame.scene = std::make_shared<Scene>();
+        frame.view.lens.focusDistance = 2;
+        frame.world.pose.bounds = {glm::dvec3(-reach), glm::dvec3(reach)};
+        return frameWarnings(frame);
+    };
+    EXPECT_TRUE(linesFor(1e-12).empty());
+    EXPECT_TRUE(linesFor(1e12).empty());
+    for (const double reach : {1e-20, 1e20}) {
+        const std::vector<std::string> lines = linesFor(reach);
+        ASSERT_EQ(lines.size(), 1u);
+        EXPECT_NE(lines[0].find("isn't drawn right"), std::string::npos);
+    }
 }
 
 TEST(PlanWarnings, aClosedLensNeedsNone) {

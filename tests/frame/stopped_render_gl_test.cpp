@@ -1,0 +1,87 @@
+// What ends a frame whose number of samples is left open, and what cannot.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "defocus/defocus.h"
+#include "frame/own_context.h"
+
+namespace defocus {
+namespace {
+
+Request twoFish() {
+    Request request;
+    request.fishCount = 2;
+    request.trianglesPerFish = 2'000;
+    request.noCache = true;
+    request.width = 64;
+    request.height = 48;
+    request.lens.fStop = 1;
+    return request;
+}
+
+class StoppedRender : public OwnContextTest {};
+
+TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
+    Request request = twoFish();
+    SceneRenderer renderer(request);
+    static_cast<void>(renderer.render());
+    EXPECT_EQ(renderer.statistics().samples, 64u);
+    EXPECT_EQ(renderer.statistics().stopped, StopReason::sampleCount);
+    EXPECT_FALSE(renderer.statistics().estimatedError);
+
+    request.stop.targetError = 0.05;
+    static_cast<void>(renderer.render(request));
+    EXPECT_EQ(renderer.statistics().samples, 128u);
+    EXPECT_EQ(renderer.sampleTotal(), 128u);
+    EXPECT_EQ(renderer.statistics().stopped, StopReason::targetError);
+    EXPECT_LE(renderer.statistics().estimatedError.value(), 0.05);
+    EXPECT_GT(renderer.statistics().trianglesDrawn, 0u);
+
+    request.stop = {.targetError = {}, .timeLimit = 1e-3, .sampleLimit = mostSamples};
+    static_cast<void>(renderer.render(request));
+    EXPECT_EQ(renderer.statistics().samples, 64u) << "one block at least, and the next would end too late";
+    EXPECT_EQ(renderer.statistics().stopped, StopReason::timeLimit);
+
+    request.stop = {.targetError = 1e-6, .timeLimit = {}, .sampleLimit = 256};
+    request.lens.dofEnabled = false;
+    static_cast<void>(renderer.render(request));
+    EXPECT_EQ(renderer.statistics().stopped, StopReason::nothingBlurred);
+    EXPECT_LT(renderer.statistics().samples, 64u);
+}
+
+// Full detail: the blocks of an open number of samples are those of a fixed one, bit for bit.
+TEST_F(StoppedRender, blocksMakeTheImageOfAsManySamples) {
+    Request request = twoFish();
+    request.settings.lod = LodMode::off;
+    request.settings.sampleCount = 200;
+    const Image fixed = render(request);
+    request.stop.targetError = 1e-6;
+    request.stop.sampleLimit = 200;
+    EXPECT_TRUE(render(request).pixels == fixed.pixels);
+}
+
+TEST_F(StoppedRender, whatCannotBeFollowedIsRefused) {
+    Request request = twoFish();
+    request.stop.targetError = 0.01;
+    request.method = "circular";
+    EXPECT_THROW(static_cast<void>(render(request)), UsageError);
+    request = twoFish();
+    request.stop.timeLimit = 1;
+    request.shutter.seconds = 0.1;
+    request.shutter.exactMotion = true;
+    EXPECT_THROW(static_cast<void>(render(request)), UsageError);
+    for (const double wrong : {0.0, -1.0, 2.0, std::nan("")}) {
+        request = twoFish();
+        request.stop.targetError = wrong;
+        EXPECT_THROW(static_cast<void>(render(request)), UsageError) << wrong;
+    }
+    request = twoFish();
+    request.stop.sampleLimit = 0;
+    EXPECT_THROW(static_cast<void>(render(request)), UsageError);
+}
+
+}  // namespace
+}  // namespace defocus
