@@ -184,6 +184,7 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
         {"near-components", {{"--near-components", "3"}, joined(only("circular"), {"--focus-distance", "8"})}},
         {"far-components", {{"--far-components", "4"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"resolution", {{"--resolution", "half"}, only("circular")}},
+        {"kernel", {{"--kernel", "published"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"kernel-taps", {{"--kernel-taps", "eight"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"storage", {{"--storage", "float"}, only("circular")}},
         {"fields", {{"--fields", "combined"}, joined(only("circular"), {"--near-components", "2"})}},
