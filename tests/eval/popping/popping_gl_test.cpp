@@ -75,7 +75,7 @@ TEST_F(Popping, isMeasuredForEachModeAtEachChange) {
 // A full level's pop is the sum of the N steps: each is at least 1/N of it (the triangle inequality, in the mean), and
 // the steps of unlike samples add up as random ones do at most: 1/√N.
 TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
-    options_.sampleCounts = {8, 32};
+    options_.sampleCounts = {4, 16};
     options_.frames = 2;
     measure();
     ASSERT_EQ(steps_.size(), 2u);

@@ -16,7 +16,7 @@ namespace {
 
 // Of plaster, with bumps and stripes; what a pyramid knows of its look is all there is.
 std::vector<PredictionRow> rowsOfABall() {
-    Mesh mesh = sphere(128, 64, 0.03);
+    Mesh mesh = sphere(64, 32, 0.03);
     for (const glm::vec3& p : mesh.vertices.positions)
         mesh.vertices.colors.emplace_back(0.5f + 0.4f * std::sin(12 * p.y), 0.5f, 0.4f + 0.3f * p.x, 1.0f);
     mesh.primitives.front().material = 0;
@@ -28,9 +28,9 @@ std::vector<PredictionRow> rowsOfABall() {
     PreparedFrame frame;
     frame.scene = std::make_shared<Scene>(std::move(scene));
     PredictionOptions options;
-    options.cocs = {12};
-    options.width = 128;
-    options.height = 96;
+    options.cocs = {6};
+    options.width = 64;
+    options.height = 48;
     std::vector<PredictionRow> rows;
     measurePrediction(frame, options, [&](const PredictionRow& row) { rows.push_back(row); });
     return rows;

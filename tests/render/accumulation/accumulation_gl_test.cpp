@@ -62,7 +62,7 @@ TEST_F(Accumulation, waveSizeChangesNoBit) {
             RendererOptions options;
             options.wave = k;
             options.layerFormat = format;
-            const Image image = rendered(*small, settingsFor(100), options);
+            const Image image = rendered(*small, settingsFor(70), options);
             if (first.empty())
                 first = image;
             else
