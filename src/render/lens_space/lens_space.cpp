@@ -82,6 +82,13 @@ public:
         clock_.fill(stats);
         stats.wave = wavesRays();
         stats.layerFormat = "rgba32f";
+        if (front_) {
+            const BinStatistics& bins = front_->statistics();
+            stats.figures = {{"triangles in all tiles", static_cast<double>(bins.entries)},
+                             {"triangles in the fullest tile", static_cast<double>(bins.largestTile)},
+                             {"bytes of the tiles' lists", static_cast<double>(bins.bytes)},
+                             {"bands of tiles", static_cast<double>(front_->bands().size())}};
+        }
         kernel_->addTo(stats);
         return stats;
     }
