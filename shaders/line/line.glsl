@@ -65,6 +65,7 @@ void cut(inout Interval interval, float at0, float slope) {
 // Where the line sees the front, within `whole`.
 Interval seen(OnLine line, Interval whole) {
     Interval interval = whole;
+    if (line.sums == vec2(0.0)) return Interval(whole.first, whole.first);   // no area
     for (int i = 0; i < 3; ++i) cut(interval, line.edgesAt0[i], line.edgeSlopes[i]);
     vec2 beyondNear = line.determinant - frame.projection.z * line.sums;
     cut(interval, beyondNear.x, beyondNear.y);

@@ -37,15 +37,19 @@ std::vector<LineInterval> seenOnLine(const std::array<LensVertex, 3>& corners, c
         ways[i] = corners[i].c * line.direction;
     }
     std::array<Linear, 3> edges;
+    Linear sum;         // E
     Linear beyondNear;  // D − near·E
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
         const std::size_t k = (i + 2) % 3;
         edges[i] = {crossed(places[j], places[k]), crossed(places[j], ways[k]) + crossed(ways[j], places[k])};
+        sum.at0 += edges[i].at0;
+        sum.slope += edges[i].slope;
         beyondNear.at0 += edges[i].at0 * (corners[i].w - line.nearPlane);
         beyondNear.slope += edges[i].slope * (corners[i].w - line.nearPlane);
     }
     std::vector<LineInterval> seen;
+    if (sum.at0 == 0 && sum.slope == 0) return seen;  // no area
     for (const bool front : {true, false}) {
         if (!front && !doubleSided) break;
         const double side = front ? 1 : -1;
