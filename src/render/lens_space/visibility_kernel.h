@@ -7,6 +7,8 @@
 
 namespace defocus {
 
+inline constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);  // of shaders/lens_space/records.glsl
+
 // Rays [first, first + count) of each pixel.
 struct RayWave {
     std::uint32_t first = 0;

@@ -11,8 +11,7 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t tile = 8;                               // px
-constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);  // of shaders/lens_space/records.glsl
+constexpr std::uint32_t lineTile = 8;  // px
 constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
 constexpr std::uint64_t expectedRecords = 6;     // of a line; there is more room where a wave needs it
 constexpr std::uint32_t mostShadingPoints = 16;  // of a piece
@@ -45,7 +44,7 @@ public:
           shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {}
 
     [[nodiscard]] std::string name() const override { return "line"; }
-    [[nodiscard]] std::uint32_t tileSize() const override { return tile; }
+    [[nodiscard]] std::uint32_t tileSize() const override { return lineTile; }
     [[nodiscard]] bool ordersTiles() const override { return true; }
     [[nodiscard]] RaySets raySets(const FramePlan& plan) const override { return lineSets(plan, turned_).sets; }
     [[nodiscard]] ShaderDefines rayDefines() const override { return {{"LINES", "1"}}; }
@@ -72,8 +71,9 @@ public:
         }
         GLint most = 0;
         glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &most);
-        const auto beside = static_cast<GLint>(tile * tile * (3 * sizeof(glm::vec4) + 3 * sizeof(std::uint32_t)) + 64);
-        const GLint fit = (most - beside) / static_cast<GLint>(tile * tile * sharedBytes);
+        const auto beside =
+            static_cast<GLint>(lineTile * lineTile * (3 * sizeof(glm::vec4) + 3 * sizeof(std::uint32_t)) + 64);
+        const GLint fit = (most - beside) / static_cast<GLint>(lineTile * lineTile * sharedBytes);
         if (static_cast<GLint>(segments_) > fit)
             fail("method line: segments is at most {} on this driver, which shares {} bytes between threads", fit,
                  most);
@@ -138,7 +138,7 @@ private:
 
     void build(std::uint32_t segments) {
         ShaderDefines all = defines_;
-        all.emplace_back("TILE", std::to_string(tile));
+        all.emplace_back("TILE", std::to_string(lineTile));
         all.emplace_back("MOST_RAYS", std::to_string(blockSamples));
         all.emplace_back("MOST_SHADING_POINTS", std::to_string(mostShadingPoints));
         all.emplace_back("SEGMENTS", std::to_string(segments));

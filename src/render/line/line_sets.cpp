@@ -12,19 +12,20 @@ namespace defocus {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int angleSteps = 4096;  // of the table of the light at each angle
 
-double squared(double x) {
-    return x * x;
+// Of a narrow sector with this radius, up to a constant.
+double areaAt(double radius) {
+    return radius * radius;
 }
 
 // From shares of the light to angles in [0, π).
 std::vector<double> lightUpToAngles(const Aperture& aperture) {
     std::vector<double> sums(angleSteps + 1, 0.0);
     for (std::size_t i = 0; i < angleSteps; ++i) {
-        const double angle = pi * (static_cast<double>(i) + 0.5) / angleSteps;
-        sums[i + 1] = sums[i] + squared(apertureRim(aperture, angle)) + squared(apertureRim(aperture, angle + pi));
+        const double angle = std::numbers::pi * (static_cast<double>(i) + 0.5) / angleSteps;
+        sums[i + 1] =
+            sums[i] + areaAt(apertureRim(aperture, angle)) + areaAt(apertureRim(aperture, angle + std::numbers::pi));
     }
     for (double& sum : sums) sum /= sums.back();
     sums.back() = 1;
@@ -35,14 +36,14 @@ double angleOfShare(const std::vector<double>& sums, double share) {
     const auto found = std::upper_bound(sums.begin() + 1, sums.end() - 1, share);
     const double before = *(found - 1);
     const double place = (share - before) / (*found - before);
-    return pi * (static_cast<double>(found - 1 - sums.begin()) + place) / angleSteps;
+    return std::numbers::pi * (static_cast<double>(found - 1 - sums.begin()) + place) / angleSteps;
 }
 
 }  // namespace
 
 double apertureRim(const Aperture& aperture, double angle) {
     if (aperture.bladeCount < 3) return 1;
-    const double blade = 2 * pi / aperture.bladeCount;  // its corners lie at the multiples of this angle
+    const double blade = 2 * std::numbers::pi / aperture.bladeCount;  // its corners lie at the multiples of this angle
     const double fromMiddle = angle - (std::floor(angle / blade) + 0.5) * blade;
     return (1 - aperture.bladeCurvature) * std::cos(blade / 2) / std::cos(fromMiddle) + aperture.bladeCurvature;
 }
@@ -71,7 +72,7 @@ LineSets lineSets(const FramePlan& plan, bool turned) {
             const double turn = radicalInverse(2, variant) + 0.5 / sets.variants;
             const double angle = angleOfShare(sums, (order[line] + turn) / count);
             const double ahead = apertureRim(aperture, angle);
-            const double behind = apertureRim(aperture, angle + pi);
+            const double behind = apertureRim(aperture, angle + std::numbers::pi);
             const double direction = angle + aperture.bladeRotation;
             glm::dvec2 way = ahead * glm::dvec2(std::cos(direction), std::sin(direction));
             if (aperture.anamorphicRatio > 1) way.x /= aperture.anamorphicRatio;
@@ -84,7 +85,7 @@ LineSets lineSets(const FramePlan& plan, bool turned) {
             const glm::vec2 lens(way.x, aspect * way.y);
             sets.table[std::size_t{line} * sets.variants + variant] = {
                 glm::vec4(lens, glm::vec2(point.pixel) - 0.5f),
-                glm::vec4(backward, squared(ahead) / (squared(ahead) + squared(behind)), point.time, 0)};
+                glm::vec4(backward, areaAt(ahead) / (areaAt(ahead) + areaAt(behind)), point.time, 0)};
             glm::vec4& bounds = sets.lensBounds[line];
             for (const glm::vec2& end : {lens, -backward * lens})
                 bounds = {std::min(bounds.x, end.x), std::min(bounds.y, end.y), std::max(bounds.z, end.x),

@@ -6,8 +6,7 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t tile = 16;                                    // px
-constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);        // of shaders/lens_space/records.glsl
+constexpr std::uint32_t pointTile = 16;                               // px
 constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // of a wave
 
 class StochasticKernel final : public VisibilityKernel {
@@ -15,7 +14,7 @@ public:
     explicit StochasticKernel(std::filesystem::path shaderFolder) : shaderFolder_(std::move(shaderFolder)) {}
 
     [[nodiscard]] std::string name() const override { return "stochastic"; }
-    [[nodiscard]] std::uint32_t tileSize() const override { return tile; }
+    [[nodiscard]] std::uint32_t tileSize() const override { return pointTile; }
     [[nodiscard]] RaySets raySets(const FramePlan& plan) const override { return pointRaySets(plan); }
     [[nodiscard]] ShaderDefines rayDefines() const override { return {}; }
     [[nodiscard]] std::uint64_t rayBytes() const override { return recordBytes; }
@@ -25,7 +24,7 @@ public:
         bounds_ = rays.lensBounds;
         boundBlock_ = Buffer(boundBytes);
         ShaderDefines all = defines;
-        all.emplace_back("TILE", std::to_string(tile));
+        all.emplace_back("TILE", std::to_string(pointTile));
         all.emplace_back("MOST_RAYS", std::to_string(blockSamples));
         if (program_ && defines_ == all) return;
         defines_ = all;

@@ -18,7 +18,7 @@
 namespace defocus {
 namespace {
 
-RenderSettings settingsOf(std::uint32_t samples) {
+RenderSettings raySettings(std::uint32_t samples) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = LodMode::off;
@@ -26,14 +26,14 @@ RenderSettings settingsOf(std::uint32_t samples) {
     return settings;
 }
 
-Image renderedBy(const char* method, const SmallWorld& small, std::uint32_t samples, RenderStats* stats = nullptr,
-                 std::uint32_t wave = 0) {
+Image lensSpaceImage(const char* method, const SmallWorld& small, std::uint32_t samples, RenderStats* stats = nullptr,
+                     std::uint32_t wave = 0) {
     const MethodUse use = parseMethodUse(method);
     RendererOptions options;
     options.settings = use.settings;
     options.wave = wave;
     const auto renderer = use.method->make(small.world, options);
-    Image image = imageOf(*renderer, planFrame(small.world, small.view, settingsOf(samples)));
+    Image image = imageOf(*renderer, planFrame(small.world, small.view, raySettings(samples)));
     if (stats != nullptr) *stats = renderer->stats();
     return image;
 }
@@ -43,7 +43,7 @@ std::uint32_t enoughFor(const std::string& method) {
     return method == "line" ? 40 : 256;
 }
 
-double psnrTo(const Image& reference, const Image& image) {
+double psnrAgainst(const Image& reference, const Image& image) {
     return compareImages(reference, image, CompareOptions{}).psnr;
 }
 
@@ -78,7 +78,7 @@ std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
 }
 
 // A ground from behind the camera to far away, which the near plane cuts.
-std::unique_ptr<SmallWorld> ground() {
+std::unique_ptr<SmallWorld> groundUnderCamera() {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh = quad(0);
     mesh.vertices.colors = {{1, 0.2f, 0.1f, 1}, {0.1f, 1, 0.2f, 1}, {0.2f, 0.1f, 1, 1}, {1, 1, 0.2f, 1}};
@@ -98,7 +98,7 @@ std::unique_ptr<SmallWorld> ground() {
 
 void expectRefusal(const char* method, const SmallWorld& small, const std::string& part) {
     try {
-        renderedBy(method, small, 4);
+        lensSpaceImage(method, small, 4);
         FAIL() << method << " took it";
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
@@ -116,15 +116,15 @@ protected:
 
 TEST_P(LensSpace, convergesToTheAccumulation) {
     const auto small = twoSpheres();
-    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, settingsOf(1024)));
-    EXPECT_GE(psnrTo(reference, renderedBy(GetParam(), *small, enoughFor(GetParam()))), 40);
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
 }
 
 TEST_P(LensSpace, withoutAnApertureIsThePinholeImage) {
     const auto small = twoSpheres();
     small->view.lens.dofEnabled = false;
-    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, settingsOf(1024)));
-    EXPECT_GE(psnrTo(reference, renderedBy(GetParam(), *small, enoughFor(GetParam()))), 44);
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 44);
 }
 
 TEST_P(LensSpace, showsAConstantSceneAsConstant) {
@@ -133,22 +133,22 @@ TEST_P(LensSpace, showsAConstantSceneAsConstant) {
     for (auto& pyramid : small->world.pyramids)
         for (auto& level : pyramid.levels) level.colors.assign(level.colors.size(), glm::vec4(1));
     small->world.environment = {EnvironmentType::uniform, {0.5f, 0.25f, 1}, {}, {}, nullptr, 1};
-    const Image image = renderedBy(GetParam(), *small, 7);
+    const Image image = lensSpaceImage(GetParam(), *small, 7);
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
         ASSERT_NEAR(image.pixels[i], i % 4 == 0 ? 0.5f : i % 4 == 1 ? 0.25f : 1.0f, 2e-5f);
 }
 
 TEST_P(LensSpace, drawsTheSameWhateverTheWave) {
     const auto small = twoSpheres();
-    const Image whole = renderedBy(GetParam(), *small, 12);
-    EXPECT_TRUE(sameBits(renderedBy(GetParam(), *small, 12, nullptr, 5), whole));
-    EXPECT_TRUE(sameBits(renderedBy(GetParam(), *small, 12), whole));
+    const Image whole = lensSpaceImage(GetParam(), *small, 12);
+    EXPECT_TRUE(sameBits(lensSpaceImage(GetParam(), *small, 12, nullptr, 5), whole));
+    EXPECT_TRUE(sameBits(lensSpaceImage(GetParam(), *small, 12), whole));
 }
 
 TEST_P(LensSpace, drawsWhatPassesTheCamera) {
-    const auto small = ground();
-    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, settingsOf(1024)));
-    EXPECT_GE(psnrTo(reference, renderedBy(GetParam(), *small, enoughFor(GetParam()))), 40);
+    const auto small = groundUnderCamera();
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
 }
 
 TEST_P(LensSpace, hasTheShapeOfTheAperture) {
@@ -159,8 +159,8 @@ TEST_P(LensSpace, hasTheShapeOfTheAperture) {
     small->view.lens.anamorphicRatio = 1.5;
     small->view.lens.obstruction = 0.4;
     small->view.lens.sphericalAberration = 0.6;
-    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, settingsOf(1024)));
-    EXPECT_GE(psnrTo(reference, renderedBy(GetParam(), *small, enoughFor(GetParam()))), 38);
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 38);
 }
 
 // 224² squares of two triangles each, within one tile: every ray through them must meet one.
@@ -190,7 +190,7 @@ TEST_P(LensSpace, losesNoneOfAHundredThousandTrianglesInATile) {
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {pixel, pixel, -2}), glm::dvec3(6 * pixel)));
     small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
     RenderStats stats;
-    const Image image = renderedBy(GetParam(), *small, 4, &stats);
+    const Image image = lensSpaceImage(GetParam(), *small, 4, &stats);
     EXPECT_EQ(figureOf(stats, "triangles in the fullest tile"), 2 * side * side);
     EXPECT_EQ(figureOf(stats, "triangles in all tiles"), 2 * side * side);
     for (int y = 0; y < 32; ++y)
@@ -214,7 +214,7 @@ TEST_P(LensSpace, refusesByName) {
     const auto barrel = twoSpheres();
     barrel->view.lens.catEye = 0.5;
     expectRefusal(GetParam(), *barrel, "cat's eye");
-    const auto range = ground();
+    const auto range = groundUnderCamera();
     range->view.lens.focusRangeFront = 0.5;
     range->view.lens.focusRangeBehind = 3;
     expectRefusal(GetParam(), *range, "controls of the blur");
@@ -229,8 +229,8 @@ TEST_P(Models, lookAsInTheAccumulation) {
     const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);
     small->view.lens.fStop = 1.4;
     small->view.lens.blurScale = 400;
-    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, settingsOf(1024)));
-    EXPECT_GE(psnrTo(reference, renderedBy(GetParam(), *small, enoughFor(GetParam()))), 40);
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
 }
 INSTANTIATE_TEST_SUITE_P(Methods, Models, testing::Values("stochastic", "line"));
 
@@ -247,10 +247,11 @@ TEST_F(LensSpaceAlone, stochasticPointsBlurMotion) {
     for (int i = 0; i < 3; ++i)
         small->world.shutter.poses[static_cast<std::size_t>(i)].objects[0].worldFromObject =
             glm::scale(glm::translate(glm::dmat4(1), {-0.35 + 0.15 * i, -0.1, -1.4 + 0.1 * i * i}), glm::dvec3(0.2));
-    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, settingsOf(2048)));
-    EXPECT_GE(psnrTo(reference, renderedBy("stochastic", *small, 256)), 38);
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(2048)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage("stochastic", *small, 256)), 38);
     expectRefusal("line", *small, "no time");
     small->world.shutter.perSample = true;
+    small->world.shutter.poses.push_back(small->world.shutter.poses.back());  // one for each of four samples
     expectRefusal("stochastic", *small, "motion segments");
 }
 
@@ -267,9 +268,9 @@ TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
     small->view.lens.fStop = 0.8;
     finish(*small);
     RenderStats stats;
-    const Image exact = renderedBy("line", *small, 16, &stats);
+    const Image exact = lensSpaceImage("line", *small, 16, &stats);
     EXPECT_EQ(figureOf(stats, "dropped segments per line"), 0);
-    const Image buffered = renderedBy("line:resolve=published", *small, 16, &stats);
+    const Image buffered = lensSpaceImage("line:resolve=published", *small, 16, &stats);
     EXPECT_LT(figureOf(stats, "dropped share of the light"), 1e-4);
     EXPECT_EQ(figureOf(stats, "merged segments per line"), 0);
     EXPECT_LT(largestDifference(exact, buffered), 2e-3);
@@ -279,11 +280,11 @@ TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
 TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
     const auto small = twoSpheres();
     RenderStats stats;
-    const Image exact = renderedBy("line", *small, 16);
-    const Image few = renderedBy("line:resolve=published,segments=2", *small, 16, &stats);
+    const Image exact = lensSpaceImage("line", *small, 16);
+    const Image few = lensSpaceImage("line:resolve=published,segments=2", *small, 16, &stats);
     EXPECT_GT(figureOf(stats, "dropped share of the light") + figureOf(stats, "merged segments per line"), 0.01);
-    const Image many = renderedBy("line:resolve=published,segments=16", *small, 16);
-    EXPECT_GT(psnrTo(exact, many), psnrTo(exact, few));
+    const Image many = lensSpaceImage("line:resolve=published,segments=16", *small, 16);
+    EXPECT_GT(psnrAgainst(exact, many), psnrAgainst(exact, few));
 }
 
 // Two quads that pass through each other: the buffer shows one of them whole between its ends, exact lines both.
@@ -300,10 +301,10 @@ TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
     small->view.lens.fStop = 0.5;
     small->view.lens.focusDistance = 1;
     finish(*small);
-    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, settingsOf(1024)));
-    const double exact = psnrTo(reference, renderedBy("line", *small, 64));
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    const double exact = psnrAgainst(reference, lensSpaceImage("line", *small, 64));
     EXPECT_GE(exact, 40);
-    EXPECT_GT(exact, psnrTo(reference, renderedBy("line:resolve=published", *small, 64)) + 3);
+    EXPECT_GT(exact, psnrAgainst(reference, lensSpaceImage("line:resolve=published", *small, 64)) + 3);
 }
 
 }  // namespace

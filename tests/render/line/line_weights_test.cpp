@@ -10,8 +10,6 @@
 namespace defocus {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 // In the paper's terms, p from −1/2 to 1/2.
 double kappa(double p1, double p2) {
     return lightBetween({}, 2 * p1, 2 * p2);
@@ -42,7 +40,7 @@ TEST(LineWeights, giveARegionItsShareOfTheDisk) {
     double halfPlane = 0, offCentreDisk = 0;
     const double distance = 0.45, radius = 0.35;  // of a disk that doesn't hold the centre
     for (int i = 0; i < lines; ++i) {
-        const double angle = pi * (i + 0.5) / lines;
+        const double angle = std::numbers::pi * (i + 0.5) / lines;
         const double c = std::cos(angle);
         const double edge = h / c;
         if (std::abs(edge) < 1) halfPlane += c > 0 ? lightBetween({}, edge, 1) : lightBetween({}, -1, edge);
@@ -50,7 +48,7 @@ TEST(LineWeights, giveARegionItsShareOfTheDisk) {
         if (square > 0)
             offCentreDisk += lightBetween({}, distance * c - std::sqrt(square), distance * c + std::sqrt(square));
     }
-    EXPECT_NEAR(halfPlane / lines, (std::acos(h) - h * std::sqrt(1 - h * h)) / pi, 1e-4);
+    EXPECT_NEAR(halfPlane / lines, (std::acos(h) - h * std::sqrt(1 - h * h)) / std::numbers::pi, 1e-4);
     EXPECT_NEAR(offCentreDisk / lines, radius * radius, 1e-4);
 }
 
