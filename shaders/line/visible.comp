@@ -73,7 +73,9 @@ uint shadingPoints(uint triangle, float p1, float p2, vec2 direction) {
     if (shadingStep == 0.0) return 1u;
     float blur = 0.0;   // C/w
     if (triangle == noTriangle) {
-        blur = frame.coc.w;
+#if BACKGROUND == 3
+        blur = frame.coc.w;   // other skies change too slowly to need more than one point
+#endif
     } else {
         uvec4 vertices = triangles[triangle];
         for (int i = 0; i < 3; ++i) {

@@ -48,7 +48,7 @@ public:
         const std::uint32_t first = sum_->rays();
         const std::uint32_t total = sampleTotal();
         if (first >= total) return false;
-        const RayWave wave = nextWave(first, total);
+        RayWave wave = nextWave(first, total);
         clock_.beginWave();
         const std::uint32_t part = partOf(first, total);
         if (part_ != part) front_->pose(part);

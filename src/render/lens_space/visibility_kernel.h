@@ -30,8 +30,9 @@ public:
     [[nodiscard]] virtual std::uint64_t rayBytes() const = 0;
     // Before the first wave of a frame. `defines` are those of the front and of the rays.
     virtual void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) = 0;
-    // Finds what a wave's rays meet and returns the number of records. The frame's uniforms and the rays are bound.
-    virtual std::uint64_t find(LensFront& front, const RayWave& wave) = 0;
+    // Finds what a wave's rays meet and returns the number of records. Takes rays off the end of a wave that meets more
+    // than a buffer holds. The frame's uniforms and the rays are bound.
+    virtual std::uint64_t find(LensFront& front, RayWave& wave) = 0;
     // Binds what shaders/lens_space/ knows as records, and for lines their ranges.
     virtual void bindRecords() const = 0;
     virtual void addTo(RenderStats& stats) const = 0;

@@ -80,13 +80,13 @@ public:
         build(segments_);
     }
 
-    std::uint64_t find(LensFront& front, const RayWave& wave) override {
-        const std::uint64_t rays = std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} *
-                                   static_cast<std::uint32_t>(imageSize_.y) * wave.count;
-        if (output_.bytes() < sizeof(Counters) + rays * rangeBytes)
-            output_ = Buffer(sizeof(Counters) + rays * rangeBytes);
+    std::uint64_t find(LensFront& front, RayWave& wave) override {
+        const std::uint64_t pixels =
+            std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
+        const std::size_t outputBytes = sizeof(Counters) + pixels * wave.count * rangeBytes;
+        if (output_.bytes() < outputBytes) output_ = Buffer(outputBytes);
         boundBlock_.update(0, wave.count * sizeof(GpuBounds), bounds_.data() + wave.first);
-        reserve(rays * expectedRecords);
+        reserve(std::min(pixels * wave.count * expectedRecords, mostRecords()));
         while (true) {
             Counters counters;
             output_.update(0, sizeof counters, &counters);
@@ -97,6 +97,16 @@ public:
                 build(capacity_ *= 2);
                 continue;
             }
+            if (counters.records > mostRecords()) {
+                if (wave.count == 1)
+                    fail(
+                        "method line: what one line of each pixel sees takes {} records, and this driver's shaders "
+                        "read at "
+                        "most {} of one buffer; choose a smaller image or a longer shading step",
+                        counters.records, mostRecords());
+                wave.count /= 2;
+                continue;
+            }
             if (counters.records > records_.bytes() / recordBytes) {
                 reserve(counters.records);
                 continue;
@@ -105,7 +115,7 @@ public:
             totals_.droppedLight += counters.droppedLight;
             totals_.mergedSegments += counters.mergedSegments;
             totals_.records += counters.records;
-            lines_ += rays;
+            lines_ += pixels * wave.count;
             return counters.records;
         }
     }
@@ -148,16 +158,15 @@ private:
         program_ = Program({{"line/visible.comp"}, all, shaderFolder_});
     }
 
-    void reserve(std::uint64_t records) {
-        if (records_.bytes() >= records * recordBytes) return;
+    // What shaders read of one buffer.
+    static std::uint64_t mostRecords() {
         GLint64 most = 0;
         glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-        if (records * recordBytes > static_cast<std::uint64_t>(most))
-            fail(
-                "method line: what a wave of lines sees takes {} bytes, and this driver's shaders read at most {} of "
-                "one "
-                "buffer; choose a smaller wave",
-                records * recordBytes, most);
+        return static_cast<std::uint64_t>(most) / recordBytes;
+    }
+
+    void reserve(std::uint64_t records) {
+        if (records_.bytes() >= records * recordBytes) return;
         records_ = Buffer();  // before the new one is made: both may not fit
         records_ = Buffer(records * recordBytes);
     }

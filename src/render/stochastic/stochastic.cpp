@@ -31,7 +31,7 @@ public:
         program_ = Program({{"stochastic/visible.comp"}, defines_, shaderFolder_});
     }
 
-    std::uint64_t find(LensFront& front, const RayWave& wave) override {
+    std::uint64_t find(LensFront& front, RayWave& wave) override {
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
         const std::uint64_t records = pixels * wave.count;
