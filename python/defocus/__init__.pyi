@@ -99,6 +99,10 @@ class Keywords(TypedDict, total=False):
     fields: Optional[Literal["separate", "combined"]]
     blend_bias: Optional[float]
     convolution: Optional[Literal["separable", "direct"]]
+    resolve: Optional[Literal["exact", "published"]]
+    segments: Optional[int]
+    shading_step: Optional[int]
+    wheel: Optional[Literal["turned", "shared"]]
 
 # ---- end of keywords ----
 

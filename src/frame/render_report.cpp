@@ -156,6 +156,7 @@ std::string statsJson(const RenderReport& report) {
         json["stopped"] = stopReasonText(stats.stopped);
         json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
     }
+    for (const MethodFigure& figure : stats.figures) json["methodFigures"][figure.name] = figure.value;
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -10,7 +10,9 @@
 #include "core/error.h"
 #include "render/accumulation/accumulation.h"
 #include "render/circular/circular.h"
+#include "render/line/line.h"
 #include "render/scheuermann/scheuermann.h"
+#include "render/stochastic/stochastic.h"
 
 namespace defocus {
 
@@ -25,6 +27,8 @@ std::vector<Method>& table() {
          .make = makeAccumulationRenderer},
         scheuermannMethod(),
         circularMethod(),
+        stochasticMethod(),
+        lineMethod(),
     };
     return methods;
 }

@@ -19,6 +19,12 @@ struct PassTime {
     double milliseconds = 0;  // timer queries, over all waves of the frame
 };
 
+// A figure of one method alone.
+struct MethodFigure {
+    std::string name;
+    double value = 0;
+};
+
 struct RenderStats {
     std::uint32_t samples = 0;
     double setupMilliseconds = 0;   // uploads and shader builds of this renderer
@@ -32,6 +38,7 @@ struct RenderStats {
     std::string driver;
     StopReason stopped = StopReason::sampleCount;  // why there are no more samples
     std::optional<double> estimatedError;          // RMSE as StopSettings has it, where it was estimated
+    std::vector<MethodFigure> figures;             // that the method reports of itself
     std::vector<PassTime> passes;                  // of methods that time them, in the order they run
 };
 

@@ -1,52 +1,12 @@
 #include "render/surface_pass.h"
 
 #include <algorithm>
-#include <cstring>
-#include <glm/gtc/matrix_inverse.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 namespace defocus {
 
-namespace {
-
-// An object's uniform block of shaders/include/frame.glsl, std140.
-struct GpuObject {
-    glm::mat4 viewFromObject;
-    glm::mat4 normalMatrix;
-    glm::vec4 values;
-    glm::ivec4 posing;
-};
-
-std::size_t aligned(std::size_t bytes) {
-    GLint alignment = 256;
-    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
-    const auto step = static_cast<std::size_t>(alignment);
-    return (bytes + step - 1) / step * step;
-}
-
-// Items laid out at `stride` in one buffer.
-template <typename T>
-Buffer stridedBuffer(const std::vector<T>& items, std::size_t stride) {
-    std::vector<std::byte> bytes(items.size() * stride);
-    for (std::size_t i = 0; i < items.size(); ++i) std::memcpy(bytes.data() + i * stride, &items[i], sizeof(T));
-    return Buffer(bytes.size(), bytes.data());
-}
-
-bool local(const PlacedLight& placed) {
-    return placed.light.type != LightType::directional;
-}
-
-std::string keyOf(const ShaderDefines& defines) {
-    std::string key;
-    for (const auto& [name, value] : defines) key.append(name).append("=").append(value).append(";");
-    return key;
-}
-
-}  // namespace
-
 void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     frame_ = &frame;
-    uploadObjects(plan);
+    objectBlocks_ = objectBlocks(plan, *scene_, poses_);
     addDraws(plan);
     uploadMaterials();
     skyArray_.attribute(lensLocation, 4, GL_FLOAT, false, true);
@@ -59,29 +19,11 @@ void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     }
 }
 
-void SurfacePass::uploadObjects(const FramePlan& plan) {
-    std::vector<GpuObject> blocks;
-    blocks.reserve(plan.objects.size());
-    poses_.clear();
-    for (const ObjectPlan& object : plan.objects) {
-        const GpuMesh& mesh = scene_->mesh(object.mesh);
-        GpuPoses poses = gpuPoses(plan, object, mesh);
-        blocks.push_back({glm::mat4(glm::translate(object.viewFromObject, mesh.origin)),
-                          glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
-                          glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale),
-                          poses.layout});
-        poses_.push_back(std::move(poses));
-    }
-    objectStride_ = aligned(sizeof(GpuObject));
-    objectBlocks_ = stridedBuffer(blocks, objectStride_);
-}
-
 void SurfacePass::uploadMaterials() {
     std::vector<GpuMaterial> blocks(materialSlots_.size());
     for (const auto& [material, slot] : materialSlots_)
         blocks[slot] = GpuScene::materialBlock(scene_->material(material));
-    materialStride_ = aligned(sizeof(GpuMaterial));
-    materialBlocks_ = stridedBuffer(blocks, materialStride_);
+    materialBlocks_ = UniformBlocks<GpuMaterial>(blocks);
 }
 
 void SurfacePass::addDraws(const FramePlan& plan) {
@@ -123,18 +65,12 @@ void SurfacePass::addDraws(const FramePlan& plan) {
 // The samples that `level` draws alone, and the one that it shares.
 void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
     if (level.sampleCount == 0) return;
-    const Pyramid& pyramid = scene_->world().pyramids[static_cast<std::size_t>(object.mesh)];
-    const IndexRange whole = pyramid.levels[level.level].primitives[draw.primitive];
-    const VisibleLevel* visible = visibleLevel(object, level.level);
-    const std::vector<IndexRange> ranges =
-        visible != nullptr ? visible->primitives[draw.primitive] : std::vector<IndexRange>{whole};
-    const std::size_t offset = scene_->mesh(object.mesh).levels[level.level].indexOffsets[draw.primitive];
     std::vector<DrawCommand> runs;
     std::uint32_t indexCount = 0;
-    for (const IndexRange& range : ranges) {
-        const std::size_t first = offset / sizeof(std::uint32_t) + range.first - whole.first;
-        runs.push_back({.count = range.count, .firstIndex = static_cast<GLuint>(first)});
-        indexCount += range.count;
+    for (const IndexRun& run :
+         indexRuns(scene_->world(), object, scene_->mesh(object.mesh), level.level, draw.primitive)) {
+        runs.push_back({.count = run.count, .firstIndex = run.first});
+        indexCount += run.count;
     }
     if (indexCount == 0) return;
     auto& list = scene_->material(draw.material).alphaMode == AlphaMode::blend ? blended_ : opaque_;
@@ -169,46 +105,23 @@ ShaderDefines SurfacePass::passDefines(bool vertexShaderLayers) const {
 }
 
 const Program& SurfacePass::program(const Draw& draw) {
-    static constexpr const char* textureDefines[5] = {"BASE_COLOR_TEXTURE", "METALLIC_ROUGHNESS_TEXTURE",
-                                                      "NORMAL_TEXTURE", "OCCLUSION_TEXTURE", "EMISSIVE_TEXTURE"};
     const Material& material = scene_->material(draw.material);
     const GpuMesh& mesh = scene_->mesh(draw.mesh);
     const bool refined = draw.refinement != Refinement::none;
     const bool vertexShaderLayers = info_.vertexShaderLayers && !refined;
     ShaderDefines defines = passDefines(vertexShaderLayers);
+    const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level, info_.shaded);
+    defines.insert(defines.end(), surface.begin(), surface.end());
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "1");
     };
-    const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
-    const GpuMaterialTextures& textures = scene_->textures(draw.material);
-    const bool masked = material.alphaMode == AlphaMode::mask;
-    const auto uses = textureUses(material);
-    bool textured = false;
-    bool transformed = false;
-    for (std::size_t i = 0; i < uses.size(); ++i) {
-        const bool wanted = info_.shaded || (i == 0 && masked);
-        const bool used = textures.slots[i] != nullptr && hasUv && wanted && (i != 2 || mesh.tangents);
-        textured |= used;
-        transformed |= used && (uses[i]->uvSet != 0 || uses[i]->uvTransform != glm::mat3(1.0f));
-        set(used, textureDefines[i]);
-    }
-    const bool lit = info_.shaded && !material.unlit;
-    const std::vector<PlacedLight>& lights = scene_->world().lights;
-    set(textured, "TEXTURED");
-    set(transformed, "UV_TRANSFORMS");
-    set(!lit, "UNLIT");
-    set(lit && material.emissiveFactor != glm::vec3(0), "EMISSIVE");
-    set(lit && draw.level > 0, "COARSE_LEVEL");
-    set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
     const bool colored = static_cast<bool>(mesh.colors);
-    set(colored, "VERTEX_COLORS");
     set(colored && info_.shaded && draw.level == 0, "VERTEX_COLOR_RANGES");
     set(colored && info_.shaded && draw.level > 0, "LEVEL_COLOR_RANGE");
     set(static_cast<bool>(mesh.cocScales), "VERTEX_COC_SCALES");
     set(refined, "REFINED");
     set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // other stages: a program of its own
-    set(material.doubleSided, "DOUBLE_SIDED");
-    set(masked, "ALPHA_MASK");
+    set(material.alphaMode == AlphaMode::mask, "ALPHA_MASK");
     set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
     poseDefines(defines, poses_[draw.object], mesh);
     if (draw.screenDoor != ScreenDoor::open)
@@ -239,10 +152,8 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     GpuMesh& mesh = scene_->mesh(item.mesh);
     item.program->use();
     frame_->bindPlaces(begin);
-    glBindBufferRange(GL_UNIFORM_BUFFER, 1, objectBlocks_.name(), static_cast<GLintptr>(item.object * objectStride_),
-                      sizeof(GpuObject));
-    glBindBufferRange(GL_UNIFORM_BUFFER, 2, materialBlocks_.name(),
-                      static_cast<GLintptr>(materialSlots_.at(item.material) * materialStride_), sizeof(GpuMaterial));
+    objectBlocks_.bind(1, item.object);
+    materialBlocks_.bind(2, materialSlots_.at(item.material));
     if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
     if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
     const GpuMaterialTextures& textures = scene_->textures(item.material);

@@ -9,9 +9,7 @@
 
 #include "gl/pacer.h"
 #include "gl/program.h"
-#include "render/frame_uniforms.h"
-#include "render/gpu_poses.h"
-#include "render/gpu_scene.h"
+#include "render/surface_draws.h"
 
 namespace defocus {
 
@@ -78,7 +76,6 @@ private:
         const Program* program = nullptr;
     };
 
-    void uploadObjects(const FramePlan& plan);
     void uploadMaterials();
     void addDraws(const FramePlan& plan);
     void addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary);
@@ -98,9 +95,8 @@ private:
     ShaderDefines skyDefines_;  // that sky_ was built with
     VertexArray skyArray_;
     const FrameUniforms* frame_ = nullptr;
-    Buffer objectBlocks_, materialBlocks_;
-    std::size_t objectStride_ = 0;
-    std::size_t materialStride_ = 0;
+    UniformBlocks<GpuObject> objectBlocks_;
+    UniformBlocks<GpuMaterial> materialBlocks_;
     std::size_t commandBytes_ = 0;
     Buffer commands_;              // of the draws that have several runs
     std::vector<GpuPoses> poses_;  // as many as objects

@@ -1,0 +1,169 @@
+// The lens-space methods as Tzeng et al. 2012 measure theirs: line samples against stochastic points at equal scenes
+// (their Table 1), and their time over the number of lines, the aperture and levels of detail (their Figure 7).
+//
+//   defocus_lens_space_bench [--size WIDTHxHEIGHT] [--figure7] MODEL...
+//
+// Held equal within a table: scene, camera, light, image size and process; the blur of the most blurred object is a
+// tenth of the image's width (of Figure 7, what the row says). Times are the median of three frames after one that
+// builds the shaders. Errors are RMSE of display-encoded images against the accumulation with 1,600 samples of another
+// seed at full detail. Checks that every method's image is within 0.1 of that.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parse.h"
+#include "eval/spread.h"
+#include "frame/prepared_frame.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "render/methods.h"
+#include "run_bench.h"
+
+namespace {
+
+using namespace defocus;
+
+constexpr int timedFrames = 3;
+constexpr std::uint32_t truthSamples = 1600;
+constexpr double tableBlur = 0.1;     // of the image's width
+constexpr double largestError = 0.1;  // RMSE
+
+struct Measured {
+    double milliseconds = 0;
+    Image image;
+    RenderStats stats;
+};
+
+Measured measured(const PreparedFrame& frame, const View& view, const std::string& method,
+                  const RenderSettings& settings) {
+    const MethodUse use = parseMethodUse(method);
+    RendererOptions options;
+    options.settings = use.settings;
+    const auto renderer = use.method->make(frame.world, options);
+    const FramePlan plan = planFrame(frame.world, view, settings);
+    std::vector<double> times;
+    for (int i = 0; i <= timedFrames; ++i) {
+        renderer->start(plan);
+        while (renderer->advance()) {
+        }
+        if (i > 0) times.push_back(renderer->stats().renderMilliseconds);
+    }
+    std::sort(times.begin(), times.end());
+    return {times[times.size() / 2], renderer->image(), renderer->stats()};
+}
+
+RenderSettings settingsOf(std::uint32_t samples, bool levels = false) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = levels ? LodMode::fractional : LodMode::off;
+    settings.metric = levels ? LodMetric::size : settings.metric;
+    return settings;
+}
+
+// The lens whose most blurred object has circles of `share` of the image's width.
+View blurredView(const PreparedFrame& frame, double share) {
+    View view = frame.view;
+    view.lens.blurScale = 1;
+    RenderSettings settings = settingsOf(1);
+    settings.keepAll = true;
+    double largest = 0;
+    for (const ObjectPlan& object : planFrame(frame.world, view, settings).objects)
+        if (std::isfinite(object.coc.largest)) largest = std::max(largest, object.coc.largest);
+    if (!(largest > 0)) fail("{}: nothing in it is blurred", frame.sceneName);
+    view.lens.blurScale = share * view.width / largest;
+    return view;
+}
+
+double errorOf(const Image& truth, const Image& image, const std::string& name) {
+    const double error = compareImages(truth, image, CompareOptions{}).rmse;
+    if (!(error < largestError)) fail("{}: RMSE {}", name, error);
+    return error;
+}
+
+PreparedFrame frameOf(const std::string& model, int width, int height, bool levels) {
+    Request request;
+    request.scene = model;
+    request.width = width;
+    request.height = height;
+    request.settings.lod = levels ? LodMode::fractional : LodMode::off;
+    return prepareFrame(request);
+}
+
+void printTable1(const std::vector<std::string>& models, int width, int height) {
+    fmt::print(
+        "| model | triangles | stochastic 256, ms | line 16, ms | times as fast | as published, ms | times as fast | "
+        "RMSE stochastic | RMSE line | RMSE as published |\n| --- {}|\n",
+        "| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: ");
+    for (const std::string& model : models) {
+        const PreparedFrame frame = frameOf(model, width, height, false);
+        const View view = blurredView(frame, tableBlur);
+        RenderSettings truthSettings = settingsOf(truthSamples);
+        truthSettings.seed = 9;
+        const Image truth = measured(frame, view, "accumulation", truthSettings).image;
+        const Measured points = measured(frame, view, "stochastic", settingsOf(256));
+        const Measured lines = measured(frame, view, "line", settingsOf(16));
+        const Measured published =
+            measured(frame, view, "line:resolve=published,shading-step=0,wheel=shared", settingsOf(16));
+        fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.2f} | {:.0f} | {:.2f} | {:.4f} | {:.4f} | {:.4f} |\n",
+                   frame.sceneName, points.stats.trianglesDrawn, points.milliseconds, lines.milliseconds,
+                   points.milliseconds / lines.milliseconds, published.milliseconds,
+                   points.milliseconds / published.milliseconds, errorOf(truth, points.image, model),
+                   errorOf(truth, lines.image, model), errorOf(truth, published.image, model));
+        std::fflush(stdout);
+    }
+}
+
+void printFigure7(const std::string& model, int width, int height) {
+    const PreparedFrame frame = frameOf(model, width, height, true);
+    fmt::print(
+        "\n{}: milliseconds of line samples\n\n| lines | blur, share of the width | full detail | levels by size | "
+        "times as fast |\n| ---: | ---: | ---: | ---: | ---: |\n",
+        frame.sceneName);
+    for (const std::uint32_t lines : {4u, 8u, 16u, 32u})
+        for (const double share : {0.05, 0.1, 0.2}) {
+            if (lines != 16 && share != tableBlur) continue;  // one of the two at a time
+            const View view = blurredView(frame, share);
+            const double full = measured(frame, view, "line", settingsOf(lines)).milliseconds;
+            const double levels = measured(frame, view, "line", settingsOf(lines, true)).milliseconds;
+            fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.2f} |\n", lines, share, full, levels, full / levels);
+            std::fflush(stdout);
+        }
+}
+
+int run(const std::vector<std::string>& arguments) {
+    int width = 800;
+    int height = 800;
+    bool figure7 = false;
+    std::vector<std::string> models;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (arguments[i] == "--figure7") {
+            figure7 = true;
+        } else if (arguments[i] == "--size" && i + 1 < arguments.size()) {
+            const std::string& size = arguments[++i];
+            const std::size_t times = std::min(size.find('x'), size.size() - 1);
+            width = static_cast<int>(parseWhole(size.substr(0, times), 1, mostPixels));
+            height = static_cast<int>(parseWhole(size.substr(times + 1), 1, mostPixels));
+        } else {
+            models.push_back(arguments[i]);
+        }
+    }
+    if (models.empty()) fail("usage: defocus_lens_space_bench [--size WIDTHxHEIGHT] [--figure7] MODEL...");
+    const auto context = createHeadlessContext();
+    fmt::print("{}, {} x {} px\n\n", currentDevice(), width, height);
+    if (!figure7) printTable1(models, width, height);
+    if (figure7)
+        for (const std::string& model : models) printFigure7(model, width, height);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return defocus::runBench("defocus_lens_space_bench",
+                             [&] { return run(std::vector<std::string>(argv + 1, argv + argc)); });
+}

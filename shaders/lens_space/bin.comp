@@ -1,0 +1,100 @@
+// Kernel 2: the tiles that a triangle may cover, seen from anywhere on the lens at any time. COUNT: how many each tile gets;
+// otherwise they are filled.
+
+#include "include/frame.glsl"
+#include "lens_space/triangles.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
+layout(std430, binding = 4) buffer CountBlock { uint counts[]; };   // COUNT: of each tile; else where its next triangle goes
+#ifndef COUNT
+layout(std430, binding = 5) writeonly buffer EntryBlock { uint entries[]; };
+#endif
+
+layout(location = 0) uniform ivec2 imageSize;
+layout(location = 1) uniform uint triangleCount;
+layout(location = 2) uniform uint firstTile;   // of those that are filled, in rows from the lower left
+layout(location = 3) uniform uint endTile;
+
+struct Area {
+    vec2 least;   // normalised device coordinates
+    vec2 most;
+};
+
+void add(inout Area area, vec4 clip, float aspect) {
+    vec2 place = clip.xy / clip.z;
+    vec2 reach = abs(clip.w / clip.z) * vec2(1.0, aspect);
+    area.least = min(area.least, place - reach);
+    area.most = max(area.most, place + reach);
+}
+
+// Of the part beyond the near plane: C/w and the place are monotonic along an edge, so that the corners of the part bound it.
+void add(inout Area area, vec4 corners[3], float aspect) {
+    float near = frame.projection.z;
+    for (int i = 0; i < 3; ++i) {
+        vec4 p = corners[i];
+        vec4 q = corners[(i + 1) % 3];
+        if (p.z >= near) add(area, p, aspect);
+        if ((p.z >= near) != (q.z >= near)) {
+            vec4 cut = mix(p, q, (near - p.z) / (q.z - p.z));
+            cut.z = near;
+            add(area, cut, aspect);
+        }
+    }
+}
+
+// Does all of the lens see its back (Munkberg, Toth and Akenine-Möller 2012, Appendix A)? A margin covers what rounding loses.
+bool facesAway(vec4 p[3], float aspect) {
+    vec3 n0 = cross(p[1].xyz, p[2].xyz);
+    vec3 n1 = cross(p[2].xyz, p[0].xyz);
+    vec3 n2 = cross(p[0].xyz, p[1].xyz);
+    vec3 a = abs(p[0].xyz);
+    vec3 b = abs(p[1].xyz);
+    vec3 c = abs(p[2].xyz);
+    float size = dot(a, b.yzx * c.zxy + b.zxy * c.yzx);
+    vec2 slope = p[0].w * n0.xy + p[1].w * n1.xy + p[2].w * n2.xy;
+    return dot(p[0].xyz, n0) + length(slope * vec2(1.0, aspect)) < -1e-6 * size;
+}
+
+void main() {
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= triangleCount) return;
+    uvec4 triangle = triangles[index];
+    float aspect = float(imageSize.x) / float(imageSize.y);
+    vec4 corners[3] = vec4[3](clips[triangle.x], clips[triangle.y], clips[triangle.z]);
+    Area area = Area(vec2(1e30), vec2(-1e30));
+    add(area, corners, aspect);
+#ifdef MOVING
+    // Between two places in front of the camera a vertex stays between them, and so does C/w. Where a corner comes from behind the
+    // near plane, or goes there, nothing bounds what lies between.
+    vec4 later[3] = vec4[3](clipsAtEnd[triangle.x], clipsAtEnd[triangle.y], clipsAtEnd[triangle.z]);
+    float near = frame.projection.z;
+    float least = min(min(min(corners[0].z, corners[1].z), corners[2].z), min(min(later[0].z, later[1].z), later[2].z));
+    float most = max(max(max(corners[0].z, corners[1].z), corners[2].z), max(max(later[0].z, later[1].z), later[2].z));
+    if (most < near) return;
+    add(area, later, aspect);
+    if (least < near) area = Area(vec2(-1.0), vec2(1.0));
+#else
+    if (area.least.x > area.most.x) return;
+    if (draws[triangle.w].doubleSided == 0u && facesAway(corners, aspect)) return;
+#endif
+    // A thousandth of a pixel covers what rounding loses.
+    vec2 size = vec2(imageSize);
+    vec2 first = floor(clamp((area.least * 0.5 + 0.5) * size - 1e-3, vec2(-1.0), size) / float(TILE));
+    vec2 last = floor(clamp((area.most * 0.5 + 0.5) * size + 1e-3, vec2(-1.0), size - 0.5) / float(TILE));
+    ivec2 from = max(ivec2(first), ivec2(0));
+    ivec2 to = ivec2(last);
+    int across = (imageSize.x + TILE - 1) / TILE;
+    for (int y = from.y; y <= to.y; ++y) {
+        for (int x = from.x; x <= to.x; ++x) {
+            uint tile = uint(y * across + x);
+            if (tile < firstTile || tile >= endTile) continue;
+#ifdef COUNT
+            atomicAdd(counts[tile], 1u);
+#else
+            entries[atomicAdd(counts[tile], 1u)] = index;
+#endif
+        }
+    }
+}

@@ -1,0 +1,136 @@
+// Shades the records of one group: surfaces of one material and one set of features, or the sky (SKY).
+
+#include "include/frame.glsl"
+#include "include/lens.glsl"
+#include "include/environment.glsl"
+#include "lens_space/triangles.glsl"
+#include "lens_space/rays.glsl"
+#include "lens_space/records.glsl"
+#include "lens_space/groups.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 4) readonly buffer GroupBlock { Group groups[]; };
+layout(std430, binding = 5) readonly buffer ListBlock { uint list[]; };
+
+layout(location = 2) uniform uint group;
+layout(location = 3) uniform float lensRadius;   // m
+
+#ifndef SKY
+#include "include/shading.glsl"
+
+struct Attributes {
+    vec4 position;   // from the camera along the world's axes, m
+    vec4 normal;     // w: agreement
+    vec4 color;
+    vec4 uv;
+    vec4 tangent;
+};
+
+layout(std430, binding = 3) readonly buffer AttributeBlock { Attributes attributes[]; };
+
+struct Surface {
+    vec4 color;
+    vec3 normal;
+    vec3 toEye;
+    vec3 position;
+    vec4 uv;
+    vec4 tangent;
+    float agreement;
+    bool showsFront;
+    vec4 uvRight;       // where the same lens point sees it a pixel to the right, and one up
+    vec4 uvUp;
+    vec3 normalRight;
+    vec3 normalUp;
+} surface;
+
+#define SURFACE_TEXTURE(map, slot)                                                                                 \
+    textureGrad(map, uvOf(slot, surface.uv), uvOf(slot, surface.uvRight) - uvOf(slot, surface.uv),                 \
+                uvOf(slot, surface.uvUp) - uvOf(slot, surface.uv))
+#define SURFACE_SHOWS_FRONT surface.showsFront
+
+float surfaceFootprint(vec3 normal) {
+    vec3 right = normalize(surface.normalRight) - normal;
+    vec3 up = normalize(surface.normalUp) - normal;
+    return dot(right, right) + dot(up, up);
+}
+
+#include "include/surface_shading.glsl"
+
+vec3 barycentric(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }
+
+vec4 surfaceLight(uvec3 vertices, Ray ray, vec2 lens, vec2 place) {
+    float time = ray.values.x;
+    vec4 a = clipAt(vertices.x, time);
+    vec4 b = clipAt(vertices.y, time);
+    vec4 c = clipAt(vertices.z, time);
+    vec3 edges = edgeFunctions(a, b, c, lens, place);
+    vec2 pixel = 2.0 / vec2(imageSize);
+    vec3 here = barycentric(edges);
+    vec3 right = barycentric(edgeFunctions(a, b, c, lens, place + vec2(pixel.x, 0.0)));
+    vec3 up = barycentric(edgeFunctions(a, b, c, lens, place + vec2(0.0, pixel.y)));
+    Attributes p = attributes[vertices.x];
+    Attributes q = attributes[vertices.y];
+    Attributes r = attributes[vertices.z];
+    surface.color = material.baseColor * (here.x * p.color + here.y * q.color + here.z * r.color);
+    surface.uv = here.x * p.uv + here.y * q.uv + here.z * r.uv;
+    surface.uvRight = right.x * p.uv + right.y * q.uv + right.z * r.uv;
+    surface.uvUp = up.x * p.uv + up.y * q.uv + up.z * r.uv;
+    surface.showsFront = edges.x + edges.y + edges.z > 0.0;
+    vec4 normal = here.x * p.normal + here.y * q.normal + here.z * r.normal;
+    surface.normal = normal.xyz;
+    surface.agreement = normal.w;
+    surface.normalRight = right.x * p.normal.xyz + right.y * q.normal.xyz + right.z * r.normal.xyz;
+    surface.normalUp = up.x * p.normal.xyz + up.y * q.normal.xyz + up.z * r.normal.xyz;
+    surface.tangent = here.x * p.tangent + here.y * q.tangent + here.z * r.tangent;
+    surface.position = here.x * p.position.xyz + here.y * q.position.xyz + here.z * r.position.xyz;
+    vec2 eye = lensRadius * vec2(lens.x, lens.y * float(imageSize.y) / float(imageSize.x));
+    surface.toEye = mat3(frame.worldFromView) * vec3(eye, 0.0) - surface.position;
+    return vec4(surfaceRadiance(texturedColor(surface.color).rgb), 1.0);
+}
+#else
+
+// The sky lies infinitely far away, where C/w = b.
+vec4 sky(vec2 lens, vec2 place) {
+#if BACKGROUND == 0
+    return vec4(0.0);
+#else
+    vec2 pinhole = place - relativeCircleOfConfusion(0.0, place, 1.0) * lens;
+#ifdef COC_CONTROLS
+    for (int i = 0; i < 3; ++i) pinhole = place - relativeCircleOfConfusion(0.0, pinhole, 1.0) * lens;
+#endif
+    vec3 direction = normalize(mat3(frame.worldFromView) * vec3(pinhole / frame.projection.xy, -1.0));
+#if BACKGROUND == 3
+    return vec4(environmentRadiance(direction, 0.0), 1.0);
+#elif BACKGROUND == 2
+    return vec4(gradientRadiance(direction.y), 1.0);
+#else
+    return vec4(lighting.environment[0].rgb, 1.0);
+#endif
+#endif
+}
+#endif
+
+void main() {
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= groups[group].count) return;
+    uint at = list[groups[group].first + index];
+    Record record = records[at];
+    uint pixelCount = uint(imageSize.x * imageSize.y);
+    uint inImage = record.ray % pixelCount;
+    uvec2 pixel = uvec2(inImage % uint(imageSize.x), inImage / uint(imageSize.x));
+    Ray ray = rayOf(record.ray / pixelCount, pixel);
+    vec2 place = placeOf(ray, pixel);
+#ifdef LINES
+    vec2 lens = record.place * ray.lensAndPixel.xy;
+#else
+    vec2 lens = ray.lensAndPixel.xy;
+#endif
+#ifdef SKY
+    vec4 light = sky(lens, place);
+#else
+    vec4 light = surfaceLight(triangles[record.triangle].xyz, ray, lens, place);
+#endif
+    light *= record.weight;
+    records[at] = Record(floatBitsToUint(light.r), floatBitsToUint(light.g), light.b, light.a);
+}

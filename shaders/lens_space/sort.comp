@@ -1,0 +1,34 @@
+// Puts each tile's triangles in the frame's order, whatever the order in which they were listed: bitonic sort (Batcher 1968) with
+// mirrored first steps, so that all steps put the smaller first and what lies beyond the end can be left out.
+
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
+layout(std430, binding = 5) coherent buffer EntryBlock { uint entries[]; };
+
+layout(location = 0) uniform uint firstTile;
+
+void order(uint a, uint b) {
+    uint p = entries[a];
+    uint q = entries[b];
+    if (p <= q) return;
+    entries[a] = q;
+    entries[b] = p;
+}
+
+void main() {
+    uint tile = firstTile + gl_WorkGroupID.x;
+    uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
+    uint count = tileEnds[tile] - first;
+    for (uint block = 2u; (block >> 1u) < count; block <<= 1u) {
+        for (uint step = block >> 1u; step > 0u; step >>= 1u) {
+            bool mirrored = step == block >> 1u;
+            for (uint i = gl_LocalInvocationID.x; i < count; i += 256u) {
+                uint partner = mirrored ? i ^ (block - 1u) : i ^ step;
+                if (partner > i && partner < count) order(first + i, first + partner);
+            }
+            memoryBarrierBuffer();
+            barrier();
+        }
+    }
+}

@@ -1,0 +1,22 @@
+// Kernel 1, second part: a run of a level's indices as triangles of the frame, counter-clockwise where their front is seen.
+
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 0) readonly buffer IndexBlock { uint indices[]; };
+layout(std430, binding = 2) writeonly buffer TriangleBlock { uvec4 triangles[]; };
+
+layout(location = 0) uniform uint firstIndex;
+layout(location = 1) uniform uint triangleCount;
+layout(location = 2) uniform uint firstVertex;     // of the level, among the frame's vertices
+layout(location = 3) uniform uint firstTriangle;   // of the run, among the frame's triangles
+layout(location = 4) uniform uint draw;
+layout(location = 5) uniform bool mirrored;
+
+void main() {
+    uint i = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (i >= triangleCount) return;
+    uint at = firstIndex + 3u * i;
+    uvec3 corners = uvec3(indices[at], indices[at + 1u], indices[at + 2u]) + firstVertex;
+    if (mirrored) corners.yz = corners.zy;
+    triangles[firstTriangle + i] = uvec4(corners, draw);
+}

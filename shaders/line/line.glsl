@@ -1,0 +1,75 @@
+// A triangle along a line through the lens (Tzeng et al. 2012, High-Quality Parallel Depth-of-Field Using Line Samples).
+//
+// At the lens point p·d of the line with the direction d = (cos φ, k·sin φ) a vertex lies at q(p) = α + p·β relative to a place s of the
+// image, with α = (x, y) − w·s and β = C·d. All β are parallel, so that the functions of the edges are linear in p:
+//   e_ij(p) = α_i × α_j + p·(α_i × β_j + β_i × α_j),
+// which is the paper's C + u·A(y) − v·B(x) ≥ 0. With E = Σ e and D = Σ e·w, the determinant of the triangle, 1/w = E/D: both are linear
+// in p, and so is D − near·E ≥ 0, the part of the triangle beyond the near plane.
+
+struct OnLine {
+    vec3 edgesAt0;
+    vec3 edgeSlopes;
+    vec2 sums;         // E at 0, its slope
+    vec2 determinant;  // D at 0, its slope
+};
+
+struct Interval {
+    float first;
+    float last;        // empty where it is not above `first`
+};
+
+float crossed(vec2 a, vec2 b) {
+    precise float c = a.x * b.y - a.y * b.x;
+    return c;
+}
+
+float slopeOf(vec2 placeI, vec2 wayI, vec2 placeJ, vec2 wayJ) {
+    precise float s = (placeI.x * wayJ.y - placeI.y * wayJ.x) + (wayI.x * placeJ.y - wayI.y * placeJ.x);
+    return s;
+}
+
+vec2 placeAt0(vec4 clip, vec2 place) {
+    precise vec2 q = clip.xy - clip.z * place;
+    return q;
+}
+
+OnLine onLine(vec4 a, vec4 b, vec4 c, vec2 direction, vec2 place) {
+    vec2 qa = placeAt0(a, place);
+    vec2 qb = placeAt0(b, place);
+    vec2 qc = placeAt0(c, place);
+    vec2 wayA = a.w * direction;
+    vec2 wayB = b.w * direction;
+    vec2 wayC = c.w * direction;
+    OnLine line;
+    line.edgesAt0 = vec3(crossed(qb, qc), crossed(qc, qa), crossed(qa, qb));
+    line.edgeSlopes = vec3(slopeOf(qb, wayB, qc, wayC), slopeOf(qc, wayC, qa, wayA), slopeOf(qa, wayA, qb, wayB));
+    vec3 w = vec3(a.z, b.z, c.z);
+    line.sums = vec2(line.edgesAt0.x + line.edgesAt0.y + line.edgesAt0.z, line.edgeSlopes.x + line.edgeSlopes.y + line.edgeSlopes.z);
+    line.determinant = vec2(dot(line.edgesAt0, w), dot(line.edgeSlopes, w));
+    return line;
+}
+
+// Its other side.
+OnLine turned(OnLine line) { return OnLine(-line.edgesAt0, -line.edgeSlopes, -line.sums, -line.determinant); }
+
+void cut(inout Interval interval, float at0, float slope) {
+    if (slope == 0.0) {
+        if (at0 < 0.0) interval.last = interval.first;
+        return;
+    }
+    float root = -at0 / slope;
+    if (slope > 0.0) interval.first = max(interval.first, root);
+    else interval.last = min(interval.last, root);
+}
+
+// Where the line sees the front, within `whole`.
+Interval seen(OnLine line, Interval whole) {
+    Interval interval = whole;
+    if (line.sums == vec2(0.0)) return Interval(whole.first, whole.first);   // no area
+    for (int i = 0; i < 3; ++i) cut(interval, line.edgesAt0[i], line.edgeSlopes[i]);
+    vec2 beyondNear = line.determinant - frame.projection.z * line.sums;
+    cut(interval, beyondNear.x, beyondNear.y);
+    return interval;
+}
+
+float inverseDepth(OnLine line, float p) { return (line.sums.x + p * line.sums.y) / (line.determinant.x + p * line.determinant.y); }

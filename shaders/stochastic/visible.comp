@@ -1,0 +1,109 @@
+// Kernel 3: what each ray of a tile's pixels meets first. A group of threads has one tile and one ray of each of its pixels. Those
+// rays pass through a small part of the lens, and only the triangles that this part shows in the tile are held against each of them
+// (Munkberg, Toth and Akenine-Möller 2012, Section 4: tile tests with bounds of u and v).
+
+#include "include/frame.glsl"
+#include "lens_space/triangles.glsl"
+#include "lens_space/rays.glsl"
+#include "lens_space/records.glsl"
+
+layout(local_size_x = TILE, local_size_y = TILE) in;
+
+layout(std430, binding = 3) readonly buffer DrawBlock { Draw draws[]; };
+layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };   // of each tile's triangles among the entries
+layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
+layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[MOST_RAYS]; };   // of each ray over the variants: least u, k·v, most
+
+layout(location = 2) uniform uint firstTile;   // of those that the entries hold
+
+const uint threads = uint(TILE * TILE);
+#ifdef MOVING
+const uint stride = 6u;
+#else
+const uint stride = 3u;
+#endif
+shared vec4 keptCorners[threads * stride];
+shared uvec2 kept[threads];   // triangle, double-sided
+shared uint keptCount;
+
+// May the vertex move the triangle into the tile? Bounds of its places in px.
+void addPlaces(inout vec2 least, inout vec2 most, vec4 clip, vec4 lens) {
+    vec2 shear = vec2(clip.w) / clip.z;
+    vec2 place = clip.xy / clip.z;
+    vec2 a = place + shear * lens.xy;
+    vec2 b = place + shear * lens.zw;
+    least = min(least, min(a, b));
+    most = max(most, max(a, b));
+}
+
+bool mayCover(vec4 corners[stride], vec4 lens, vec2 tileLeast, vec2 tileMost) {
+    vec2 least = vec2(1e30);
+    vec2 most = vec2(-1e30);
+    for (uint i = 0u; i < stride; ++i) {
+        if (corners[i].z < frame.projection.z) return true;
+        addPlaces(least, most, corners[i], lens);
+    }
+    return all(lessThanEqual(least, tileMost)) && all(greaterThanEqual(most, tileLeast));
+}
+
+void main() {
+    uint tile = firstTile + gl_WorkGroupID.x;
+    uint ray = gl_WorkGroupID.y;
+    uint across = uint(imageSize.x + TILE - 1) / uint(TILE);
+    uvec2 corner = uvec2(tile % across, tile / across) * uint(TILE);
+    uvec2 pixel = corner + gl_LocalInvocationID.xy;
+    Ray mine = rayOf(ray, pixel);
+    vec2 place = placeOf(mine, pixel);
+    vec2 lens = mine.lensAndPixel.xy;
+    vec2 margin = vec2(2e-3) / vec2(imageSize);   // a thousandth of a pixel
+    vec2 tileLeast = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
+    vec2 tileMost = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
+
+    float nearest = 3e38;
+    uint triangle = noTriangle;
+    uint end = tileEnds[tile];
+    uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
+    for (uint base = first; base < end; base += threads) {
+        if (gl_LocalInvocationIndex == 0u) keptCount = 0u;
+        barrier();
+        uint at = base + gl_LocalInvocationIndex;
+        if (at < end) {
+            uint candidate = entries[at];
+            uvec4 vertices = triangles[candidate];
+            Draw draw = draws[vertices.w];
+            vec4 corners[stride];
+            for (int i = 0; i < 3; ++i) corners[i] = clips[vertices[i]];
+#ifdef MOVING
+            for (int i = 0; i < 3; ++i) corners[i + 3] = clipsAtEnd[vertices[i]];
+#endif
+            if (firstRay + ray >= draw.firstRay && firstRay + ray < draw.endRay &&
+                mayCover(corners, lensBounds[ray], tileLeast, tileMost)) {
+                uint slot = atomicAdd(keptCount, 1u);
+                kept[slot] = uvec2(candidate, draw.doubleSided);
+                for (uint i = 0u; i < stride; ++i) keptCorners[slot * stride + i] = corners[i];
+            }
+        }
+        barrier();
+        for (uint i = 0u; i < keptCount; ++i) {
+            uint slot = i * stride;
+#ifdef MOVING
+            float time = mine.values.x;
+            vec4 a = mix(keptCorners[slot], keptCorners[slot + 3u], time);
+            vec4 b = mix(keptCorners[slot + 1u], keptCorners[slot + 4u], time);
+            vec4 c = mix(keptCorners[slot + 2u], keptCorners[slot + 5u], time);
+            float w = depthMet(a, b, c, kept[i].y != 0u, lens, place);
+#else
+            float w = depthMet(keptCorners[slot], keptCorners[slot + 1u], keptCorners[slot + 2u], kept[i].y != 0u, lens, place);
+#endif
+            // Equal depths: the first in the frame's order, whichever comes first here.
+            if (w > 0.0 && (w < nearest || (w == nearest && kept[i].x < triangle))) {
+                nearest = w;
+                triangle = kept[i].x;
+            }
+        }
+        barrier();
+    }
+    if (any(greaterThanEqual(pixel, uvec2(imageSize)))) return;
+    uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
+    records[index] = Record(triangle, index, 0.0, 1.0);
+}

@@ -1,0 +1,332 @@
+#include "render/lens_space/lens_front.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::size_t clipBytes = 4 * sizeof(float);
+constexpr std::size_t attributeBytes = 20 * sizeof(float);  // of shaders/lens_space/vertex.vert
+
+// Where a level ends and the next begins, a boundary sample may be shared by both. A ray sees one of them.
+std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
+    const std::uint32_t end = level.firstSample + level.sampleCount;
+    const bool shared = boundarySample(object).has_value();
+    return coarse && shared && object.boundaryShare < 0.5 ? end - 1 : end;
+}
+
+std::uint32_t beginOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
+    const bool shared = boundarySample(object).has_value();
+    return !coarse && shared && object.boundaryShare >= 0.5 ? level.firstSample + 1 : level.firstSample;
+}
+
+std::uint64_t largestBuffer() {
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    return static_cast<std::uint64_t>(most);
+}
+
+// A buffer that shaders read whole.
+Buffer storage(std::uint64_t bytes, const char* what) {
+    if (bytes > largestBuffer())
+        fail("{} take {} bytes; this driver's shaders read at most {} of one buffer", what, bytes, largestBuffer());
+    return Buffer(bytes);
+}
+
+void checkDrawable(const FramePlan& plan, const World& world, const std::string& method) {
+    if (plan.coc.chromatic > 0)
+        fail(
+            "method {}: it has one focus for all wavelengths; leave out the axial chromatic aberration or choose "
+            "accumulation",
+            method);
+    if (plan.usesLens && plan.view.lens.catEye > 0)
+        fail("method {}: it knows no cat's eye; leave it out or choose accumulation", method);
+    if (!plan.moments.empty() && world.shutter.perSample)
+        fail("method {}: it moves vertices in straight lines; give a number of motion segments or choose accumulation",
+             method);
+    for (const ObjectPlan& object : plan.objects) {
+        if (object.refinement != Refinement::none)
+            fail(
+                "method {}: the controls of the blur bend inside the triangles of object '{}'; leave them out or "
+                "choose accumulation",
+                method, object.name);
+        for (const Primitive& primitive : world.scene->meshes[static_cast<std::size_t>(object.mesh)].primitives) {
+            if (primitive.material < 0) continue;
+            const Material& material = world.scene->materials[static_cast<std::size_t>(primitive.material)];
+            if (material.alphaMode == AlphaMode::opaque) continue;
+            fail(
+                "method {}: object '{}' has the {} material '{}', and rays end at the first surface; choose "
+                "accumulation",
+                method, object.name, material.alphaMode == AlphaMode::blend ? "alpha-blended" : "alpha-tested",
+                material.name);
+        }
+    }
+}
+
+}  // namespace
+
+void dispatchOver(std::uint64_t count) {
+    constexpr std::uint64_t most = 65535;  // groups along an axis that every driver has
+    const std::uint64_t needed = (count + 255) / 256;
+    if (needed == 0) return;
+    glDispatchCompute(static_cast<GLuint>(std::min(needed, most)), static_cast<GLuint>((needed + most - 1) / most), 1);
+}
+
+LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool ordered, std::uint64_t entryBytes,
+                     std::filesystem::path shaderFolder)
+    : scene_(&scene),
+      tileSize_(tileSize),
+      ordered_(ordered),
+      entryBytes_(std::min(entryBytes, largestBuffer())),
+      shaderFolder_(std::move(shaderFolder)),
+      unused_({.format = TextureFormat::rgba8}),
+      unusedTarget_({&unused_}) {
+    if (ordered_) sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
+    trianglesProgram_ = Program({{"lens_space/triangles.comp"}, {}, shaderFolder_});
+}
+
+void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method) {
+    checkDrawable(plan, scene_->world(), method);
+    plan_ = plan;
+    frame_ = &frame;
+    const bool moving = !plan.moments.empty();
+    const std::size_t moments = std::max(scene_->world().shutter.poses.size(), plan.view.shutterCameras.size());
+    parts_ = moving ? static_cast<std::uint32_t>(std::clamp<std::size_t>(moments - 1, 1, plan.samples.size())) : 1;
+    defines_ = frame.defines();
+    if (moving) defines_.emplace_back("MOVING", "1");
+    objects_ = objectBlocks(plan, *scene_, poses_);
+
+    // Vertices and triangles of all levels that some ray sees.
+    vertices_.clear();
+    runs_.clear();
+    groups_.clear();
+    groupNumbers_.clear();
+    vertexCount_ = 0;
+    triangleCount_ = 0;
+    std::vector<GpuDraw> draws;
+    for (std::uint32_t i = 0; i < plan.objects.size(); ++i)
+        for (const LevelDraw* level : {&plan.objects[i].coarse, &plan.objects[i].fine})
+            if (level->sampleCount > 0) addLevel(i, *level, draws);
+    draws_ = Buffer::of(std::span<const GpuDraw>(draws));
+    clips_ = storage(std::uint64_t{vertexCount_} * clipBytes, "the frame's vertices");
+    clipsAtEnd_ = moving ? Buffer(clips_.bytes()) : Buffer();
+    attributes_ = storage(std::uint64_t{vertexCount_} * attributeBytes, "the attributes of the frame's vertices");
+    triangles_ = storage(std::uint64_t{triangleCount_} * 4 * sizeof(std::uint32_t), "the frame's triangles");
+    makeTriangles();
+
+    ShaderDefines binDefines = defines_;
+    binDefines.emplace_back("TILE", std::to_string(tileSize_));
+    if (binDefines != binDefines_) {
+        binDefines_ = binDefines;
+        fillProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
+        binDefines.emplace_back("COUNT", "1");
+        countProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
+    }
+}
+
+void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, std::vector<GpuDraw>& draws) {
+    const World& world = scene_->world();
+    const ObjectPlan& object = plan_.objects[objectIndex];
+    const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
+    const bool coarse = &level == &object.coarse;
+    const Vertices vertices{objectIndex, level.level, vertexCount_,
+                            world.pyramids[static_cast<std::size_t>(object.mesh)].levels[level.level].vertexCount};
+    for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+        const int material = mesh.primitives[p].material;
+        const auto draw = static_cast<std::uint32_t>(draws.size());
+        draws.push_back({beginOf(object, level, coarse), endOf(object, level, coarse),
+                         groupOf(object.mesh, material, level.level),
+                         scene_->material(material).doubleSided ? 1u : 0u});
+        for (const IndexRun& run : indexRuns(world, object, scene_->mesh(object.mesh), level.level, p)) {
+            if (run.count < 3) continue;
+            runs_.push_back({objectIndex, run.first, run.count / 3, vertices.first, draw});
+            triangleCount_ += run.count / 3;
+        }
+    }
+    vertices_.push_back(vertices);
+    vertexCount_ += vertices.count;
+}
+
+std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
+    ShaderDefines defines = surfaceDefines(*scene_, scene_->mesh(mesh), material, level, true);
+    const std::string key = keyOf(defines) + std::to_string(material);
+    const auto [entry, isNew] = groupNumbers_.try_emplace(key, static_cast<std::uint32_t>(groups_.size()) + 1);
+    if (isNew) groups_.push_back({std::move(defines), material});
+    return entry->second;
+}
+
+void LensFront::makeTriangles() {
+    trianglesProgram_.use();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, triangles_.name());
+    std::uint32_t first = 0;
+    for (const Run& run : runs_) {
+        const ObjectPlan& object = plan_.objects[run.object];
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, scene_->mesh(object.mesh).indices.name());
+        glUniform1ui(0, run.first);
+        glUniform1ui(1, run.triangles);
+        glUniform1ui(2, run.firstVertex);
+        glUniform1ui(3, first);
+        glUniform1ui(4, run.draw);
+        glUniform1i(5, object.mirrored ? 1 : 0);
+        dispatchOver(run.triangles);
+        first += run.triangles;
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void LensFront::pose(std::uint32_t part) {
+    const bool moving = static_cast<bool>(clipsAtEnd_);
+    makeVertices(clips_, clipBytes, false, part, 0);
+    if (moving) makeVertices(clipsAtEnd_, clipBytes, false, part + 1, 0);
+    // What moves is lit as it is halfway.
+    makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    countTiles();
+}
+
+void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
+                             float fraction) {
+    frame_->bind(0);
+    unusedTarget_.bind();
+    glEnable(GL_RASTERIZER_DISCARD);
+    for (const Vertices& vertices : vertices_) {
+        if (vertices.count == 0) continue;
+        const ObjectPlan& object = plan_.objects[vertices.object];
+        GpuMesh& mesh = scene_->mesh(object.mesh);
+        const GpuPoses& poses = poses_[vertices.object];
+        const Program& program = vertexProgram(vertices, attributes);
+        program.use();
+        if (poses.moving) glUniform2f(0, static_cast<float>(moment), fraction);
+        objects_.bind(1, vertices.object);
+        if (poses.texels) poses.texels.attach(6);
+        if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
+        bindLevel(mesh, vertices.level);
+        glBindVertexArray(mesh.vertexArray.name());
+        glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target.name(),
+                          static_cast<GLintptr>(vertices.first * vertexBytes),
+                          static_cast<GLsizeiptr>(vertices.count * vertexBytes));
+        glBeginTransformFeedback(GL_POINTS);
+        glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertices.count));
+        glEndTransformFeedback();
+    }
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    glDisable(GL_RASTERIZER_DISCARD);
+}
+
+const Program& LensFront::vertexProgram(const Vertices& vertices, bool attributes) {
+    const GpuMesh& mesh = scene_->mesh(plan_.objects[vertices.object].mesh);
+    ShaderDefines defines = frame_->defines();
+    if (mesh.colors) defines.emplace_back("VERTEX_COLORS", "1");
+    if (mesh.cocScales) defines.emplace_back("VERTEX_COC_SCALES", "1");
+    if (attributes) defines.emplace_back("ATTRIBUTES", "1");
+    poseDefines(defines, poses_[vertices.object], mesh);
+    const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));
+    if (isNew) entry->second = Program({{"lens_space/vertex.vert"}, defines, shaderFolder_});
+    return entry->second;
+}
+
+void LensFront::countTiles() {
+    const auto width = static_cast<std::uint32_t>(plan_.view.width);
+    const auto height = static_cast<std::uint32_t>(plan_.view.height);
+    const std::uint32_t tiles = ((width + tileSize_ - 1) / tileSize_) * ((height + tileSize_ - 1) / tileSize_);
+    std::vector<std::uint32_t> counts(tiles, 0);
+    if (tileCounts_.bytes() != tiles * sizeof(std::uint32_t)) {
+        tileCounts_ = Buffer(tiles * sizeof(std::uint32_t));
+        tileEnds_ = Buffer(tiles * sizeof(std::uint32_t));
+    }
+    tileCounts_.update(0, tileCounts_.bytes(), counts.data());
+    frame_->bind(0);
+    countProgram_.use();
+    bindTriangles();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileCounts_.name());
+    glUniform2i(0, plan_.view.width, plan_.view.height);
+    glUniform1ui(1, triangleCount_);
+    glUniform1ui(2, 0);
+    glUniform1ui(3, tiles);
+    dispatchOver(triangleCount_);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glGetNamedBufferSubData(tileCounts_.name(), 0, static_cast<GLsizeiptr>(tileCounts_.bytes()), counts.data());
+
+    // Where the lists lie; a new band begins where the next tile's would be too much.
+    bands_.clear();
+    statistics_ = {.tiles = tiles};
+    tilePlaces_.assign(tiles, 0);
+    std::vector<std::uint32_t> ends(tiles, 0);
+    const std::uint64_t most = entryBytes_ / sizeof(std::uint32_t);
+    TileBand band;
+    for (std::uint32_t tile = 0; tile < tiles; ++tile) {
+        if (band.entries > 0 && band.entries + counts[tile] > most) {
+            band.end = tile;
+            bands_.push_back(band);
+            band = {tile, tile, 0};
+        }
+        tilePlaces_[tile] = static_cast<std::uint32_t>(band.entries);
+        band.entries += counts[tile];
+        ends[tile] = static_cast<std::uint32_t>(band.entries);
+        statistics_.entries += counts[tile];
+        statistics_.largestTile = std::max(statistics_.largestTile, counts[tile]);
+    }
+    band.end = tiles;
+    bands_.push_back(band);
+    tileEnds_.update(0, tileEnds_.bytes(), ends.data());
+    std::uint64_t largest = 0;
+    for (const TileBand& each : bands_) largest = std::max(largest, each.entries);
+    const std::uint64_t bytes = std::max<std::uint64_t>(largest, 1) * sizeof(std::uint32_t);
+    if (entries_.bytes() < bytes) {
+        entries_ = Buffer();  // before the new one is made: both may not fit
+        entries_ = storage(bytes, "the triangles of a tile");
+    }
+    statistics_.bytes = entries_.bytes();
+    isFilled_ = false;
+}
+
+void LensFront::fill(const TileBand& band) {
+    if (isFilled_ && filled_ == band.first) return;
+    filled_ = band.first;
+    isFilled_ = true;
+    tileCounts_.update(0, tileCounts_.bytes(), tilePlaces_.data());
+    frame_->bind(0);
+    fillProgram_.use();
+    bindTriangles();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileCounts_.name());
+    glUniform2i(0, plan_.view.width, plan_.view.height);
+    glUniform1ui(1, triangleCount_);
+    glUniform1ui(2, band.first);
+    glUniform1ui(3, band.end);
+    dispatchOver(triangleCount_);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    if (!ordered_) return;
+    sortProgram_.use();
+    bindTriangles();
+    glUniform1ui(0, band.first);
+    glDispatchCompute(band.end - band.first, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void LensFront::bindTriangles() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, clips_.name());
+    if (clipsAtEnd_) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, clipsAtEnd_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, triangles_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, draws_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileEnds_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, entries_.name());
+}
+
+void LensFront::bindAttributes() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, attributes_.name());
+}
+
+std::size_t LensFront::bytes() const {
+    std::size_t total = objects_.bytes();
+    for (const Buffer* buffer :
+         {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &tileCounts_, &tileEnds_, &entries_})
+        total += buffer->bytes();
+    for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
+    return total;
+}
+
+}  // namespace defocus

@@ -1,0 +1,155 @@
+#include "render/lens_space/lens_space.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "gl/read_back.h"
+#include "render/frame_clock.h"
+#include "render/lens_space/ray_sum.h"
+#include "render/lens_space/record_shading.h"
+
+namespace defocus {
+
+namespace {
+
+class LensSpaceRenderer final : public Renderer {
+public:
+    LensSpaceRenderer(const World& world, const RendererOptions& options, std::unique_ptr<VisibilityKernel> kernel)
+        : options_(options), wave_(options.wave), kernel_(std::move(kernel)), scene_(world) {}
+
+    void setWave(std::uint32_t rays) override { wave_ = rays > 0 ? rays : options_.wave; }
+
+    void start(const FramePlan& plan) override {
+        clock_.beginSetup();
+        plan_ = plan;
+        if (!front_) {
+            front_.emplace(scene_, kernel_->tileSize(), kernel_->ordersTiles(), options_.waveBytes,
+                           options_.shaderFolder);
+            shading_.emplace(scene_, options_.shaderFolder);
+        }
+        scene_.prepare(plan_);
+        frame_.upload(scene_.world(), plan_, 1);
+        front_->prepare(plan_, frame_, kernel_->name());
+        const RaySets sets = kernel_->raySets(plan_);
+        rays_ = Buffer::of(std::span<const GpuRay>(sets.table));
+        ShaderDefines rayDefines = kernel_->rayDefines();
+        rayDefines.emplace_back("VARIANTS", std::to_string(sets.variants) + "u");
+        prepareSum(rayDefines);
+        ShaderDefines defines = front_->defines();
+        defines.insert(defines.end(), rayDefines.begin(), rayDefines.end());
+        kernel_->start(plan_, sets, defines);
+        shading_->prepare(plan_, *front_, defines);
+        stats_ = {};
+        part_.reset();
+        clock_.beginFrame();
+    }
+
+    bool advance() override {
+        const std::uint32_t first = sum_->rays();
+        const std::uint32_t total = sampleTotal();
+        if (first >= total) return false;
+        RayWave wave = nextWave(first, total);
+        clock_.beginWave();
+        const std::uint32_t part = partOf(first, total);
+        if (part_ != part) front_->pose(part);
+        part_ = part;
+        frame_.bind(first);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, rays_.name());
+        const std::uint64_t records = kernel_->find(*front_, wave);
+        kernel_->bindRecords();
+        shading_->shade(*front_, records, first);
+        kernel_->bindRecords();
+        sum_->add(wave.count);
+        clock_.endWave();
+        stats_.trianglesDrawn = front_->triangleCount();
+        stats_.peakBytes = std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + frame_.bytes() + front_->bytes() +
+                                                                         shading_->bytes() + kernel_->bytes() +
+                                                                         rays_.bytes() + sum_->bytes());
+        if (first + wave.count == total) clock_.endFrame();
+        return first + wave.count < total;
+    }
+
+    [[nodiscard]] std::uint32_t samples() const override { return sum_ ? sum_->rays() : 0; }
+    [[nodiscard]] std::uint32_t sampleTotal() const override {
+        return static_cast<std::uint32_t>(plan_.samples.size());
+    }
+    [[nodiscard]] Image image() override { return readBack(sum_->mean(), 4); }
+    [[nodiscard]] const GlTexture* imageTexture() override { return &sum_->mean(); }
+
+    [[nodiscard]] RenderStats stats() const override {
+        RenderStats stats = stats_;
+        stats.samples = samples();
+        clock_.fill(stats);
+        stats.wave = wavesRays();
+        stats.layerFormat = "rgba32f";
+        if (front_) {
+            const BinStatistics& bins = front_->statistics();
+            stats.figures = {{"triangles in all tiles", static_cast<double>(bins.entries)},
+                             {"triangles in the fullest tile", static_cast<double>(bins.largestTile)},
+                             {"bytes of the tiles' lists", static_cast<double>(bins.bytes)},
+                             {"bands of tiles", static_cast<double>(front_->bands().size())}};
+        }
+        kernel_->addTo(stats);
+        return stats;
+    }
+
+private:
+    void prepareSum(const ShaderDefines& rayDefines) {
+        const glm::ivec2 size(plan_.view.width, plan_.view.height);
+        if (!sum_ || sumSize_ != size || sumDefines_ != rayDefines) {
+            sum_.reset();  // before the new one is made: both may not fit
+            sum_.emplace(size.x, size.y, rayDefines, options_.shaderFolder);
+            sumSize_ = size;
+            sumDefines_ = rayDefines;
+        }
+        sum_->reset();
+    }
+
+    // K: as many rays of each pixel as the memory allows, at most a block of the frame's uniforms.
+    [[nodiscard]] std::uint32_t wavesRays() const {
+        const std::uint64_t pixels =
+            std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
+        GLint64 largestBuffer = 0;
+        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largestBuffer);
+        const std::uint64_t bytes = std::min(options_.waveBytes, static_cast<std::uint64_t>(largestBuffer));
+        const std::uint64_t most = std::max<std::uint64_t>(bytes / (pixels * kernel_->rayBytes()), 1);
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>({wave_ > 0 ? wave_ : most, most, blockSamples}));
+    }
+
+    // The part of the exposure in which ray `ray` of each pixel sees the scene.
+    [[nodiscard]] std::uint32_t partOf(std::uint32_t ray, std::uint32_t total) const {
+        return static_cast<std::uint32_t>(std::uint64_t{ray} * front_->parts() / total);
+    }
+
+    // A wave ends with its block of samples, and with its part of the exposure.
+    [[nodiscard]] RayWave nextWave(std::uint32_t first, std::uint32_t total) const {
+        RayWave wave{first, std::min({wavesRays(), total - first, blockSamples - first % blockSamples})};
+        while (partOf(first + wave.count - 1, total) != partOf(first, total)) --wave.count;
+        return wave;
+    }
+
+    RendererOptions options_;
+    std::uint32_t wave_;  // K asked for; 0: as many as memory allows
+    std::unique_ptr<VisibilityKernel> kernel_;
+    GpuScene scene_;
+    FramePlan plan_;
+    FrameUniforms frame_;
+    std::optional<LensFront> front_;
+    std::optional<RecordShading> shading_;
+    std::optional<RaySum> sum_;
+    glm::ivec2 sumSize_{0};
+    ShaderDefines sumDefines_;
+    Buffer rays_;
+    std::optional<std::uint32_t> part_;  // of the exposure that the vertices are posed for
+    mutable FrameClock clock_;
+    RenderStats stats_;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,
+                                                std::unique_ptr<VisibilityKernel> kernel) {
+    return std::make_unique<LensSpaceRenderer>(world, options, std::move(kernel));
+}
+
+}  // namespace defocus

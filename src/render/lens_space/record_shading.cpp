@@ -1,0 +1,103 @@
+#include "render/lens_space/record_shading.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::size_t groupBytes = 4 * sizeof(std::uint32_t);     // of shaders/lens_space/groups.glsl
+constexpr std::size_t dispatchBytes = 3 * sizeof(std::uint32_t);  // as glDispatchComputeIndirect reads it
+
+}  // namespace
+
+RecordShading::RecordShading(GpuScene& scene, std::filesystem::path shaderFolder)
+    : scene_(&scene), shaderFolder_(std::move(shaderFolder)) {
+    placesProgram_ = Program({{"lens_space/list_places.comp"}, {}, shaderFolder_});
+}
+
+const Program& RecordShading::program(const ShaderDefines& defines, const ShaderDefines& more) {
+    ShaderDefines all = defines;
+    all.insert(all.end(), more.begin(), more.end());
+    const auto [entry, isNew] = programs_.try_emplace(keyOf(all));
+    if (isNew) entry->second = Program({{"lens_space/shade.comp"}, all, shaderFolder_});
+    return entry->second;
+}
+
+void RecordShading::prepare(const FramePlan& plan, const LensFront& front, const ShaderDefines& defines) {
+    imageSize_ = {plan.view.width, plan.view.height};
+    lensRadius_ = static_cast<float>(0.5 * plan.apertureDiameter);
+    if (!listProgram_ || listDefines_ != defines) {
+        listDefines_ = defines;
+        listProgram_ = Program({{"lens_space/lists.comp"}, defines, shaderFolder_});
+        ShaderDefines counting = defines;
+        counting.emplace_back("COUNT", "1");
+        countProgram_ = Program({{"lens_space/lists.comp"}, counting, shaderFolder_});
+    }
+    groupPrograms_ = {&program(defines, {{"SKY", "1"}})};
+    std::vector<GpuMaterial> materials;
+    for (const ShadedGroup& group : front.groups()) {
+        groupPrograms_.push_back(&program(defines, group.defines));
+        materials.push_back(GpuScene::materialBlock(scene_->material(group.material)));
+    }
+    materials_ = UniformBlocks<GpuMaterial>(materials);
+    groups_ = Buffer(groupPrograms_.size() * groupBytes);
+    dispatches_ = Buffer(groupPrograms_.size() * dispatchBytes);
+}
+
+void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
+    if (list_.bytes() < count * sizeof(std::uint32_t)) {
+        list_ = Buffer();  // before the new one is made: both may not fit
+        list_ = Buffer(count * sizeof(std::uint32_t));
+    }
+
+    // The records of each group.
+    const GLuint zero = 0;
+    glClearNamedBufferData(groups_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    front.bindTriangles();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, groups_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, list_.name());
+    const auto overRecords = [&](const Program& program) {
+        program.use();
+        glUniform1ui(0, static_cast<GLuint>(count));
+        dispatchOver(count);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    };
+    GLint rays = 0;  // they share a binding with the places of the lists
+    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
+    overRecords(countProgram_);
+    placesProgram_.use();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, dispatches_.name());
+    glUniform1ui(0, static_cast<GLuint>(groupPrograms_.size()));
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, static_cast<GLuint>(rays));
+    overRecords(listProgram_);
+
+    // Their light.
+    front.bindAttributes();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatches_.name());
+    for (std::size_t i = 0; i < groupPrograms_.size(); ++i) {
+        groupPrograms_[i]->use();
+        glUniform2i(0, imageSize_.x, imageSize_.y);
+        glUniform1ui(1, firstRay);
+        glUniform1ui(2, static_cast<GLuint>(i));
+        glUniform1f(3, lensRadius_);
+        if (i > 0) {
+            const GpuMaterialTextures& textures = scene_->textures(front.groups()[i - 1].material);
+            for (GLuint unit = 0; unit < 5; ++unit)
+                if (textures.slots[unit] != nullptr) textures.slots[unit]->attach(unit);
+            materials_.bind(2, i - 1);
+        }
+        glDispatchComputeIndirect(static_cast<GLintptr>(i * dispatchBytes));
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+std::size_t RecordShading::bytes() const {
+    return materials_.bytes() + groups_.bytes() + dispatches_.bytes() + list_.bytes();
+}
+
+}  // namespace defocus

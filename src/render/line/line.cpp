@@ -1,0 +1,246 @@
+#include "render/line/line.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "render/lens_space/lens_space.h"
+#include "render/line/line_sets.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::uint32_t lineTile = 8;  // px
+constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
+constexpr std::uint64_t expectedRecords = 6;     // of a line; there is more room where a wave needs it
+constexpr std::uint32_t mostShadingPoints = 16;  // of a piece
+constexpr std::uint32_t firstCapacity = 48;      // pieces of an exact line
+constexpr std::uint32_t mostCapacity = 1536;
+constexpr std::uint32_t sharedBytes = 24;  // of a segment in the buffer
+constexpr float lightUnit = 1.0f / 1024;   // of droppedLight
+
+// std140, of shaders/line/visible.comp.
+struct GpuBounds {
+    glm::vec4 box;
+    glm::vec4 strip;
+};
+
+// The counters in front of the ranges.
+struct Counters {
+    std::uint32_t records = 0;
+    std::uint32_t droppedSegments = 0;
+    std::uint32_t droppedLight = 0;
+    std::uint32_t mergedSegments = 0;
+};
+
+class LineKernel final : public VisibilityKernel {
+public:
+    explicit LineKernel(const RendererOptions& options)
+        : shaderFolder_(options.shaderFolder),
+          exact_(options.settings.at("resolve") == "exact"),
+          turned_(options.settings.at("wheel") == "turned"),
+          segments_(static_cast<std::uint32_t>(numberOf(options.settings, "segments"))),
+          shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {}
+
+    [[nodiscard]] std::string name() const override { return "line"; }
+    [[nodiscard]] std::uint32_t tileSize() const override { return lineTile; }
+    [[nodiscard]] bool ordersTiles() const override { return true; }
+    [[nodiscard]] RaySets raySets(const FramePlan& plan) const override { return lineSets(plan, turned_).sets; }
+    [[nodiscard]] ShaderDefines rayDefines() const override { return {{"LINES", "1"}}; }
+    [[nodiscard]] std::uint64_t rayBytes() const override { return 2 * expectedRecords * recordBytes; }
+
+    void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) override {
+        if (!plan.moments.empty())
+            fail("method line: its samples have no time; choose stochastic or accumulation for motion blur");
+        imageSize_ = {plan.view.width, plan.view.height};
+        const LineSets lines = lineSets(plan, turned_);
+        bounds_.clear();
+        for (std::uint32_t line = 0; line < rays.rays; ++line)
+            bounds_.push_back({rays.lensBounds[line], lines.strips[line]});
+        boundBlock_ = Buffer(blockSamples * sizeof(GpuBounds));
+        const Lens& lens = plan.view.lens;
+        lightOverRadius_ = {static_cast<float>(lens.sphericalAberration),
+                            static_cast<float>(lens.obstruction * lens.obstruction)};
+        defines_ = defines;
+        totals_ = {};
+        lines_ = 0;
+        if (exact_) {
+            build(capacity_);
+            return;
+        }
+        GLint most = 0;
+        glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &most);
+        const auto beside =
+            static_cast<GLint>(lineTile * lineTile * (3 * sizeof(glm::vec4) + 3 * sizeof(std::uint32_t)) + 64);
+        const GLint fit = (most - beside) / static_cast<GLint>(lineTile * lineTile * sharedBytes);
+        if (static_cast<GLint>(segments_) > fit)
+            fail("method line: segments is at most {} on this driver, which shares {} bytes between threads", fit,
+                 most);
+        build(segments_);
+    }
+
+    std::uint64_t find(LensFront& front, RayWave& wave) override {
+        const std::uint64_t pixels =
+            std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
+        const std::size_t outputBytes = sizeof(Counters) + pixels * wave.count * rangeBytes;
+        if (output_.bytes() < outputBytes) output_ = Buffer(outputBytes);
+        boundBlock_.update(0, wave.count * sizeof(GpuBounds), bounds_.data() + wave.first);
+        reserve(std::min(pixels * wave.count * expectedRecords, mostRecords()));
+        while (true) {
+            Counters counters;
+            output_.update(0, sizeof counters, &counters);
+            draw(front, wave);
+            glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+            glGetNamedBufferSubData(output_.name(), 0, sizeof counters, &counters);
+            if (exact_ && counters.droppedSegments > 0 && capacity_ < mostCapacity) {
+                build(capacity_ *= 2);
+                continue;
+            }
+            if (counters.records > mostRecords()) {
+                if (wave.count == 1)
+                    fail(
+                        "method line: what one line of each pixel sees takes {} records, and this driver's shaders "
+                        "read at "
+                        "most {} of one buffer; choose a smaller image or a longer shading step",
+                        counters.records, mostRecords());
+                wave.count /= 2;
+                continue;
+            }
+            if (counters.records > records_.bytes() / recordBytes) {
+                reserve(counters.records);
+                continue;
+            }
+            totals_.droppedSegments += counters.droppedSegments;
+            totals_.droppedLight += counters.droppedLight;
+            totals_.mergedSegments += counters.mergedSegments;
+            totals_.records += counters.records;
+            lines_ += pixels * wave.count;
+            return counters.records;
+        }
+    }
+
+    void bindRecords() const override {
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, records_.name());
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 1, output_.name(), 0, static_cast<GLsizeiptr>(output_.bytes()));
+    }
+
+    void addTo(RenderStats& stats) const override {
+        if (lines_ == 0) return;
+        const auto perLine = [&](std::uint64_t count) {
+            return static_cast<double>(count) / static_cast<double>(lines_);
+        };
+        stats.figures.push_back({"shaded points per line", perLine(totals_.records)});
+        stats.figures.push_back({"dropped segments per line", perLine(totals_.droppedSegments)});
+        stats.figures.push_back({"dropped share of the light", perLine(totals_.droppedLight) * double{lightUnit}});
+        stats.figures.push_back({"merged segments per line", perLine(totals_.mergedSegments)});
+    }
+
+    [[nodiscard]] std::size_t bytes() const override { return records_.bytes() + output_.bytes(); }
+
+private:
+    struct Totals {
+        std::uint64_t records = 0;
+        std::uint64_t droppedSegments = 0;
+        std::uint64_t droppedLight = 0;
+        std::uint64_t mergedSegments = 0;
+    };
+
+    void build(std::uint32_t segments) {
+        ShaderDefines all = defines_;
+        all.emplace_back("TILE", std::to_string(lineTile));
+        all.emplace_back("MOST_RAYS", std::to_string(blockSamples));
+        all.emplace_back("MOST_SHADING_POINTS", std::to_string(mostShadingPoints));
+        all.emplace_back("SEGMENTS", std::to_string(segments));
+        if (exact_) all.emplace_back("EXACT", "1");
+        if (program_ && built_ == all) return;
+        built_ = all;
+        program_ = Program({{"line/visible.comp"}, all, shaderFolder_});
+    }
+
+    // What shaders read of one buffer.
+    static std::uint64_t mostRecords() {
+        GLint64 most = 0;
+        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+        return static_cast<std::uint64_t>(most) / recordBytes;
+    }
+
+    void reserve(std::uint64_t records) {
+        if (records_.bytes() >= records * recordBytes) return;
+        records_ = Buffer();  // before the new one is made: both may not fit
+        records_ = Buffer(records * recordBytes);
+    }
+
+    void draw(LensFront& front, const RayWave& wave) {
+        for (const TileBand& band : front.bands()) {
+            front.fill(band);
+            program_.use();
+            front.bindTriangles();
+            bindRecords();
+            glBindBufferBase(GL_UNIFORM_BUFFER, 7, boundBlock_.name());
+            glUniform2i(0, imageSize_.x, imageSize_.y);
+            glUniform1ui(1, wave.first);
+            glUniform1ui(2, band.first);
+            glUniform1ui(3, static_cast<GLuint>(records_.bytes() / recordBytes));
+            glUniform2f(4, lightOverRadius_.x, lightOverRadius_.y);
+            glUniform1f(5, shadingStep_);
+            glDispatchCompute(band.end - band.first, wave.count, 1);
+            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        }
+    }
+
+    std::filesystem::path shaderFolder_;
+    bool exact_;
+    bool turned_;
+    std::uint32_t segments_;
+    float shadingStep_;
+    std::uint32_t capacity_ = firstCapacity;
+    glm::ivec2 imageSize_{0};
+    glm::vec2 lightOverRadius_{0};
+    std::vector<GpuBounds> bounds_;
+    ShaderDefines defines_, built_;
+    Program program_;
+    Buffer boundBlock_, records_, output_;
+    Totals totals_;
+    std::uint64_t lines_ = 0;
+};
+
+}  // namespace
+
+Method lineMethod() {
+    const std::vector<MethodSetting> settings = {
+        {.name = "resolve",
+         .standard = "exact",
+         .description = "All that is visible along a line, or a buffer of segments with heuristics, as published",
+         .choices = {"exact", "published"}},
+        {.name = "segments",
+         .standard = "16",
+         .description = "Segments of a line that the published buffer holds",
+         .choices = {},
+         .least = 2,
+         .most = 64},
+        {.name = "shading-step",
+         .standard = "4",
+         .description =
+             "Pixels that a surface moves along a line under one shading point; 0: one point a segment, in its "
+             "middle, as published",
+         .choices = {},
+         .least = 0,
+         .most = 64},
+        {.name = "wheel",
+         .standard = "turned",
+         .description = "Lines that each pixel turns differently, or the same for all, as published",
+         .choices = {"turned", "shared"}},
+    };
+    return {.name = "line",
+            .description = "lens space: lines through the lens for each pixel (Tzeng et al. 2012)",
+            .drawsMotion = false,
+            .settings = settings,
+            .make = [settings](const World& world, const RendererOptions& options) {
+                RendererOptions complete = options;
+                complete.settings = completeSettings("line", settings, options.settings);
+                return makeLensSpaceRenderer(world, complete, std::make_unique<LineKernel>(complete));
+            }};
+}
+
+}  // namespace defocus

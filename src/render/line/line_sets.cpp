@@ -1,0 +1,106 @@
+#include "render/line/line_sets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr int angleSteps = 4096;  // of the table of the light at each angle
+
+// Of a narrow sector with this radius, up to a constant.
+double areaAt(double radius) {
+    return radius * radius;
+}
+
+// From shares of the light to angles in [0, π).
+std::vector<double> lightUpToAngles(const Aperture& aperture) {
+    std::vector<double> sums(angleSteps + 1, 0.0);
+    for (std::size_t i = 0; i < angleSteps; ++i) {
+        const double angle = std::numbers::pi * (static_cast<double>(i) + 0.5) / angleSteps;
+        sums[i + 1] =
+            sums[i] + areaAt(apertureRim(aperture, angle)) + areaAt(apertureRim(aperture, angle + std::numbers::pi));
+    }
+    for (double& sum : sums) sum /= sums.back();
+    sums.back() = 1;
+    return sums;
+}
+
+double angleOfShare(const std::vector<double>& sums, double share) {
+    const auto found = std::upper_bound(sums.begin() + 1, sums.end() - 1, share);
+    const double before = *(found - 1);
+    const double place = (share - before) / (*found - before);
+    return std::numbers::pi * (static_cast<double>(found - 1 - sums.begin()) + place) / angleSteps;
+}
+
+}  // namespace
+
+double apertureRim(const Aperture& aperture, double angle) {
+    if (aperture.bladeCount < 3) return 1;
+    const double blade = 2 * std::numbers::pi / aperture.bladeCount;  // its corners lie at the multiples of this angle
+    const double fromMiddle = angle - (std::floor(angle / blade) + 0.5) * blade;
+    return (1 - aperture.bladeCurvature) * std::cos(blade / 2) / std::cos(fromMiddle) + aperture.bladeCurvature;
+}
+
+LineSets lineSets(const FramePlan& plan, bool turned) {
+    const Aperture aperture = plan.usesLens ? makeAperture(plan.view.lens) : Aperture{};
+    if (aperture.image.rows > 0)
+        fail(
+            "method line: the light along a line through an aperture image has no formula; choose blades or "
+            "stochastic");
+    const std::vector<double> sums = lightUpToAngles(aperture);
+    const auto count = static_cast<std::uint32_t>(plan.samples.size());
+    const auto aspect = static_cast<float>(plan.view.width) / static_cast<float>(plan.view.height);
+    LineSets lines;
+    RaySets& sets = lines.sets;
+    sets.rays = count;
+    sets.variants = turned ? variantCount(count) : 1;
+    sets.table.resize(std::size_t{count} * sets.variants);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    sets.lensBounds.assign(count, {infinity, infinity, -infinity, -infinity});
+    const std::vector<std::uint32_t> order = spreadOrder(count);
+    std::vector<glm::vec2> ways(sets.variants);
+    for (std::uint32_t line = 0; line < count; ++line) {
+        float longest = 0;
+        for (std::uint32_t variant = 0; variant < sets.variants; ++variant) {
+            const double turn = radicalInverse(2, variant) + 0.5 / sets.variants;
+            const double angle = angleOfShare(sums, (order[line] + turn) / count);
+            const double ahead = apertureRim(aperture, angle);
+            const double behind = apertureRim(aperture, angle + std::numbers::pi);
+            const double direction = angle + aperture.bladeRotation;
+            glm::dvec2 way = ahead * glm::dvec2(std::cos(direction), std::sin(direction));
+            if (aperture.anamorphicRatio > 1) way.x /= aperture.anamorphicRatio;
+            if (aperture.anamorphicRatio < 1) way.y *= aperture.anamorphicRatio;
+            if (!plan.usesLens) way = glm::dvec2(0);
+            const auto point = sequencePoint(
+                plan.settings.sequence,
+                std::uint64_t{plan.settings.firstSample} + std::uint64_t{variant} * count + line, plan.settings.seed);
+            const auto backward = static_cast<float>(behind / ahead);
+            const glm::vec2 lens(way.x, aspect * way.y);
+            sets.table[std::size_t{line} * sets.variants + variant] = {
+                glm::vec4(lens, glm::vec2(point.pixel) - 0.5f),
+                glm::vec4(backward, areaAt(ahead) / (areaAt(ahead) + areaAt(behind)), point.time, 0)};
+            glm::vec4& bounds = sets.lensBounds[line];
+            for (const glm::vec2& end : {lens, -backward * lens})
+                bounds = {std::min(bounds.x, end.x), std::min(bounds.y, end.y), std::max(bounds.z, end.x),
+                          std::max(bounds.w, end.y)};
+            ways[variant] = way;
+            longest = std::max(longest, std::max(1.0f, backward));
+        }
+        glm::vec2 mean(0);
+        for (const glm::vec2& way : ways) mean += way;
+        const glm::vec2 across = glm::length(mean) > 0 ? glm::normalize(glm::vec2(-mean.y, mean.x)) : glm::vec2(1, 0);
+        float leaves = 0;
+        for (const glm::vec2& way : ways) leaves = std::max(leaves, std::abs(glm::dot(way, across)));
+        lines.strips.emplace_back(across, leaves * longest, 0);
+    }
+    return lines;
+}
+
+}  // namespace defocus

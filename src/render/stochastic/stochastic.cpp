@@ -1,0 +1,82 @@
+#include "render/stochastic/stochastic.h"
+
+#include "render/lens_space/lens_space.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::uint32_t pointTile = 16;                               // px
+constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // of a wave
+
+class StochasticKernel final : public VisibilityKernel {
+public:
+    explicit StochasticKernel(std::filesystem::path shaderFolder) : shaderFolder_(std::move(shaderFolder)) {}
+
+    [[nodiscard]] std::string name() const override { return "stochastic"; }
+    [[nodiscard]] std::uint32_t tileSize() const override { return pointTile; }
+    [[nodiscard]] RaySets raySets(const FramePlan& plan) const override { return pointRaySets(plan); }
+    [[nodiscard]] ShaderDefines rayDefines() const override { return {}; }
+    [[nodiscard]] std::uint64_t rayBytes() const override { return recordBytes; }
+
+    void start(const FramePlan& plan, const RaySets& rays, const ShaderDefines& defines) override {
+        imageSize_ = {plan.view.width, plan.view.height};
+        bounds_ = rays.lensBounds;
+        boundBlock_ = Buffer(boundBytes);
+        ShaderDefines all = defines;
+        all.emplace_back("TILE", std::to_string(pointTile));
+        all.emplace_back("MOST_RAYS", std::to_string(blockSamples));
+        if (program_ && defines_ == all) return;
+        defines_ = all;
+        program_ = Program({{"stochastic/visible.comp"}, defines_, shaderFolder_});
+    }
+
+    std::uint64_t find(LensFront& front, RayWave& wave) override {
+        const std::uint64_t pixels =
+            std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
+        const std::uint64_t records = pixels * wave.count;
+        if (records_.bytes() < records * recordBytes) {
+            records_ = Buffer();  // before the new one is made: both may not fit
+            records_ = Buffer(records * recordBytes);
+        }
+        boundBlock_.update(0, wave.count * sizeof(glm::vec4), bounds_.data() + wave.first);
+        for (const TileBand& band : front.bands()) {
+            front.fill(band);
+            program_.use();
+            front.bindTriangles();
+            bindRecords();
+            glBindBufferBase(GL_UNIFORM_BUFFER, 7, boundBlock_.name());
+            glUniform2i(0, imageSize_.x, imageSize_.y);
+            glUniform1ui(1, wave.first);
+            glUniform1ui(2, band.first);
+            glDispatchCompute(band.end - band.first, wave.count, 1);
+            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        }
+        return records;
+    }
+
+    void bindRecords() const override { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, records_.name()); }
+    void addTo(RenderStats&) const override {}
+    [[nodiscard]] std::size_t bytes() const override { return records_.bytes(); }
+
+private:
+    std::filesystem::path shaderFolder_;
+    glm::ivec2 imageSize_{0};
+    std::vector<glm::vec4> bounds_;
+    ShaderDefines defines_;
+    Program program_;
+    Buffer boundBlock_, records_;
+};
+
+}  // namespace
+
+Method stochasticMethod() {
+    return {.name = "stochastic",
+            .description = "lens space: points of its own for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
+            .settings = {},
+            .make = [](const World& world, const RendererOptions& options) {
+                return makeLensSpaceRenderer(world, options, std::make_unique<StochasticKernel>(options.shaderFolder));
+            }};
+}
+
+}  // namespace defocus

@@ -1,0 +1,311 @@
+// What both lens-space methods must satisfy: the accumulation is their truth.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bokeh.h"
+#include "core/error.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "likeness.h"
+#include "posed_world.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+RenderSettings raySettings(std::uint32_t samples) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::off;
+    settings.keepAll = true;  // the lens too, even where nothing is blurred
+    return settings;
+}
+
+Image lensSpaceImage(const char* method, const SmallWorld& small, std::uint32_t samples, RenderStats* stats = nullptr,
+                     std::uint32_t wave = 0) {
+    const MethodUse use = parseMethodUse(method);
+    RendererOptions options;
+    options.settings = use.settings;
+    options.wave = wave;
+    const auto renderer = use.method->make(small.world, options);
+    Image image = imageOf(*renderer, planFrame(small.world, small.view, raySettings(samples)));
+    if (stats != nullptr) *stats = renderer->stats();
+    return image;
+}
+
+// Rays with which the methods come as near to the truth as the tests ask: a line is worth several points.
+std::uint32_t enoughFor(const std::string& method) {
+    return method == "line" ? 40 : 256;
+}
+
+double psnrAgainst(const Image& reference, const Image& image) {
+    return compareImages(reference, image, CompareOptions{}).psnr;
+}
+
+double figureOf(const RenderStats& stats, const std::string& name) {
+    for (const MethodFigure& figure : stats.figures)
+        if (figure.name == name) return figure.value;
+    return std::nan("");
+}
+
+// Two rippled spheres, in front of and behind the focus, lit, over a gradient sky.
+std::unique_ptr<SmallWorld> twoSpheres(int slices = 24, int stacks = 18) {
+    auto small = std::make_unique<SmallWorld>();
+    Material glossy;
+    glossy.metallicFactor = 0;
+    glossy.roughnessFactor = 0.4f;
+    small->scene.materials.push_back(glossy);
+    small->scene.meshes.push_back(bumpySphere(slices, stacks, 0));
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {-0.2, -0.1, -1.4}), glm::dvec3(0.2)));
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0.6, 0.4, -5}), glm::dvec3(-0.9, 0.9, 0.9)));
+    PlacedLight sun;
+    sun.light.intensity = 2;
+    sun.direction = glm::normalize(glm::dvec3(-0.3, -1, -0.6));
+    small->world.lights.push_back(sun);
+    small->world.environment = {
+        EnvironmentType::gradient, {0.6f, 0.8f, 1.0f}, {0.4f, 0.5f, 0.6f}, {0.1f, 0.1f, 0.2f}, nullptr, 1};
+    small->view.lens.fStop = 1;
+    small->view.lens.focusDistance = 2.2;
+    small->view.width = 72;
+    small->view.height = 56;
+    finish(*small);
+    return small;
+}
+
+// A ground from behind the camera to far away, which the near plane cuts.
+std::unique_ptr<SmallWorld> groundUnderCamera() {
+    auto small = std::make_unique<SmallWorld>();
+    Mesh mesh = quad(0);
+    mesh.vertices.colors = {{1, 0.2f, 0.1f, 1}, {0.1f, 1, 0.2f, 1}, {0.2f, 0.1f, 1, 1}, {1, 1, 0.2f, 1}};
+    small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+    small->scene.meshes.push_back(mesh);
+    place(*small, 0,
+          glm::rotate(glm::scale(glm::translate(glm::dmat4(1), {0.1, -0.3, 0}), glm::dvec3(4)), -0.5 * std::numbers::pi,
+                      glm::dvec3(1, 0, 0)));
+    small->world.environment = {EnvironmentType::uniform, {0.3f, 0.4f, 0.9f}, {}, {}, nullptr, 1};
+    small->view.width = 64;
+    small->view.height = 48;
+    small->view.lens.fStop = 0.5;
+    small->view.lens.focusDistance = 1.5;
+    finish(*small);
+    return small;
+}
+
+void expectRefusal(const char* method, const SmallWorld& small, const std::string& part) {
+    try {
+        lensSpaceImage(method, small, 4);
+        FAIL() << method << " took it";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+}
+
+class LensSpace : public testing::TestWithParam<const char*> {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    void TearDown() override { EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR}); }
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+TEST_P(LensSpace, convergesToTheAccumulation) {
+    const auto small = twoSpheres();
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
+}
+
+TEST_P(LensSpace, withoutAnApertureIsThePinholeImage) {
+    const auto small = twoSpheres();
+    small->view.lens.dofEnabled = false;
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 44);
+}
+
+TEST_P(LensSpace, showsAConstantSceneAsConstant) {
+    const auto small = twoSpheres();
+    small->scene.materials[0] = unlitMaterial({0.5f, 0.25f, 1, 1});
+    for (auto& pyramid : small->world.pyramids)
+        for (auto& level : pyramid.levels) level.colors.assign(level.colors.size(), glm::vec4(1));
+    small->world.environment = {EnvironmentType::uniform, {0.5f, 0.25f, 1}, {}, {}, nullptr, 1};
+    const Image image = lensSpaceImage(GetParam(), *small, 7);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        ASSERT_NEAR(image.pixels[i], i % 4 == 0 ? 0.5f : i % 4 == 1 ? 0.25f : 1.0f, 2e-5f);
+}
+
+TEST_P(LensSpace, drawsTheSameWhateverTheWave) {
+    const auto small = twoSpheres();
+    const Image whole = lensSpaceImage(GetParam(), *small, 12);
+    EXPECT_TRUE(sameBits(lensSpaceImage(GetParam(), *small, 12, nullptr, 5), whole));
+    EXPECT_TRUE(sameBits(lensSpaceImage(GetParam(), *small, 12), whole));
+}
+
+TEST_P(LensSpace, drawsWhatPassesTheCamera) {
+    const auto small = groundUnderCamera();
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
+}
+
+TEST_P(LensSpace, hasTheShapeOfTheAperture) {
+    const auto small = twoSpheres();
+    small->view.lens.bladeCount = 5;
+    small->view.lens.bladeRotation = 0.3;
+    small->view.lens.bladeCurvature = 0.2;
+    small->view.lens.anamorphicRatio = 1.5;
+    small->view.lens.obstruction = 0.4;
+    small->view.lens.sphericalAberration = 0.6;
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 38);
+}
+
+// 224² squares of two triangles each, within one tile: every ray through them must meet one.
+TEST_P(LensSpace, losesNoneOfAHundredThousandTrianglesInATile) {
+    constexpr std::uint32_t side = 224;
+    auto small = std::make_unique<SmallWorld>();
+    Mesh mesh;
+    mesh.name = "grid";
+    for (std::uint32_t y = 0; y <= side; ++y)
+        for (std::uint32_t x = 0; x <= side; ++x)
+            mesh.vertices.positions.emplace_back(static_cast<float>(x) / side, static_cast<float>(y) / side, 0);
+    mesh.vertices.normals.assign(mesh.vertices.positions.size(), {0, 0, 1});
+    Primitive primitive{0, {}};
+    for (std::uint32_t y = 0; y < side; ++y)
+        for (std::uint32_t x = 0; x < side; ++x) {
+            const std::uint32_t i = y * (side + 1) + x;
+            for (const std::uint32_t v : {i, i + 1, i + side + 2, i, i + side + 2, i + side + 1})
+                primitive.indices.push_back(v);
+        }
+    mesh.primitives.push_back(primitive);
+    small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+    small->scene.meshes.push_back(mesh);
+    small->view.width = small->view.height = 32;
+    small->view.lens.dofEnabled = false;
+    const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // at 2 m
+    // Pixels 17 to 23 from the left and from below: within the tiles of 8 and of 16 px that begin at 16.
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {pixel, pixel, -2}), glm::dvec3(6 * pixel)));
+    small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
+    RenderStats stats;
+    const Image image = lensSpaceImage(GetParam(), *small, 4, &stats);
+    EXPECT_EQ(figureOf(stats, "triangles in the fullest tile"), 2 * side * side);
+    EXPECT_EQ(figureOf(stats, "triangles in all tiles"), 2 * side * side);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const bool inside = x >= 17 && x < 23 && y >= 9 && y < 15;
+            ASSERT_EQ(image.at(x, y)[3], inside ? 1.0f : 0.0f) << x << " " << y;
+        }
+}
+
+TEST_P(LensSpace, refusesByName) {
+    const auto blended = twoSpheres();
+    blended->scene.materials[0].alphaMode = AlphaMode::blend;
+    blended->scene.materials[0].name = "Glass";
+    expectRefusal(GetParam(), *blended, "object 'Object 0' has the alpha-blended material 'Glass'");
+    const auto masked = twoSpheres();
+    masked->scene.materials[0].alphaMode = AlphaMode::mask;
+    expectRefusal(GetParam(), *masked, "alpha-tested");
+    const auto coloured = twoSpheres();
+    coloured->view.lens.axialChromaticAberration = 0.5;
+    expectRefusal(GetParam(), *coloured, "axial chromatic aberration");
+    const auto barrel = twoSpheres();
+    barrel->view.lens.catEye = 0.5;
+    expectRefusal(GetParam(), *barrel, "cat's eye");
+    const auto range = groundUnderCamera();
+    range->view.lens.focusRangeFront = 0.5;
+    range->view.lens.focusRangeBehind = 3;
+    expectRefusal(GetParam(), *range, "controls of the blur");
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, LensSpace, testing::Values("stochastic", "line"));
+
+using Models = LensSpace;
+
+// Textures, normal maps and skins, as the accumulation shades them.
+TEST_P(Models, lookAsInTheAccumulation) {
+    const auto small = posedWorld(modelPath("Fox.glb"), 0.3, 0);
+    small->view.lens.fStop = 1.4;
+    small->view.lens.blurScale = 400;
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 40);
+}
+INSTANTIATE_TEST_SUITE_P(Methods, Models, testing::Values("stochastic", "line"));
+
+class LensSpaceAlone : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+TEST_F(LensSpaceAlone, stochasticPointsBlurMotion) {
+    const auto small = twoSpheres();
+    small->world.shutter.poses.assign(3, small->world.pose);
+    for (int i = 0; i < 3; ++i)
+        small->world.shutter.poses[static_cast<std::size_t>(i)].objects[0].worldFromObject =
+            glm::scale(glm::translate(glm::dmat4(1), {-0.35 + 0.15 * i, -0.1, -1.4 + 0.1 * i * i}), glm::dvec3(0.2));
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(2048)));
+    EXPECT_GE(psnrAgainst(reference, lensSpaceImage("stochastic", *small, 256)), 38);
+    expectRefusal("line", *small, "no time");
+    small->world.shutter.perSample = true;
+    small->world.shutter.poses.push_back(small->world.shutter.poses.back());  // one for each of four samples
+    expectRefusal("stochastic", *small, "motion segments");
+}
+
+// Two far triangles that don't intersect fit into any buffer.
+TEST_F(LensSpaceAlone, exactLinesAreTheBuffersWhereNothingWasDropped) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials = {unlitMaterial({1, 0.5f, 0.2f, 1}), unlitMaterial({0.1f, 0.4f, 0.9f, 1})};
+    small->scene.meshes = {quad(0), quad(1)};
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {-0.3, 0, -1.5}), glm::dvec3(0.4)));
+    place(*small, 1, glm::scale(glm::translate(glm::dmat4(1), {0.5, 0.2, -4}), glm::dvec3(1)));
+    small->world.environment = {EnvironmentType::uniform, {0.3f, 0.3f, 0.3f}, {}, {}, nullptr, 1};
+    small->view.width = 64;
+    small->view.height = 48;
+    small->view.lens.fStop = 0.8;
+    finish(*small);
+    RenderStats stats;
+    const Image exact = lensSpaceImage("line", *small, 16, &stats);
+    EXPECT_EQ(figureOf(stats, "dropped segments per line"), 0);
+    const Image buffered = lensSpaceImage("line:resolve=published", *small, 16, &stats);
+    EXPECT_LT(figureOf(stats, "dropped share of the light"), 1e-4);
+    EXPECT_EQ(figureOf(stats, "merged segments per line"), 0);
+    EXPECT_LT(largestDifference(exact, buffered), 2e-3);
+}
+
+// What a buffer of two segments can't hold is counted, and errs by about as much.
+TEST_F(LensSpaceAlone, fullBuffersCountWhatTheyDrop) {
+    const auto small = twoSpheres();
+    RenderStats stats;
+    const Image exact = lensSpaceImage("line", *small, 16);
+    const Image few = lensSpaceImage("line:resolve=published,segments=2", *small, 16, &stats);
+    EXPECT_GT(figureOf(stats, "dropped share of the light") + figureOf(stats, "merged segments per line"), 0.01);
+    const Image many = lensSpaceImage("line:resolve=published,segments=16", *small, 16);
+    EXPECT_GT(psnrAgainst(exact, many), psnrAgainst(exact, few));
+}
+
+// Two quads that pass through each other: the buffer shows one of them whole between its ends, exact lines both.
+TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials = {unlitMaterial({1, 0, 0, 1}), unlitMaterial({0, 0, 1, 1})};
+    small->scene.meshes = {quad(0), quad(1)};
+    for (const double turn : {-0.6, 0.6})
+        place(*small, turn < 0 ? 0 : 1,
+              glm::rotate(glm::translate(glm::dmat4(1), {0.03, 0, -2}), turn, glm::dvec3(0, 1, 0)));
+    small->world.environment = {EnvironmentType::uniform, {0.3f, 0.3f, 0.3f}, {}, {}, nullptr, 1};
+    small->view.width = 64;
+    small->view.height = 48;
+    small->view.lens.fStop = 0.5;
+    small->view.lens.focusDistance = 1;
+    finish(*small);
+    const Image reference = imageInFloats(small->world, planFrame(small->world, small->view, raySettings(1024)));
+    const double exact = psnrAgainst(reference, lensSpaceImage("line", *small, 64));
+    EXPECT_GE(exact, 40);
+    EXPECT_GT(exact, psnrAgainst(reference, lensSpaceImage("line:resolve=published", *small, 64)) + 3);
+}
+
+}  // namespace
+}  // namespace defocus
