@@ -30,6 +30,8 @@ FORMS = {
 def type_of(setting):
     if setting.kind == "choice":
         return "Literal[" + ", ".join(f'"{choice}"' for choice in setting.choices) + "]"
+    if setting.kind == "number" and setting.choices:
+        return "Union[float, Literal[" + ", ".join(f'"{word}"' for word in setting.choices) + "]]"
     if setting.kind == "number" and setting.unit == "s" and setting.range[0] >= 0:
         return "Union[float, str]"  # 1/48 too
     return FORMS[setting.form] if setting.kind == "other" else TYPES[setting.kind]

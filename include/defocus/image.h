@@ -71,9 +71,10 @@ struct Pixel {
 
 // The curve from linear values to display values, before the sRGB encoding.
 enum class ToneMap {
-    none,  // clip to [0, 1]
-    aces,  // ACES filmic, fit by Stephen Hill (RRT and ODT)
-    agx,   // AgX, Troy Sobotka, base look (polynomial fit by Benjamin Wrensch)
+    none,     // clip to [0, 1]
+    aces,     // ACES filmic, fit by Stephen Hill (RRT and ODT)
+    agx,      // AgX, Troy Sobotka, base look (polynomial fit by Benjamin Wrensch)
+    neutral,  // Khronos PBR Neutral: colours stay as they are up to 0.8, and highlights roll off to white
 };
 
 struct WriteOptions {

@@ -78,7 +78,7 @@ public:
     // samples of each object, and what is left out and why.
     [[nodiscard]] std::string planJson() const;
     // Writes an image of this renderer's frame with its metadata, tone-mapped and exposed as the request says where the
-    // file is a PNG or JPEG.
+    // file is a PNG or JPEG. A metered exposure is that of the first image that is written.
     void write(const std::filesystem::path& path, const ImageView& image) const;
     // What is worth knowing of the file, the request and the frame that was started, a line each: damage, what isn't
     // drawn, values that aren't used, a lens that blurs nothing, samples too few for the blur.

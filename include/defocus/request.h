@@ -27,14 +27,17 @@ enum class Background {
 
 struct Request {
     // Scene. Without a path: the built-in school of fish.
-    std::filesystem::path scene;        // .gltf or .glb
-    int fishCount = 20;                 // of the school, 1 … 10,000
-    int trianglesPerFish = 90'000;      // about
-    double time = 0;                    // s into the animation
-    std::string clip;                   // the animation's name or number; empty: the first
-    bool loop = false;                  // the animation repeats instead of holding its ends
-    ShutterSettings shutter;            // motion blur
-    std::filesystem::path environment;  // equirectangular .hdr or .exr; empty: see Background
+    std::filesystem::path scene;          // .gltf or .glb
+    std::optional<double> metresPerUnit;  // of the scene's lengths, 1e-9 … 1e9; none: what the file says, else a guess
+    int fishCount = 20;                   // of the school, 1 … 10,000
+    int trianglesPerFish = 90'000;        // about
+    double time = 0;                      // s into the animation
+    std::string clip;                     // the animation's name or number; empty: the first
+    bool loop = false;                    // the animation repeats instead of holding its ends
+    ShutterSettings shutter;              // motion blur
+    std::filesystem::path environment;    // "studio", "overcast", "sunset", or an equirectangular .hdr or .exr; empty:
+                                          // see Background
+    double environmentRotation = 0;       // degrees counter-clockwise, seen from above
     Background background = Background::environment;
     std::array<float, 3> backgroundColor{};
 
@@ -68,8 +71,10 @@ struct Request {
     std::uint32_t wave = 0;  // lens samples drawn at once, 1 … 64 (the same image); 0: as memory allows
 
     // Display: how PNG and JPEG are made of the linear image.
-    ToneMap toneMap = ToneMap::none;
-    std::optional<double> exposure;  // EV; none: what the lens's exposure time makes, else 0
+    ToneMap toneMap = ToneMap::neutral;
+    // EV; none: what the lens's exposure time makes; else metered where the scene has lights of its own, and else 0.
+    std::optional<double> exposure;
+    bool exposureAuto = false;  // metered; `exposure` then means nothing
 };
 
 }  // namespace defocus

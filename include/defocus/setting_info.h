@@ -30,7 +30,7 @@ struct SettingInfo {
     std::string unit;     // "mm", "m", "s", "px", "degrees" …; empty: none
     double least = 0;     // range of numbers and whole numbers
     double most = 0;
-    std::vector<std::string> choices;
+    std::vector<std::string> choices;  // of a number: words that may stand in its place
     std::string help;
     std::optional<std::string> standard;  // of a default-made request; none where that leaves the value open
     bool repeated = false;                // may be set several times, each adding to the last

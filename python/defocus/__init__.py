@@ -272,8 +272,8 @@ def read_image(path: Path) -> numpy.ndarray:
 
 
 def write_image(path: Path, image: Any, *, tone_map: Optional[str] = None, exposure: Optional[float] = None) -> None:
-    """Writes .exr (32-bit float, linear), .png or .jpg (8 bit, sRGB). `tone_map` ("none", "aces", "agx") and `exposure`
-    (EV) are for the 8-bit ones. The file appears whole or not at all."""
+    """Writes .exr (32-bit float, linear), .png or .jpg (8 bit, sRGB). `tone_map` ("none", "aces", "agx", "neutral"; "neutral"
+    unless it is given) and `exposure` (EV) are for the 8-bit ones. The file appears whole or not at all."""
     request = _request_of(None, {"tone_map": tone_map, "exposure": exposure})
     _defocus.write_image(path, _pixels(image), request)
 

@@ -21,6 +21,7 @@ __all__: List[str]
 class Keywords(TypedDict, total=False):
     fish_count: Optional[int]
     triangles_per_fish: Optional[int]
+    units: Optional[Union[float, Literal["auto", "m", "cm", "mm"]]]
     time: Optional[float]  # s
     clip: Optional[str]
     loop: Optional[bool]
@@ -28,6 +29,7 @@ class Keywords(TypedDict, total=False):
     shutter_position: Optional[Literal["start", "centre", "end"]]
     motion_segments: Optional[Union[int, str]]
     environment: Optional[Path]
+    environment_rotation: Optional[float]  # degrees
     background: Optional[Union[str, Point]]
     camera: Optional[str]
     camera_position: Optional[Union[Point, str]]  # m
@@ -79,8 +81,8 @@ class Keywords(TypedDict, total=False):
     no_cache: Optional[bool]
     method: Optional[str]
     layer_format: Optional[Literal["automatic", "rgb9e5", "rgba16f", "rgba32f", "rgba8"]]
-    tone_map: Optional[Literal["none", "aces", "agx"]]
-    exposure: Optional[float]  # EV
+    tone_map: Optional[Literal["none", "aces", "agx", "neutral"]]
+    exposure: Optional[Union[float, Literal["auto"]]]  # EV
     lod_metric: Optional[Literal["automatic", "size", "error", "halving", "measured"]]
     level_vertices: Optional[Literal["fitted", "surviving"]]
     lod_coc: Optional[Literal["smallest", "centre"]]
@@ -215,7 +217,7 @@ def write_image(
     path: Path,
     image: numpy.typing.ArrayLike,
     *,
-    tone_map: Optional[Literal["none", "aces", "agx"]] = None,
+    tone_map: Optional[Literal["none", "aces", "agx", "neutral"]] = None,
     exposure: Optional[float] = None,
 ) -> None: ...
 def settings() -> List[Setting]: ...

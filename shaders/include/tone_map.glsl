@@ -1,5 +1,5 @@
 // From linear HDR to display values, as src/image/tone_map.cpp has it: sRGB (IEC 61966-2-1), the ACES fit by Stephen Hill, AgX's
-// base look by Troy Sobotka in Benjamin Wrensch's fit.
+// base look by Troy Sobotka in Benjamin Wrensch's fit, Khronos PBR Neutral.
 
 vec3 finiteColour(vec3 value) {
     const float brightest = 1e6;
@@ -36,8 +36,26 @@ vec3 agxEncoded(vec3 linear) {
     return clamp(outset * curve, 0.0, 1.0);
 }
 
-// Curve 0: none, 1: ACES, 2: AgX (the order of the enumeration ToneMap).
+vec3 neutralEncoded(vec3 v) {
+    const float mirrored = 0.04;
+    const float kept = 0.8 - mirrored;
+    const float left = 1.0 - kept;
+    float least = min(v.r, min(v.g, v.b));
+    v -= least < 2.0 * mirrored ? least - least * least / (4.0 * mirrored) : mirrored;
+    float peak = max(v.r, max(v.g, v.b));
+    if (peak <= kept) return srgbEncoded(v);
+    float compressed = 1.0 - left * left / (peak + left - kept);
+    float white = 1.0 - 1.0 / (0.15 * (peak - compressed) + 1.0);
+    return srgbEncoded(mix(v * (compressed / peak), vec3(compressed), white));
+}
+
+// Curve 0: none, 1: ACES, 2: AgX, 3: neutral (the order of the enumeration ToneMap).
 vec3 displayEncoded(vec3 linear, float gain, int curve) {
     vec3 colour = finiteColour(gain * linear);
-    return curve == 1 ? acesEncoded(colour) : curve == 2 ? agxEncoded(colour) : srgbEncoded(colour);
+    switch (curve) {
+        case 1: return acesEncoded(colour);
+        case 2: return agxEncoded(colour);
+        case 3: return neutralEncoded(colour);
+        default: return srgbEncoded(colour);
+    }
 }

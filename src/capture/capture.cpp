@@ -33,10 +33,11 @@ fs::path partPath(const fs::path& frame, const SampleRange& range) {
     return path;
 }
 
-std::string encodingOf(const std::string& pattern, const WriteOptions& write) {
+std::string encodingOf(const std::string& pattern, const WriteOptions& write, bool metered) {
     const std::string ending = fs::path(pattern).extension().string();
     if (ending == ".exr" || ending == ".EXR") return "";
-    return fmt::format("{} {} {}", ending, static_cast<int>(write.toneMap), write.exposure);
+    const std::string exposure = metered ? "metered" : fmt::format("{}", write.exposure);
+    return fmt::format("{} {} {}", ending, static_cast<int>(write.toneMap), exposure);
 }
 
 bool isFinishedPart(const fs::path& path, const std::string& settings) {
@@ -170,7 +171,7 @@ FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, cons
     film.write = {options.toneMap, options.exposure.value_or(photographicExposure(frame.view.lens))};
     for (const std::string& pattern : options.outputs) {
         FilmSettings settings = options.settings;
-        settings.encoding = encodingOf(pattern, film.write);
+        settings.encoding = encodingOf(pattern, film.write, options.metered);
         film.settings.push_back(settingsHash(settings, frame));
         fs::path path = framePath(pattern, number);
         if (options.sampleRange) path = partPath(path, *options.sampleRange);

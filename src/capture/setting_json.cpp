@@ -44,6 +44,7 @@ std::string textOf(const Setting& setting, const JsonReader& reader) {
     if (setting.name == "motionSegments") return std::to_string(reader.whole(1, 64));
     switch (setting.kind) {
         case SettingKind::number:
+            if (!setting.choices.empty() && reader.value().is_string()) return reader.text();
             return fmt::format("{}", reader.number(setting.least, setting.most));
         case SettingKind::whole:
             return std::to_string(
@@ -83,6 +84,7 @@ nlohmann::ordered_json settingJson(const Setting& setting, const std::string& te
         return colour;
     }
     if (setting.name == "motionSegments") return request.shutter.motionSegments;
+    if (std::ranges::find(setting.choices, text) != setting.choices.end()) return text;
     if (setting.kind == SettingKind::number) return parseNumber(text, {setting.least, setting.most});
     if (setting.kind == SettingKind::whole)
         return parseWhole(text, static_cast<std::uint64_t>(setting.least), static_cast<std::uint64_t>(setting.most));

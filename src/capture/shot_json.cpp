@@ -15,6 +15,7 @@
 #include "frame/presets.h"
 #include "lens/lens_fields.h"
 #include "render/methods.h"
+#include "scene/built_in_environment.h"
 
 namespace defocus {
 
@@ -227,6 +228,7 @@ std::vector<std::string> keysAt(std::string_view place, std::vector<std::string>
 
 // Scene files beside the shot.
 std::string relativeToShot(const Setting& setting, const std::string& text, const Shot& shot) {
+    if (setting.name == "environment" && isBuiltInEnvironment(text)) return text;
     return setting.kind == SettingKind::path ? (shot.file.parent_path() / text).string() : text;
 }
 

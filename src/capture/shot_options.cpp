@@ -1,5 +1,6 @@
 #include "capture/shot_options.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -36,6 +37,13 @@ void scaleFocusPixels(Shot& shot, const Request& request) {
         }
 }
 
+// A shot with lengths in metres is of a scene that its author knows to be in metres.
+bool saysLength(const Shot& shot) {
+    if (std::holds_alternative<CameraKeys>(shot.movement) || std::holds_alternative<Dolly>(shot.movement)) return true;
+    return shot.focus && std::ranges::any_of(shot.focus->keys,
+                                             [](const auto& key) { return std::holds_alternative<double>(key.value); });
+}
+
 }  // namespace
 
 void applyShot(const Shot& shot, Request& request) {
@@ -60,6 +68,7 @@ void settleShot(Shot& shot, Request& request, const GivenOptions& given) {
         shot.lens.erase("focusSwing");
     }
     if (std::optional<FocusTarget> target = takeFocusTarget(request)) shot.focus = FocusTrack{.keys = {{0, *target}}};
+    if (!request.metresPerUnit && saysLength(shot)) request.metresPerUnit = 1;
     if (request.lens.exposureTime && shot.given.contains("exposure")) request.exposure.reset();
     const LensValues lens = givenLensValues(request.lens);
     std::erase_if(shot.lens, [&](const auto& entry) { return lens.contains(entry.first); });

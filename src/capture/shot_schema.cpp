@@ -43,6 +43,8 @@ Json valueSchema(const Setting& setting) {
         return {{"anyOf", {{{"enum", Json::array({0})}}, {{"type", "integer"}, {"minimum", 3}, {"maximum", 64}}}}};
     switch (setting.kind) {
         case SettingKind::number:
+            if (!setting.choices.empty())
+                return {{"anyOf", {rangeJson("number", setting), {{"enum", setting.choices}}}}};
             return rangeJson("number", setting);
         case SettingKind::whole:
             return rangeJson("integer", setting);

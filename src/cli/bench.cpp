@@ -26,8 +26,8 @@ namespace defocus {
 namespace {
 
 struct SpeedupArguments {
-    Request request;
-    std::string preset;  // as it was given, whatever else was given beside it; empty: none
+    Request request = measuredRequest();
+    std::string preset;                   // as it was given, whatever else was given beside it; empty: none
     SpeedupOptions speedup;
     std::filesystem::path folder;  // empty: only the table
     std::filesystem::path report;  // empty: none
@@ -131,6 +131,12 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
 }
 
 }  // namespace
+
+Request measuredRequest() {
+    Request request;
+    request.metresPerUnit = 1;
+    return request;
+}
 
 void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files) {
     if (folder.empty()) return;

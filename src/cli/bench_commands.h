@@ -26,6 +26,9 @@ void addAllowChanged(CLI::App& command, bool& allowed);
 void refuseChangedSources(const std::filesystem::path& output, bool allowed,
                           const std::string& commit = programCommit());
 
+// What a bench measures without options: in metres, as no figure may hang on a guess.
+Request measuredRequest();
+
 // This program, command and machine, the device of `context`, and what is measured: one frame, or what the bench makes
 // by itself.
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global);

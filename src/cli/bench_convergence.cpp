@@ -41,7 +41,7 @@ bool hasRayTracers() {
 }
 
 struct ConvergenceArguments {
-    Request request;
+    Request request = measuredRequest();
     bool unlit = hasRayTracers();
     ConvergenceOptions options;
     std::uint32_t referenceSamples = 4096;

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PoppingArguments {
-    Request request;
+    Request request = measuredRequest();
     PoppingOptions options;
     fs::path folder;  // empty: only the table
     fs::path report;  // empty: none

@@ -18,7 +18,7 @@ namespace defocus {
 namespace {
 
 struct PredictionArguments {
-    Request request;
+    Request request = measuredRequest();
     PredictionOptions options;
     std::filesystem::path folder;  // empty: only the table
     bool allowChanged = false;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "core/file.h"
 #include "core/message.h"
 #include "core/stopwatch.h"
+#include "frame/exposure.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
@@ -133,20 +135,21 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
     }
 }
 
-// Metadata as of `render`, less what differs from run to run.
-FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method) {
-    return
-        [&arguments, &prepared, method](const SequenceFrame& frame, const FramePlan& plan, const RenderStats& stats) {
-            Request options = arguments.request;
-            options.time = frame.time;
-            options.stop.timeLimit.reset();
-            Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0});
-            metadata.erase("defocus:seconds");
-            metadata["capDate"] = std::string();  // else the library puts the time of writing there
-            metadata["defocus:frame"] = frame.frame;
-            metadata["defocus:frameRate"] = arguments.shot.frameRate;
-            return metadata;
-        };
+// Metadata as of `render`, less what differs from run to run. `exposure`: of all frames; none: their lens's.
+FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method,
+                        std::optional<double> exposure) {
+    return [&arguments, &prepared, method, exposure](const SequenceFrame& frame, const FramePlan& plan,
+                                                     const RenderStats& stats) {
+        Request options = arguments.request;
+        options.time = frame.time;
+        options.stop.timeLimit.reset();
+        Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0, exposure});
+        metadata.erase("defocus:seconds");
+        metadata["capDate"] = std::string();  // else the library puts the time of writing there
+        metadata["defocus:frame"] = frame.frame;
+        metadata["defocus:frameRate"] = arguments.shot.frameRate;
+        return metadata;
+    };
 }
 
 // Of the first frame.
@@ -157,6 +160,17 @@ void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepare
     prepared.world.shutter = frame.shutter;
     const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
     printWarnings(planWarnings(plan, method.usesLensSamples), global);
+}
+
+// All frames are exposed as the shot's first one is metered, whichever of them this run renders.
+void meterFilm(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
+               std::vector<FilmFrame>& film, const GlobalOptions& global) {
+    const SequenceFrame frame = frameAt(arguments.shot, base, arguments.shot.range.first);
+    prepared.world.pose = frame.pose;
+    prepared.world.shutter = frame.shutter;
+    prepared.world.lights = frame.lights;
+    const double exposure = meteredExposure(prepared.world, frame.view, frame.settings, global.shaderDir);
+    for (FilmFrame& each : film) each.write.exposure = exposure;
 }
 
 void printFigures(const FilmFigures& figures, std::size_t frames) {
@@ -182,6 +196,8 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     rendererOptions.shaderFolder = global.shaderDir;
     rendererOptions.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = use.method->make(prepared.world, rendererOptions);
+    const std::optional<double> exposure =
+        options.metered ? std::optional(film.front().write.exposure) : options.exposure;
     stopAfterThisFrame();
     // With a time limit at least one frame is rendered, so that run after run ends some day.
     const Clock::time_point start = Clock::now();
@@ -192,7 +208,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
         return stopAsked != 0 || late;
     };
     return renderFilm(arguments.shot, base, prepared.world, *renderer, film, options,
-                      metadataOf(arguments, prepared, use.text()), stop, progress);
+                      metadataOf(arguments, prepared, use.text(), exposure), stop, progress);
 } catch (const Error& error) {
     fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
 }
@@ -208,21 +224,24 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     Progress progress = terminalProgress(global);
     PreparedFrame prepared = placeFrame(arguments.request, progress);
     const SequenceBase base = sequenceBase(prepared, arguments.request);
-    const FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
+    FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
+    options.metered = metersExposure(arguments.request, *prepared.scene, prepared.view.lens);
     const std::vector<int> frames =
         shardFrames(arguments.range.value_or(shot.range), arguments.shard.index, arguments.shard.count);
-    const std::vector<FilmFrame> film = filmFrames(shot, base, frames, options, progress);
+    std::vector<FilmFrame> film = filmFrames(shot, base, frames, options, progress);
     const bool allThere = std::ranges::all_of(film, &FilmFrame::finished);
 
     // The frames.
     std::unique_ptr<GlContext> context;
-    if (!allThere && use.method->needsGl && !arguments.dryRun) context = createHeadlessContext();
-    if (!allThere || arguments.dryRun) addPyramids(prepared, progress);
+    const bool meters = options.metered && (!allThere || !shot.video.empty());
+    if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) context = createHeadlessContext();
+    if (!allThere || meters || arguments.dryRun) addPyramids(prepared, progress);
     progress = {};
     printFrameWarnings(prepared, global);
     printWarnings(ignoredWarnings(*prepared.scene), global);
     if (!allThere) printPlanWarnings(arguments, prepared, base, film, *use.method, global);
     if (arguments.dryRun) return printPlan(arguments, prepared, base, film);
+    if (meters) meterFilm(arguments, prepared, base, film, global);
     progress = terminalProgress(global);
     FilmFigures figures;
     figures.finishedBefore = static_cast<int>(film.size());

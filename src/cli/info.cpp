@@ -344,7 +344,7 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
         settingsOf({SettingGroup::camera, SettingGroup::lens},
                    {"camera", "nodeBlur", "bladeCount", "bladeRotation", "bladeCurvature", "anamorphicRatio",
                     "obstruction", "sphericalAberration", "catEye", "axialChromaticAberration", "apertureImage"}));
-    addSettings(command, options.seen, {"time", "clip", "loop"});
+    addSettings(command, options.seen, {"units", "time", "clip", "loop"});
     for (CLI::Option* option : command.get_options([&](const CLI::Option* each) {
              return each != camera && std::find(before.begin(), before.end(), each) == before.end();
          }))

@@ -22,7 +22,7 @@ namespace {
 struct MergeArguments {
     std::vector<std::filesystem::path> parts;
     std::vector<std::filesystem::path> outputs = {"out.exr"};
-    ToneMap toneMap = ToneMap::none;
+    ToneMap toneMap = Request{}.toneMap;
     std::optional<double> exposure;  // EV; none: the parts'
 };
 
@@ -65,9 +65,10 @@ void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
         ->default_str("out.exr");
     addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
               "Of .png and .jpg; without it, what the lens's exposure time makes, else 0");
-    addChoice<ToneMap>(*command, "--tonemap", arguments->toneMap,
-                       {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
-                       "Film curve of .png and .jpg");
+    addChoice<ToneMap>(
+        *command, "--tonemap", arguments->toneMap,
+        {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},
+        "Film curve of .png and .jpg");
     command->footer(
         "The result has the same bits as a single run on a machine of the same kind.\n\n"
         "Example:\n"

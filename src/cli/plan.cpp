@@ -41,8 +41,8 @@ void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
     command->add_flag("--json", arguments->json, "JSON for programs instead of a table")->group("Output");
     // A plan is of lens samples and levels, whatever draws them, in whatever light and however bright.
     addSettings(*command, arguments->request,
-                settingsOf(frameGroups, {"environment", "targetError", "timeLimit", "method", "layerFormat",
-                                         "exposureTime", "iso"}));
+                settingsOf(frameGroups, {"environment", "environmentRotation", "targetError", "timeLimit", "method",
+                                         "layerFormat", "exposureTime", "iso"}));
     addDeveloperSettings(*command, arguments->request, {"wave"});
     command->footer("Example:\n  defocus plan scene.glb --fstop 1.4 --focus-node Bottle --json");
     command->callback([arguments, &global] { runPlan(*arguments, global); });

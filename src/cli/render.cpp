@@ -19,6 +19,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
+#include "frame/exposure.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
@@ -26,7 +27,6 @@
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "image/tone_map.h"
-#include "lens/photographic_exposure.h"
 #include "render/aov/aov.h"
 #include "render/aov/work.h"
 #include "render/frame_run.h"
@@ -216,8 +216,10 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     // Write.
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     const bool software = context == nullptr || context->software();
-    const RenderReport report{arguments.request, use.text(), frame, plan, stats, software, milliseconds};
-    const double exposure = arguments.request.exposure.value_or(photographicExposure(frame.view.lens));
+    if (metersExposure(arguments.request, *frame.scene, frame.view.lens) && !context) context = createHeadlessContext();
+    const double exposure =
+        chosenExposure(arguments.request, frame.world, frame.view, frame.settings, global.shaderDir);
+    const RenderReport report{arguments.request, use.text(), frame, plan, stats, software, milliseconds, exposure};
     const Metadata metadata = renderMetadata(report);
     if (arguments.sampleRange)
         writeSums(arguments, std::move(part), frame, global.shaderDir, metadata);

@@ -31,9 +31,11 @@ struct SettingsArguments {
 };
 
 std::string rangeText(const Setting& setting) {
-    if (!setting.choices.empty()) return fmt::format("{}", fmt::join(setting.choices, ", "));
     const bool ranged = setting.kind == SettingKind::number || setting.kind == SettingKind::whole;
-    if (ranged) return fmt::format("{:.10g} to {:.10g}", setting.least, setting.most);
+    const std::string words = fmt::format("{}", fmt::join(setting.choices, ", "));
+    if (ranged)
+        return fmt::format("{:.10g} to {:.10g}{}{}", setting.least, setting.most, words.empty() ? "" : ", ", words);
+    if (!words.empty()) return words;
     if (setting.kind == SettingKind::truth) return "true, false";
     return setting.metavar;
 }

@@ -14,9 +14,9 @@ namespace defocus {
 
 // Sets the focus distance of `view`'s lens, and for three points its tilt and swing too. Everything else of the view
 // must be set. It takes the first of these that there is: what the request asks for, the camera's own distance, the
-// median depth of what the image's middle shows, the depth of the scene's centre. Throws Error if a pixel shows nothing,
-// if a node lies behind the camera, and for three points on a line or on a plane that meets the view axis behind the
-// camera.
+// median depth of what the image's middle shows, the depth of the scene's centre. Throws Error if a pixel shows
+// nothing, if a node lies behind the camera, and for three points on a line or on a plane that meets the view axis
+// behind the camera.
 void chooseFocus(const Request& request, const Camera& camera, const Scene& scene, const Pose& pose, View& view);
 
 // Sets the focus distance, tilt and swing so that the focus plane goes through three points in view space (m; the

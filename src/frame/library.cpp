@@ -9,6 +9,7 @@
 #include "defocus/renderer.h"
 #include "defocus/scene.h"
 #include "frame/prepared_frame.h"
+#include "frame/scene_scale.h"
 #include "frame/settings.h"
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
@@ -42,7 +43,9 @@ Json levelsJson(const Pyramid& pyramid) {
 
 SceneHandle loadScene(const std::filesystem::path& path, const Progress& progress) {
     if (path.empty()) throw UsageError("no scene is named; give the path of a .gltf or .glb file");
-    return std::make_shared<Scene>(loadGltf(path, progress));
+    const auto scene = std::make_shared<Scene>(loadGltf(path, progress));
+    setScale({}, *scene);
+    return scene;
 }
 
 SceneHandle schoolOfFish(int fishCount, int trianglesPerFish, const Progress& progress) {

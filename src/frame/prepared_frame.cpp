@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 #include <mutex>
 
 #include "core/error.h"
@@ -16,12 +17,14 @@
 #include "core/stopwatch.h"
 #include "frame/focus.h"
 #include "frame/moment.h"
+#include "frame/scene_scale.h"
 #include "image/image_io.h"
 #include "lens/aperture.h"
 #include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
+#include "scene/built_in_environment.h"
 #include "scene/gltf/gltf.h"
 #include "school/fish_school.h"
 
@@ -32,11 +35,17 @@ namespace {
 // ---- surroundings
 // ----------------------------------------------------------------------------------------------------
 
-std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path) {
-    auto map = std::make_shared<Image>(readImage(path));
-    for (const float value : map->pixels)
+std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path, double rotation) {
+    const bool builtIn = isBuiltInEnvironment(path.string());
+    Image map = builtIn ? builtInEnvironment(path.string()) : readImage(path);
+    for (const float value : map.pixels)
         if (std::isinf(value)) fail("{}: holds infinity and cannot light a scene", path.string());
-    return map;
+    return std::make_shared<Image>(rotation == 0 ? std::move(map) : turnedEnvironment(map, glm::radians(rotation)));
+}
+
+void brighten(Environment& environment, double scale) {
+    for (glm::vec3* radiance : {&environment.zenith, &environment.horizon, &environment.nadir})
+        *radiance *= static_cast<float>(scale);
 }
 
 // ---- camera and lens
@@ -141,12 +150,13 @@ std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path
     return lens.apertureImage;
 }
 
-Environment chosenEnvironment(const Request& request, const Scene& scene) {
+Environment chosenEnvironment(const Request& request, const Scene& scene, const Pose& pose) {
     Environment environment = environmentOrDefault(scene);
+    if (!scene.environment) brighten(environment, skyScale(pose));
     if (!request.environment.empty()) {
         environment = {};
         environment.type = EnvironmentType::map;
-        environment.map = loadEnvironment(request.environment);
+        environment.map = loadEnvironment(request.environment, request.environmentRotation);
     }
     if (request.background == Background::none) environment.visible = false;
     if (request.background == Background::uniform) {
@@ -171,6 +181,7 @@ PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     const Clock::time_point begin = Clock::now();
     const auto scene = std::make_shared<Scene>(loadScene(request, progress));
     setNodeBlur(request, *scene);
+    setScale(request, *scene);
     PreparedFrame frame = placeFrame(scene, request);
     frame.loadMilliseconds = millisecondsSince(begin);
     return frame;
@@ -185,14 +196,18 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     // The scene, at its time.
     PreparedFrame frame;
     frame.scene = scene;
+    frame.scaleNote = guessedScaleNote(request, *scene);
     frame.sceneName = scene->file.empty() ? "fish school" : scene->file.filename().string();
     frame.world.scene = scene;
     frame.world.pose = exposedPose(request, *frame.scene);
 
     // Camera, light, surroundings and settings.
     const PlacedCamera placed = place(frame, request);
-    frame.world.lights = lightsOrDefault(*frame.scene, frame.world.pose, placed);
-    frame.world.environment = environment != nullptr ? *environment : chosenEnvironment(request, *scene);
+    // Surroundings that are asked for are light enough.
+    frame.world.lights =
+        request.environment.empty() ? lightsOrDefault(*frame.scene, frame.world.pose, placed) : frame.world.pose.lights;
+    frame.world.environment =
+        environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
     frame.settings = request.settings;
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
     // Levels of full detail are not worth storing.
@@ -243,6 +258,7 @@ constexpr double smallestScene = 1e-15;  // m
 
 std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
     std::vector<std::string> lines = damageWarnings(*frame.scene);
+    if (frame.scaleNote) lines.push_back(*frame.scaleNote);
     for (const std::string& line : frame.refusedLensValues)
         lines.push_back(fmt::format("camera '{}': {}; not used", frame.cameraName, line));
     const Lens& lens = frame.view.lens;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct PreparedFrame {
     World world;
     View view;
     RenderSettings settings;
-    std::string sceneName;  // the file's name, or "fish school"
+    std::string sceneName;                 // the file's name, or "fish school"
+    std::optional<std::string> scaleNote;  // what the scene's unit was guessed to be; none: nobody guessed
     std::string cameraName;
     Lens cameraLens;                             // the lens without the request's values
     std::vector<std::string> refusedLensValues;  // of the camera's extras, a line each
@@ -36,7 +38,8 @@ Scene loadScene(const Request& request, const Progress& progress = {});
 // request asks for and the scene doesn't have.
 PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 
-// Does the same in a scene that is loaded already. The scene isn't changed, so its nodes keep the blur they have.
+// Does the same in a scene that is loaded already. The scene isn't changed, so its nodes keep the blur they have, and
+// its units the length.
 // `environment`: the surroundings, if they are known from an earlier frame; null: those that the request asks for.
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
                          const Environment* environment = nullptr);
@@ -47,8 +50,9 @@ void setNodeBlur(const Request& request, Scene& scene);
 // Sets camera and lens of a placed frame anew, for a request with another camera. The lights stay.
 void placeCamera(PreparedFrame& frame, const Request& request);
 
-// Returns the surroundings that the request asks for. Throws Error for a map that can't be read or can't light a scene.
-Environment chosenEnvironment(const Request& request, const Scene& scene);
+// Returns the surroundings that the request asks for. A sky that nobody asked for fits the scene's own lights. Throws
+// Error for a map that can't be read or can't light a scene.
+Environment chosenEnvironment(const Request& request, const Scene& scene, const Pose& pose);
 
 // Loads the image of an aperture. Throws Error for one that can't be read or lets no light pass.
 std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path);
@@ -70,8 +74,8 @@ PreparedFrame prepareFrame(const Request& request, const Progress& progress = {}
 // Returns a line for each kind of damage in the scene's file.
 std::vector<std::string> damageWarnings(const Scene& scene);
 
-// Returns the lines of damageWarnings, and one for each value of the camera that isn't used, for a focus that no lens
-// has, and for pyramids that couldn't be stored.
+// Returns the lines of damageWarnings, what the scene's unit was guessed to be, and one for each value of the camera
+// that isn't used, for a focus that no lens has, and for pyramids that couldn't be stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
 }  // namespace defocus

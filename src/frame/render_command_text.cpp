@@ -81,11 +81,15 @@ Request requestOf(const RenderCommandText& text) {
     request.focusPixel.reset();
     request.focusPoints.reset();
     request.focusAuto = false;
+    const double metresPerUnit = text.frame.scene->metresPerUnit;
+    if (metresPerUnit != 1) request.metresPerUnit = metresPerUnit;  // a guess comes out otherwise for a placed camera
     request.toneMap = text.write.toneMap;
     // Brightness is by the lens or by an exposure value, which exclude each other.
     request.exposure.reset();
     const bool byLens = text.view.lens.exposureTime > 0;
-    if (!byLens && (text.write.exposure != 0 || text.frame.cameraLens.exposureTime > 0))
+    const bool meters = !text.frame.scene->file.empty() && !text.frame.scene->lights.empty();
+    request.exposureAuto = false;
+    if (!byLens && (text.write.exposure != 0 || text.frame.cameraLens.exposureTime > 0 || meters))
         request.exposure = text.write.exposure;
     return request;
 }

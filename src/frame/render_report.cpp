@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -51,7 +52,9 @@ void addSettings(Metadata& metadata, const Request& request) {
         const std::optional<std::string> text = setting.text(request);
         if (elsewhere || samePicture || setting.kind == SettingKind::path || !text) continue;
         const std::string name = fmt::format("defocus:{}", setting.name);
-        if (setting.kind == SettingKind::number || setting.kind == SettingKind::whole)
+        if (std::ranges::find(setting.choices, *text) != setting.choices.end())
+            metadata[name] = *text;
+        else if (setting.kind == SettingKind::number || setting.kind == SettingKind::whole)
             metadata[name] = parseNumber(*text, {setting.least, setting.most});
         else if (setting.kind == SettingKind::truth)
             metadata[name] = *text == "true" ? 1 : 0;
@@ -99,6 +102,7 @@ Metadata renderMetadata(const RenderReport& report) {
         metadata["isoSpeed"] = lens.iso;
         metadata["defocus:exposure"] = photographicExposure(lens);
     }
+    if (report.exposure) metadata["defocus:exposure"] = *report.exposure;
     for (const LensField& field : lensFields()) {
         const double value = lensFieldValue(lens, field);
         if (std::isfinite(value)) metadata[std::string("defocus:") + field.name] = value;

@@ -1,6 +1,7 @@
 #pragma once
 // Writes what a render says about itself: metadata in its images, numbers in --stats, a line for people.
 
+#include <optional>
 #include <string>
 
 #include "frame/prepared_frame.h"
@@ -17,7 +18,8 @@ struct RenderReport {
     const FramePlan& plan;
     RenderStats stats;
     bool softwareDriver = false;
-    double totalMilliseconds = 0;  // of the whole command so far
+    double totalMilliseconds = 0;         // of the whole command so far
+    std::optional<double> exposure = {};  // EV of its 8-bit images; none: the lens's
 };
 
 // EXR's standard names where there are any: aperture (f-number), focus (m), nominalFocalLength (mm), worldToCamera,

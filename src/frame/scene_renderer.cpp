@@ -6,13 +6,14 @@
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "defocus/renderer.h"
+#include "frame/exposure.h"
 #include "frame/plan_warnings.h"
-#include "frame/unused_settings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
+#include "frame/scene_scale.h"
+#include "frame/unused_settings.h"
 #include "gl/context.h"
 #include "image/image_io.h"
-#include "lens/photographic_exposure.h"
 #include "plan/plan_text.h"
 #include "render/aov/aov.h"
 #include "render/frame_run.h"
@@ -27,7 +28,8 @@ bool sameScene(const Request& a, const Request& b) {
 }
 
 bool sameSurroundings(const Request& a, const Request& b) {
-    return a.environment == b.environment && a.background == b.background && a.backgroundColor == b.backgroundColor;
+    return a.environment == b.environment && a.environmentRotation == b.environmentRotation &&
+           a.background == b.background && a.backgroundColor == b.backgroundColor;
 }
 
 // Would both be drawn with the same resources?
@@ -61,7 +63,7 @@ public:
     [[nodiscard]] RenderStatistics statistics() const;
     [[nodiscard]] Aovs aovs();
     [[nodiscard]] std::string planText() const;
-    void write(const std::filesystem::path& path, const ImageView& image) const;
+    void write(const std::filesystem::path& path, const ImageView& image);
     [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] const Request& first() const { return first_; }
     [[nodiscard]] SceneHandle scene() const { return scene_; }
@@ -73,7 +75,7 @@ private:
         CurrentContextKeeper callers;
     };
 
-    [[nodiscard]] std::shared_ptr<Scene> blurredScene(const Request& request) const;
+    [[nodiscard]] std::shared_ptr<Scene> scaledScene(const Request& request) const;
     void checkStarted() const;
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
     void makeRenderer();
@@ -86,6 +88,7 @@ private:
     std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // that frames before had; the frame's own is empty
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;
+    std::optional<double> metered_;  // EV, by the first image that was written and needed it
     std::unique_ptr<GlContext> context_;
     std::unique_ptr<Renderer> renderer_;  // of the frame that was started; null: none was
     std::optional<FrameRun> run_;         // with the renderer
@@ -98,7 +101,8 @@ SceneRenderer::State::State(SceneHandle handle, const Request& request, const Pr
     checkRequest(request);
     scene_ = named_ ? std::make_shared<Scene>(loadScene(request, progress))
                     : std::const_pointer_cast<Scene>(std::move(handle));
-    frame_ = placeFrame(blurredScene(request), request);
+    if (named_) setScale(request, *scene_);
+    frame_ = placeFrame(scaledScene(request), request);
     loadMilliseconds_ = millisecondsSince(begin);
     {
         const CurrentContextKeeper callers;
@@ -119,13 +123,17 @@ SceneRenderer::State::~State() {
     }
 }
 
-// The scene with the blur that the request gives to nodes: a copy, as others may render the scene too.
-std::shared_ptr<Scene> SceneRenderer::State::blurredScene(const Request& request) const {
-    if (request.nodeBlur.empty()) return scene_;
-    if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur) return frame_.scene;
-    auto blurred = std::make_shared<Scene>(*scene_);
-    setNodeBlur(request, *blurred);
-    return blurred;
+// The scene with the units and the blur of nodes that the request gives: a copy, as others may render the scene too.
+std::shared_ptr<Scene> SceneRenderer::State::scaledScene(const Request& request) const {
+    const double metresPerUnit = request.metresPerUnit.value_or(scene_->metresPerUnit);
+    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit) return scene_;
+    if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur &&
+        metresPerUnit == frame_.scene->metresPerUnit)
+        return frame_.scene;
+    auto scaled = std::make_shared<Scene>(*scene_);
+    setNodeBlur(request, *scaled);
+    scaled->metresPerUnit = metresPerUnit;
+    return scaled;
 }
 
 void SceneRenderer::State::checkStarted() const {
@@ -166,7 +174,7 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
     if (named_ && !sameScene(request, first_))
         throw UsageError("the request is of another scene; make a SceneRenderer of its own for it");
     const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
-    PreparedFrame next = placeFrame(blurredScene(request), request, known);
+    PreparedFrame next = placeFrame(scaledScene(request), request, known);
     const std::size_t kind = pyramidKind(request);
     const bool samePyramids = kind == pyramidKind(request_);
     const bool same = samePyramids && sameRenderer(request, request_);
@@ -244,12 +252,16 @@ std::string SceneRenderer::State::planText() const {
     return defocus::planJson(run_->plan());
 }
 
-void SceneRenderer::State::write(const std::filesystem::path& path, const ImageView& image) const {
+void SceneRenderer::State::write(const std::filesystem::path& path, const ImageView& image) {
     checkStarted();
     const InContext use(*context_);
+    // The images of a film are metered once.
+    const bool meters = metersExposure(request_, *frame_.scene, frame_.view.lens);
+    const double exposure =
+        meters && metered_ ? *metered_ : chosenExposure(request_, frame_.world, frame_.view, frame_.settings);
+    if (meters) metered_ = exposure;
     const RenderReport report{request_,      chosenMethod(request_).text(), frame_, run_->plan(),
-                              run_->stats(), context_->software(),          0};
-    const double exposure = request_.exposure.value_or(photographicExposure(frame_.view.lens));
+                              run_->stats(), context_->software(),          0,      exposure};
     writeImage(path, image, renderMetadata(report), WriteOptions{request_.toneMap, exposure});
 }
 

@@ -13,6 +13,7 @@
 #include "frame/setting_kinds.h"
 #include "lens/lens_fields.h"
 #include "lod/pyramid/level_selection.h"
+#include "scene/units.h"
 
 namespace defocus {
 
@@ -213,6 +214,25 @@ void add(Rows& rows, SettingGroup group, Rows more) {
     }
 }
 
+Setting unitsSetting() {
+    Setting setting =
+        row(SettingKind::number, "units", "--units", "m|cm|mm|M|auto",
+            "What a length of 1 in the scene is: m, cm, mm or a number of metres; the blur depends on it. "
+            "auto: what the file says (extras); metres where the camera or an option gives a length; "
+            "else what makes a thing of everyday size of what the image frames");
+    setting.least = 1e-9;
+    setting.most = 1e9;
+    setting.choices = {"auto", "m", "cm", "mm"};
+    setting.set = [](Request& request, const std::string& text) {
+        request.metresPerUnit = text == "auto" ? std::nullopt : std::optional(metresOfUnit(text));
+    };
+    setting.text = [](const Request& request) -> std::optional<std::string> {
+        return request.metresPerUnit ? unitOfMetres(*request.metresPerUnit) : "auto";
+    };
+    setting.clear = [](Request& request) { request.metresPerUnit.reset(); };
+    return setting;
+}
+
 Rows sceneRows() {
     return {
         inShot(path("scene", "SCENE", "FILE", MEMBER(scene),
@@ -223,6 +243,7 @@ Rows sceneRows() {
         inShot(whole("trianglesPerFish", "--fish-triangles", 200, 10'000'000, MEMBER(trianglesPerFish),
                      "Triangles a fish, about"),
                "/fish/triangles"),
+        inShot(unitsSetting(), "/units"),
         withUnit(inShot(number("time", "--time", "S", -1e9, 1e9, MEMBER(time),
                                "Seconds into the animation; before and after it, its ends"),
                         "/animation/start"),
@@ -251,9 +272,14 @@ Rows sceneRows() {
                      "Straight lines that a vertex's way is cut into while the shutter is open (1 to 64), or 'exact' "
                      "for a pose of its own for each sample"),
                "/shutter/segments"),
-        inShot(path("environment", "--environment", "FILE", MEMBER(environment),
-                    "Equirectangular image that lies behind the scene and lights it (.hdr or .exr)"),
+        inShot(path("environment", "--environment", "NAME|FILE", MEMBER(environment),
+                    "What lies behind the scene and lights it alone, beside the scene's own lights: studio, overcast, "
+                    "sunset, or an equirectangular image (.hdr or .exr)"),
                "/environment"),
+        withUnit(inShot(number("environmentRotation", "--environment-rotation", "DEG", -360, 360,
+                               MEMBER(environmentRotation), "Turns it counter-clockwise, seen from above"),
+                        "/environmentRotation"),
+                 "degrees"),
         inShot(
             other("background", "--background", "WHAT", setBackground, backgroundText,
                   "'environment' (the default), 'none' for a transparent image, or R,G,B (linear) for one colour all "
@@ -422,17 +448,44 @@ Rows methodRows() {
     };
 }
 
+Setting exposureSetting() {
+    constexpr double least = -60, most = 60;
+    Setting setting =
+        row(SettingKind::number, "exposure", "--exposure", "EV|auto",
+            "Of .png, .jpg and films. auto meters the scene as a camera does, once for a shot. Without it, "
+            "what --exposure-time, --iso and the f-number make; else auto where the scene has lights of "
+            "its own; else 0");
+    setting.least = least;
+    setting.most = most;
+    setting.choices = {"auto"};
+    setting.set = [](Request& request, const std::string& text) {
+        const bool automatic = text == "auto";
+        request.exposure = automatic ? std::nullopt : std::optional(parseNumber(text, {least, most}));
+        request.exposureAuto = automatic;
+    };
+    setting.text = [](const Request& request) -> std::optional<std::string> {
+        if (request.exposureAuto) return "auto";
+        return request.exposure ? std::optional(fmt::format("{}", *request.exposure)) : std::nullopt;
+    };
+    setting.clear = [](Request& request) {
+        request.exposure.reset();
+        request.exposureAuto = false;
+    };
+    return setting;
+}
+
 Rows displayRows() {
     return {
         inShot(choice<ToneMap>("toneMap", "--tonemap",
-                               {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}},
-                               MEMBER(toneMap), "Film curve of .png and .jpg"),
+                               {{"none", ToneMap::none},
+                                {"aces", ToneMap::aces},
+                                {"agx", ToneMap::agx},
+                                {"neutral", ToneMap::neutral}},
+                               MEMBER(toneMap),
+                               "Curve of .png, .jpg and films. neutral keeps colours and rolls highlights off; none "
+                               "clips at white"),
                "/toneMap"),
-        withUnit(inShot(number("exposure", "--exposure", "EV", -60, 60, MEMBER(exposure),
-                               "Of .png and .jpg; without it, what --exposure-time, --iso and the f-number make, else "
-                               "0"),
-                        "/exposure"),
-                 "EV"),
+        withUnit(inShot(exposureSetting(), "/exposure"), "EV"),
     };
 }
 

@@ -29,7 +29,7 @@ struct Setting {
     std::string unit;     // "mm", "m", "s", "px", "degrees" …; empty: none
     double least = 0;     // range of numbers and whole numbers
     double most = 0;
-    std::vector<std::string> choices;
+    std::vector<std::string> choices;  // of a number: words that may stand in its place
     std::string help;
     std::string shotPlace;   // JSON pointer in a shot, "/animation/clip"; empty: shots don't have it
     bool keyed = false;      // a shot may give it keys

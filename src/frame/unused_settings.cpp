@@ -20,6 +20,7 @@ constexpr std::string_view ofTheAperture[] = {"bladeCount",          "bladeRotat
                                               "sphericalAberration", "catEye",        "apertureImage"};
 constexpr std::string_view ofAnOpenShutter[] = {"shutterPosition", "motionSegments"};
 constexpr std::string_view ofTheShutter[] = {"shutter"};
+constexpr std::string_view ofAMap[] = {"environmentRotation"};
 constexpr std::string_view ofAnimation[] = {"time", "loop"};
 constexpr std::string_view ofBlur[] = {
     "focusDistance",    "focusNode",       "focusPixel",          "focusPoints",
@@ -65,6 +66,8 @@ std::vector<std::string> unusedSettings(const Request& request, const Scene& sce
     }
     if (!method.drawsMotion) lines.add(ofTheShutter, fmt::format("the method {} draws no motion", method.name));
     if (request.shutter.seconds == 0) lines.add(ofAnOpenShutter, "without --shutter it is open for a moment");
+    if (request.environment.empty())
+        lines.add(ofAMap, "without --environment the surroundings are the same all around");
     if (scene.clips.empty()) lines.add(ofAnimation, "the scene has no animation");
     if (!lens.dofEnabled) {
         lines.add(ofBlur, "with --no-dof nothing is blurred");

@@ -3,6 +3,8 @@
 // BakingLab; the input matrix goes from sRGB to the RRT's saturated AP1, the output matrix from the ODT's back to sRGB.
 // AgX: Troy Sobotka's picture formation; matrices and polynomial for the base look by Benjamin Wrensch, "Minimal AgX
 // Implementation", 2023. Its result is encoded for a display of power 2.2.
+// Neutral: Khronos PBR Neutral Tone Mapper, specification 1.0, 2024: takes away the 4 % that a dielectric mirrors, so
+// that a grey-lit surface shows its base colour, and compresses what lies above 0.8.
 
 #include "image/tone_map.h"
 
@@ -10,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <utility>
@@ -24,8 +27,8 @@ namespace {
 // Beyond this every curve is flat, and squares are still finite.
 constexpr float brightest = 1e6f;
 
-constexpr std::array<std::pair<std::string_view, ToneMap>, 3> names = {
-    {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}}};
+constexpr std::array<std::pair<std::string_view, ToneMap>, 4> names = {
+    {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}}};
 
 // [0, brightest], NaN to 0 (the comparison is false for NaN).
 float finite(float value) {
@@ -68,12 +71,28 @@ glm::vec3 agxEncoded(const glm::vec3& linear) {
     return v;
 }
 
+glm::vec3 neutralEncoded(glm::vec3 v) {
+    constexpr float mirrored = 0.04f;
+    constexpr float kept = 0.8f - mirrored;  // what lies below is not compressed
+    constexpr float desaturation = 0.15f;
+    const float least = std::min({v.r, v.g, v.b});
+    v -= least < 2 * mirrored ? least - least * least / (4 * mirrored) : mirrored;
+    const float peak = std::max({v.r, v.g, v.b});
+    if (peak <= kept) return srgbEncoded(v);
+    constexpr float left = 1 - kept;
+    const float compressed = 1 - left * left / (peak + left - kept);
+    const float white = 1 - 1 / (desaturation * (peak - compressed) + 1);
+    return srgbEncoded(glm::mix(v * (compressed / peak), glm::vec3(compressed), white));
+}
+
 glm::vec3 encoded(const glm::vec3& linear, ToneMap toneMap) {
     switch (toneMap) {
         case ToneMap::aces:
             return acesEncoded(linear);
         case ToneMap::agx:
             return agxEncoded(linear);
+        case ToneMap::neutral:
+            return neutralEncoded(linear);
         case ToneMap::none:
             break;
     }
@@ -85,7 +104,7 @@ glm::vec3 encoded(const glm::vec3& linear, ToneMap toneMap) {
 ToneMap toneMapNamed(std::string_view name) {
     for (const auto& [known, toneMap] : names)
         if (name == known) return toneMap;
-    fail("unknown tone map \"{}\"; use none, aces or agx", name);
+    fail("unknown tone map \"{}\"; use none, aces, agx or neutral", name);
 }
 
 float srgbEncode(float linear) {

@@ -8,7 +8,7 @@
 
 namespace defocus {
 
-// The enumerator of "none", "aces" or "agx"; throws Error listing the names otherwise.
+// The enumerator of "none", "aces", "agx" or "neutral"; throws Error listing the names otherwise.
 ToneMap toneMapNamed(std::string_view name);
 
 float srgbEncode(float linear);   // [0, 1] → [0, 1]; values outside are clamped, NaN gives 0

@@ -190,6 +190,22 @@ std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, c
     return lights;
 }
 
+double skyScale(const Pose& pose) {
+    constexpr double skyIlluminance = 1.8;  // lux, of environmentOrDefault on what lies flat
+    constexpr double share = 1.0 / 7;
+    const glm::dvec3 middle = pose.bounds.empty() ? glm::dvec3(0) : pose.bounds.centre();
+    const double radius = pose.bounds.empty() ? 0 : 0.5 * glm::length(pose.bounds.size());
+    double illuminance = 0;
+    for (const PlacedLight& placed : pose.lights) {
+        const glm::vec3& color = placed.light.color;
+        const double brightness = placed.light.intensity * glm::dot(color, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+        const double distance = std::max(glm::distance(placed.position, middle), std::max(radius, 1e-6));
+        illuminance += placed.light.type == LightType::directional ? brightness : brightness / (distance * distance);
+    }
+    const double scale = share * illuminance / skyIlluminance;
+    return std::isfinite(scale) ? std::max(scale, 1.0) : 1;
+}
+
 Environment environmentOrDefault(const Scene& scene) {
     if (scene.environment) return *scene.environment;
     // A neutral grey-blue studio: calm behind the subject, hence darker to the eye than it lights.

@@ -42,4 +42,9 @@ std::span<const StudioLight> studioLights();
 std::vector<PlacedLight> lightsOrDefault(const Scene& scene, const Pose& pose, const PlacedCamera& camera);
 Environment environmentOrDefault(const Scene& scene);
 
+// The factor on the radiance of the sky that lightsOrDefault's studio was made for, so that it fits the scene's own
+// lights where these are brighter: as shadows under the sun get light from a sky, it gives the scene's middle a
+// seventh of what they do. 1 at least.
+double skyScale(const Pose& pose);
+
 }  // namespace defocus

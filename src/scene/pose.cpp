@@ -115,6 +115,20 @@ SceneState stateAt(const Scene& scene, double time, int clip) {
     return state;
 }
 
+// Lengths of cameras and lights. What a light does to a surface stays as it is.
+void toMetres(double metresPerUnit, SceneState& state) {
+    constexpr std::string_view lengths[] = {"focusDistance", "focusRangeFront", "focusRangeBehind"};
+    for (Camera& camera : state.cameras) {
+        camera.znear *= metresPerUnit;
+        for (const std::string_view name : lengths)
+            if (const auto found = camera.lens.find(name); found != camera.lens.end()) found->second *= metresPerUnit;
+    }
+    for (Light& light : state.lights) {
+        light.range *= static_cast<float>(metresPerUnit);
+        if (light.type != LightType::directional) light.intensity *= static_cast<float>(metresPerUnit * metresPerUnit);
+    }
+}
+
 // Walks down from `start` (without recursion: a hierarchy may be deeper than the stack) and calls `visit(node,
 // parent)`.
 template <typename Visit>
@@ -189,6 +203,8 @@ void placeLight(const Scene& scene, const SceneState& state, int nodeIndex, Pose
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
     // Local matrices of the moment, multiplied down the hierarchy: first the scene, then what only joints need.
     SceneState state = stateAt(scene, time, clip);
+    toMetres(scene.metresPerUnit, state);
+    const glm::dmat4 metresFromUnits = glm::scale(glm::dmat4(1.0), glm::dvec3(scene.metresPerUnit));
     Pose pose;
     pose.worldFromNode.assign(scene.nodes.size(), glm::dmat4(1.0));
     std::vector<double> cocScales(scene.nodes.size(), 1.0);  // a group is scaled as a whole
@@ -197,7 +213,8 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
         const auto index = static_cast<std::size_t>(node);
         cocScales[index] = scene.nodes[index].cocScale * (parent < 0 ? 1 : cocScales[static_cast<std::size_t>(parent)]);
         const glm::dmat4 local = scene.nodes[index].matrix ? *scene.nodes[index].matrix : matrixOf(state.nodes[index]);
-        pose.worldFromNode[index] = parent < 0 ? local : pose.worldFromNode[static_cast<std::size_t>(parent)] * local;
+        pose.worldFromNode[index] =
+            parent < 0 ? metresFromUnits * local : pose.worldFromNode[static_cast<std::size_t>(parent)] * local;
     };
     for (const int root : scene.roots) walkDown(scene, root, visited, place);
     const std::vector<bool> drawn = visited;

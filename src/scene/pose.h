@@ -39,7 +39,7 @@ struct Pose {
     Bounds bounds;                // of all objects, world space
 };
 
-// The scene at `time` seconds into its clip `clip` (-1: no animation). Times outside the clip hold its ends.
+// The scene in metres at `time` seconds into its clip `clip` (-1: no animation). Times outside the clip hold its ends.
 Pose poseAt(const Scene& scene, double time, int clip = 0);
 // The same with empty `bounds`, which take the longest.
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);

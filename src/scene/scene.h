@@ -173,7 +173,10 @@ struct Scene {
     std::vector<Skin> skins;
     std::vector<AnimationClip> clips;
     std::optional<Environment> environment;  // none given: see withDefaults
-    std::vector<std::string> extensions;     // used by the file, sorted
+    double metresPerUnit = 1;                // of all lengths above; poses are in metres
+    std::optional<double>
+        ownMetresPerUnit;                 // as the file itself says (extras); else it is only believed to hold metres
+    std::vector<std::string> extensions;  // used by the file, sorted
     std::vector<Ignored> ignored;
 };
 

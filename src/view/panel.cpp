@@ -156,7 +156,8 @@ void imageSection(ViewState& state) {
     ImGui::EndDisabled();
     rowLabel("Tone map");
     int toneMap = static_cast<int>(state.display.toneMap);
-    if (ImGui::Combo("##tonemap", &toneMap, "none\0ACES\0AgX\0")) state.display.toneMap = static_cast<ToneMap>(toneMap);
+    if (ImGui::Combo("##tonemap", &toneMap, "none\0ACES\0AgX\0neutral\0"))
+        state.display.toneMap = static_cast<ToneMap>(toneMap);
 }
 
 std::string countText(double count) {

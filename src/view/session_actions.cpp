@@ -88,7 +88,7 @@ void ViewSession::share(const ViewActions& actions) {
     }
     if (actions.saveShot && !state_.shotKeys.empty()) {
         writeFile(state_.shotPath, shotJson({state_.options, frame_->cameraLens, state_.shotKeys,
-                                             state_.animation.speed, writeOptions()}));
+                                             state_.animation.speed, writeOptions(), frame_->scene->metresPerUnit}));
         const std::string command = captureCommand(state_.shotPath, state_.options);
         window_.setClipboard(command);
         say(fmt::format("Written: {}; film it with (on the clipboard): {}", state_.shotPath, command));

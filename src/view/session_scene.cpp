@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
+#include "frame/exposure.h"
 #include "frame/moment.h"
 #include "scene/animation.h"
 #include "view/session.h"
@@ -70,6 +71,10 @@ void ViewSession::adoptScene(LoadedScene scene) {
     state_.camera.pivotDistance = depth > 0 ? depth : std::min(state_.lens.focusDistance, 1e6);
     state_.followsCamera = !scene.options.cameraPosition && !scene.options.cameraTarget && !scene.options.cameraUp;
     state_.nearPlane = wanderingNearPlane(frame_->view.nearPlane, bounds);
+    state_.display.exposure = metersExposure(scene.options, *frame_->scene, state_.lens)
+                                  ? meteredExposure(frame_->world, frame_->view, frame_->settings, shaderFolder_)
+                                  : scene.options.exposure.value_or(state_.display.exposure);
+    if (frame_->scaleNote) say(*frame_->scaleNote);
     for (const std::string& line : frame_->refusedLensValues)
         say(fmt::format("camera '{}': {}; not used", frame_->cameraName, line), true);
     if (!frame_->cacheFailure.empty()) say("simplified meshes are not kept: " + frame_->cacheFailure, true);
@@ -168,7 +173,7 @@ void ViewSession::change(const Request& options) {
         poseScene();
         return;
     }
-    const Environment environment = chosenEnvironment(options, *frame_->scene);
+    const Environment environment = chosenEnvironment(options, *frame_->scene, frame_->world.pose);
     const std::shared_ptr<const Image> aperture = options.lens.apertureImage.empty()
                                                       ? frame_->cameraLens.apertureImage
                                                       : loadApertureImage(options.lens.apertureImage);

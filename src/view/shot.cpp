@@ -11,6 +11,7 @@
 #include "frame/settings.h"
 #include "lens/lens_fields.h"
 #include "plan/camera_path.h"
+#include "scene/built_in_environment.h"
 
 namespace defocus {
 
@@ -114,14 +115,17 @@ std::string shotJson(const ShotRecording& recording) {
     const std::vector<ShotKey>& keys = recording.keys;
     Request request = recording.options;
     if (!request.scene.empty()) request.scene = std::filesystem::absolute(request.scene);
-    if (!request.environment.empty()) request.environment = std::filesystem::absolute(request.environment);
+    if (!request.environment.empty() && !isBuiltInEnvironment(request.environment.string()))
+        request.environment = std::filesystem::absolute(request.environment);
     request.time = keys.front().time;
     request.width = keys.back().view.width;
     request.height = keys.back().view.height;
+    if (recording.metresPerUnit != 1) request.metresPerUnit = recording.metresPerUnit;
     request.toneMap = recording.write.toneMap;
     request.exposure.reset();
+    request.exposureAuto = false;
     const double exposure = recording.write.exposure;
-    if (!shotExposedByLens(keys) && (exposure != 0 || recording.cameraLens.exposureTime > 0))
+    if (!shotExposedByLens(keys) && (exposure != 0 || recording.cameraLens.exposureTime > 0 || !request.scene.empty()))
         request.exposure = exposure;
 
     ordered_json shot;

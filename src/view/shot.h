@@ -23,6 +23,7 @@ struct ShotRecording {
     const std::vector<ShotKey>& keys;
     double animationSpeed = 1;
     WriteOptions write;
+    double metresPerUnit = 1;  // of the scene
 };
 
 // Camera, focus and those lens values that differ between the keys are keyframed; the other values are fixed. The

@@ -47,6 +47,31 @@ TEST(ShotJson, pathsOfTheSceneAreRelativeToTheShot) {
     const Shot shot = parseShot(R"({"scene": "fox.glb", "environment": "/skies/sky.hdr"})", "a/b/x.json");
     EXPECT_EQ(shot.request.scene, "a/b/fox.glb");
     EXPECT_EQ(shot.request.environment, "/skies/sky.hdr");
+    EXPECT_EQ(parseShot(R"({"environment": "studio"})", "a/b/x.json").request.environment, "studio");
+}
+
+TEST(ShotJson, exposureIsANumberOrAuto) {
+    EXPECT_EQ(parseShot(R"({"exposure": -1.5})", "x.json").request.exposure, -1.5);
+    const Shot metered = parseShot(R"({"exposure": "auto"})", "x.json");
+    EXPECT_TRUE(metered.request.exposureAuto);
+    EXPECT_FALSE(metered.request.exposure);
+    EXPECT_THROW(parseShot(R"({"exposure": "bright"})", "x.json"), Error);
+}
+
+// A shot that says where the camera is knows its scene's units; another one leaves them to a guess.
+TEST(ShotJson, lengthsInAShotAreMetres) {
+    const auto unitsOf = [](const char* text) {
+        Shot shot = parseShot(text, "x.json");
+        Request request;
+        applyShot(shot, request);
+        settleShot(shot, request, {});
+        return request.metresPerUnit;
+    };
+    EXPECT_FALSE(unitsOf(R"({"lens": {"fStop": 2}, "focus": {"node": "Fox"}})"));
+    EXPECT_EQ(unitsOf(R"({"focus": {"distance": 2}})"), 1);
+    EXPECT_EQ(unitsOf(R"({"camera": {"dolly": {"distance": 2}}})"), 1);
+    EXPECT_EQ(unitsOf(R"({"camera": {"keys": [{"frame": 0, "position": [0, 0, 9], "target": [0, 0, 0]}]}})"), 1);
+    EXPECT_EQ(unitsOf(R"({"units": "cm", "focus": {"distance": 2}})"), 0.01);
 }
 
 TEST(ShotJson, everyPartIsRead) {

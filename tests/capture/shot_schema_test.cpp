@@ -100,6 +100,7 @@ Schema publishedSchema() {
 json fullShot() {
     return json::parse(R"({
         "$schema": "shot.schema.json", "fish": {"count": 3, "triangles": 900}, "environment": "sky.hdr",
+        "environmentRotation": 30, "units": "cm",
         "background": [0.1, 0.2, 0.3], "frameRate": 25, "range": [0, 48],
         "animation": {"clip": 1, "start": 0.5, "speed": 2, "loop": true},
         "camera": {"name": "Main", "interpolation": "linear",

@@ -32,6 +32,8 @@ TEST(UnusedSettings, eachIsNamedWithItsReason) {
          "--blades, --cat-eye do nothing: the method circular has a round aperture"},
         {{{"method", "circular"}, {"shutter", "0.1"}}, "--shutter does nothing: the method circular draws no motion"},
         {{{"motionSegments", "4"}}, "--motion-segments does nothing: without --shutter it is open for a moment"},
+        {{{"environmentRotation", "30"}},
+         "--environment-rotation does nothing: without --environment the surroundings are the same all around"},
         {{{"time", "2"}}, "--time does nothing: the scene has no animation"},
         {{{"dofEnabled", "false"}, {"fStop", "2"}}, "--fstop does nothing: with --no-dof nothing is blurred"},
         {{{"lod", "off"}, {"lightThreshold", "0.1"}},

@@ -48,6 +48,7 @@ TEST(ToneMapName, isFoundOrListed) {
     EXPECT_EQ(toneMapNamed("none"), ToneMap::none);
     EXPECT_EQ(toneMapNamed("aces"), ToneMap::aces);
     EXPECT_EQ(toneMapNamed("agx"), ToneMap::agx);
+    EXPECT_EQ(toneMapNamed("neutral"), ToneMap::neutral);
     EXPECT_THROW(toneMapNamed("filmic"), Error);
     EXPECT_THROW(toneMapNamed(""), Error);
 }
@@ -73,13 +74,28 @@ TEST(ToneMapped, agxKeepsMiddleGreyAndGreysGrey) {
     }
 }
 
+// The specification's own claims: a colour of at least 8 % in each channel and no more than 80 % loses the mirrored 4 %
+// and nothing else; beyond, 1 is never reached and no step is seen.
+TEST(ToneMapped, neutralKeepsColoursAndRollsHighlightsOff) {
+    const auto kept = shown({0.5f, 0.3f, 0.1f}, ToneMap::neutral);
+    EXPECT_NEAR(kept[0], srgbEncode(0.46f), 1e-5);
+    EXPECT_NEAR(kept[1], srgbEncode(0.26f), 1e-5);
+    EXPECT_NEAR(kept[2], srgbEncode(0.06f), 1e-5);
+    EXPECT_NEAR(shown({0.04f, 0.04f, 0.04f}, ToneMap::neutral)[0], srgbEncode(0.01f), 1e-5);
+    EXPECT_NEAR(shown({0.8f, 0.8f, 0.8f}, ToneMap::neutral)[0], srgbEncode(0.76f), 1e-5);
+    // Above: 1 − 0.24² / (x − 0.04 + 0.24 − 0.76), a hyperbola that meets the line with its slope of 1.
+    EXPECT_NEAR(shown({2, 2, 2}, ToneMap::neutral)[0], srgbEncode(1 - 0.24f * 0.24f / 1.44f), 1e-5);
+    EXPECT_LT(shown({100, 100, 100}, ToneMap::neutral)[0], 1);
+    for (const float channel : shown({1e4f, 0, 0}, ToneMap::neutral)) EXPECT_GT(channel, 0.95f);
+}
+
 TEST(ToneMapped, agxTurnsTheBrightestRedWhiteAndClippingDoesNot) {
     for (const float channel : shown({1e4f, 0, 0}, ToneMap::agx)) EXPECT_GT(channel, 0.95f);
     EXPECT_EQ(shown({1e4f, 0, 0}, ToneMap::none)[1], 0.0f);
 }
 
 TEST(ToneMapped, curvesRiseAndKeepHues) {
-    for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx}) {
+    for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx, ToneMap::neutral}) {
         float previous = -1;
         for (int stop = -120; stop <= 60; ++stop) {
             const float value = std::exp2(static_cast<float>(stop) / 10.0f);
@@ -96,7 +112,7 @@ TEST(ToneMapped, curvesRiseAndKeepHues) {
 TEST(ToneMapped, everyInputGivesAValueInRange) {
     const float infinity = std::numeric_limits<float>::infinity();
     const float notANumber = std::numeric_limits<float>::quiet_NaN();
-    for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx})
+    for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx, ToneMap::neutral})
         for (const float value : {notANumber, infinity, -infinity, -5.0f, 0.0f, 1e-38f, 3e38f})
             for (const double exposure : {-20.0, 0.0, 20.0})
                 for (const float channel : shown({value, 0.5f, value}, toneMap, exposure))
@@ -110,7 +126,7 @@ TEST(ToneMapped, alphaIsKept) {
 }
 
 TEST(ToneMapped, aGreyImageIsShownAsThatGrey) {
-    for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx})
+    for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx, ToneMap::neutral})
         EXPECT_EQ(shown({0.3f}, toneMap)[0], shown({0.3f, 0.3f, 0.3f}, toneMap)[1]);
 }
 

@@ -140,7 +140,7 @@ TEST_F(Growing, displayIsTheToneMapOfTheImage) {
     image.drawFrame(small_->view, settingsOf(8));
     const Image linear = readBack(*image.texture(), 4);
     DisplayPass display;
-    for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx}) {
+    for (const ToneMap toneMap : {ToneMap::none, ToneMap::aces, ToneMap::agx, ToneMap::neutral}) {
         DisplaySettings settings;
         settings.toneMap = toneMap;
         settings.exposure = 0.7;

@@ -54,6 +54,31 @@ TEST(Pose, childrenFollowTheirParents) {
     expectNear(nodeCentre(scene, pose, 0), {10, 0, 0});
 }
 
+// Centimetres: all lengths are a hundredth, of the camera and of the lights too, and what a light does to a surface
+// stays.
+TEST(Pose, isInMetres) {
+    Scene scene = parentAndChild();
+    scene.metresPerUnit = 0.01;
+    scene.cameras.resize(1);
+    scene.cameras[0].znear = 10;
+    scene.cameras[0].lens = {{"focusDistance", 250}, {"fStop", 2}};
+    scene.nodes[1].light = 0;
+    scene.lights.resize(1);
+    scene.lights[0].type = LightType::point;
+    scene.lights[0].intensity = 5;
+    scene.lights[0].range = 300;
+    const Pose pose = poseAt(scene, 0);
+    expectNear(pose.bounds.minimum, {0.08, 0.02, 0});
+    expectNear(pose.bounds.maximum, {0.10, 0.04, 0});
+    EXPECT_NEAR(pose.cameras[0].znear, 0.1, 1e-12);
+    EXPECT_NEAR(pose.cameras[0].lens.at("focusDistance"), 2.5, 1e-12);
+    EXPECT_EQ(pose.cameras[0].lens.at("fStop"), 2);
+    expectNear(pose.lights[0].position, {0.10, 0.02, 0});
+    EXPECT_NEAR(pose.lights[0].light.range, 3, 1e-6);
+    // The illuminance at a distance of 7 units, before and after.
+    EXPECT_NEAR(pose.lights[0].light.intensity / (0.07 * 0.07), 5.0 / (7 * 7), 1e-6);
+}
+
 TEST(Pose, nodesOutsideTheSceneDrawNothing) {
     Scene scene = parentAndChild();
     scene.roots = {};

@@ -203,6 +203,7 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         Dice dice(seed);
         const Request options = randomOptions(dice);
         PreparedFrame frame;
+        frame.scene = std::make_shared<Scene>();
         changeFields(frame.cameraLens, dice);
         View view;
         view.lens = frame.cameraLens;
@@ -210,7 +211,7 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         view.width = dice.whole(1, 4000);
         view.height = dice.whole(1, 4000);
         view.worldFromCamera = randomCamera(dice);
-        WriteOptions write{static_cast<ToneMap>(dice.whole(0, 2)), dice.coin() ? dice.number(-5, 5) : 0};
+        WriteOptions write{static_cast<ToneMap>(dice.whole(0, 3)), dice.coin() ? dice.number(-5, 5) : 0};
         if (view.lens.exposureTime > 0) write.exposure = photographicExposure(view.lens);
         const std::string command = renderCommand({options, frame, view, dice.number(0.1, 20), write, "-out.png"});
         SCOPED_TRACE(command);
@@ -242,6 +243,7 @@ TEST(RenderCommandText, namesAPresetOrItsSettings) {
     Request options;
     applyPreset(presetNamed("jeong2011"), options);
     PreparedFrame frame;
+    frame.scene = std::make_shared<Scene>();
     View view;
     const auto command = [&] { return renderCommand({options, frame, view, 1, {}, "out.png"}); };
     EXPECT_NE(command().find(" --preset jeong2011"), std::string::npos) << command();

@@ -10,6 +10,7 @@
 #include "scene/gltf/node.h"
 #include "scene/gltf/source.h"
 #include "scene/pose.h"
+#include "scene/units.h"
 
 namespace defocus {
 
@@ -58,6 +59,26 @@ std::vector<std::string> extensionsOf(const gltf::Source& source) {
     return {names.begin(), names.end()};
 }
 
+// Among the extras of the asset or of the scene: "cm", or a number of metres. glTF itself has metres.
+std::optional<double> ownMetresPerUnit(const gltf::Source& source) {
+    const nlohmann::json& json = source.document.json;
+    std::vector<const nlohmann::json*> holders;
+    if (const auto scenes = json.find("scenes"); scenes != json.end() && !scenes->empty())
+        holders.push_back(&(*scenes)[json.value("scene", std::size_t{0})]);
+    if (const auto asset = json.find("asset"); asset != json.end()) holders.push_back(&*asset);
+    for (const nlohmann::json* holder : holders) {
+        const auto extras = holder->find("extras");
+        if (extras == holder->end() || !extras->is_object() || !extras->contains("units")) continue;
+        const nlohmann::json& units = (*extras)["units"];
+        try {
+            return metresOfUnit(units.is_string() ? units.get<std::string>() : units.dump());
+        } catch (const Error& error) {
+            gltf::fault(source.document, "the extras' units: {}", error.what());
+        }
+    }
+    return {};
+}
+
 Scene readScene(gltf::Source& source, const std::filesystem::path& path, const Progress& progress) {
     Scene scene;
     scene.file = path;
@@ -86,6 +107,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
 
     // 4. What the file holds besides.
     checkPlacement(source, scene);
+    scene.ownMetresPerUnit = ownMetresPerUnit(source);
     scene.extensions = extensionsOf(source);
     scene.ignored = std::move(source.ignored);
     return scene;

@@ -1,0 +1,68 @@
+// A file with the sun of a clear day, written as people would without a word about exposure.
+
+#include <gtest/gtest.h>
+
+#include "defocus/defocus.h"
+#include "frame/own_context.h"
+#include "image/image_io.h"
+#include "scene/gltf/builder.h"
+
+namespace defocus {
+namespace {
+
+class MeteredRender : public OwnContextTest {
+protected:
+    // A matt grey wall before the camera, lit straight on.
+    void SetUp() override {
+        OwnContextTest::SetUp();
+        GltfBuilder builder;
+        const int positions = builder.positions({-9, -9, -5, 9, -9, -5, 9, 9, -5, -9, 9, -5});
+        const int indices = builder.indices({0, 1, 2, 0, 2, 3});
+        builder.json["materials"] = {
+            {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.5, 0.5, 1}}, {"metallicFactor", 0}}}}};
+        builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", 0}}});
+        builder.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}}};
+        builder.add("nodes", {{"camera", 0}});
+        builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+        builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+            {{"type", "directional"}, {"intensity", 100'000}}};
+        builder.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+        GltfBuilder::save(folder_ / "sunny.glb", builder.glb());
+        request_.scene = folder_ / "sunny.glb";
+        request_.width = 32;
+        request_.height = 24;
+        request_.settings.sampleCount = 4;
+        request_.noCache = true;
+        request_.toneMap = ToneMap::none;
+    }
+
+    // The linear value of the middle pixel of what is written.
+    [[nodiscard]] float written() {
+        SceneRenderer renderer(request_);
+        renderer.write(folder_ / "a.png", renderer.render());
+        return readImage(folder_ / "a.png").at(16, 12)[1];
+    }
+
+    ScratchFolder folder_;
+    Request request_;
+};
+
+// One even surface: the meter brings it to 40 %, however bright the sun is.
+TEST_F(MeteredRender, showsAWallUnderTheSun) {
+    EXPECT_NEAR(written(), 0.4f, 0.02f);
+    request_.exposure = 0;
+    EXPECT_EQ(written(), 1);
+}
+
+// The first image that is written sets the exposure of all: a film doesn't pump.
+TEST_F(MeteredRender, metersOnce) {
+    SceneRenderer renderer(request_);
+    renderer.write(folder_ / "a.png", renderer.render());
+    Request closer = request_;
+    closer.cameraPosition = Vector3{0, 0, -3};
+    renderer.write(folder_ / "b.png", renderer.render(closer));
+    EXPECT_NEAR(readImage(folder_ / "b.png").at(16, 12)[1], readImage(folder_ / "a.png").at(16, 12)[1], 0.02f);
+}
+
+}  // namespace
+}  // namespace defocus
