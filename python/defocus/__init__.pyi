@@ -96,6 +96,7 @@ class Keywords(TypedDict, total=False):
     near_components: Optional[int]
     far_components: Optional[int]
     resolution: Optional[Literal["full", "half", "quarter"]]
+    kernel: Optional[Literal["fitted", "published"]]
     kernel_taps: Optional[Literal["exact", "eight", "sets"]]
     storage: Optional[Literal["float", "half", "r10g10b10a2"]]
     fields: Optional[Literal["separate", "combined"]]
