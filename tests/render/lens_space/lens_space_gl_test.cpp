@@ -206,7 +206,8 @@ TEST_P(LensSpace, losesNoneOfAHundredThousandTrianglesInATile) {
 }
 
 TEST_P(LensSpace, meetsEachOfThousandsOfTrianglesInATile) {
-    constexpr std::uint32_t side = 100;
+    // An exact line walks over its pieces for each triangle, which counts towards the end of software loops.
+    const std::uint32_t side = std::string(GetParam()) == "line" ? 50 : 100;
     const auto small = gridInATile(side);
     RenderStats stats;
     const Image image = lensSpaceImage(GetParam(), *small, 4, &stats);
