@@ -8,7 +8,7 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 3) buffer SumBlock { vec4 sums[]; };   // of each pixel: the sum, and what its additions lost
 #ifdef LINES
 layout(std430, binding = 1) readonly buffer OutputBlock {
-    uvec4 counters;
+    uint counters[6];
     uvec2 ranges[];   // of each ray: its first record, their number
 };
 #endif

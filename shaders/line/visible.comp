@@ -21,6 +21,8 @@ layout(std430, binding = 1) buffer OutputBlock {
     uint droppedSegments;
     uint droppedLight;      // in 1/1024 of a line
     uint mergedSegments;
+    uint unfinished;        // threads whose loops the driver ended
+    uint unused;
     uvec2 ranges[];         // of each ray: its first record, their number
 };
 struct Bounds {
@@ -117,9 +119,13 @@ void main() {
     vec2 tileMost = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
 
     beginLine(mine.values.xy);
+    uint asked = 0u;   // triangles to be held against the line, and those that were
+    uint done = 0u;
+    uint seenBatches = 0u;
     uint end = tileEnds[tile];
     uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
     for (uint base = first; base < end; base += threads) {
+        ++seenBatches;
         keptHere[gl_LocalInvocationIndex] = 0u;
         uint at = base + gl_LocalInvocationIndex;
         uvec4 vertices = uvec4(0u);
@@ -143,7 +149,9 @@ void main() {
         }
         if (gl_LocalInvocationIndex == threads - 1u) keptCount = before + keptHere[gl_LocalInvocationIndex];
         barrier();
+        asked += keptCount;
         for (uint i = 0u; i < keptCount; ++i) {
+            ++done;
             OnLine line = onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
             Interval interval = seen(line, whole);
             if (interval.last > interval.first) addSegment(interval, kept[i].x, line);
@@ -165,6 +173,8 @@ void main() {
     uint at = atomicAdd(recordCount, needed);
     ranges[index] = uvec2(at, needed);
     countDropped();
+    uint batches = end > first ? (end - first - 1u) / threads + 1u : 0u;
+    if (done != asked || seenBatches != batches) atomicAdd(unfinished, 1u);
     if (at + needed > recordCapacity) return;   // the wave is drawn again with room for all
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         at += writeRecords(at, index, piece.triangle, piece.first, piece.last, mine);

@@ -32,6 +32,8 @@ struct Counters {
     std::uint32_t droppedSegments = 0;
     std::uint32_t droppedLight = 0;
     std::uint32_t mergedSegments = 0;
+    std::uint32_t unfinished = 0;
+    std::uint32_t unused = 0;
 };
 
 class LineKernel final : public VisibilityKernel {
@@ -93,6 +95,12 @@ public:
             draw(front, wave);
             glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
             glGetNamedBufferSubData(output_.name(), 0, sizeof counters, &counters);
+            if (counters.unfinished > 0)
+                fail(
+                    "method line: this driver ended the loops over the triangles of a tile, {} at most; choose a "
+                    "larger image or "
+                    "accumulation",
+                    front.statistics().largestTile);
             if (exact_ && counters.droppedSegments > 0 && capacity_ < mostCapacity) {
                 build(capacity_ *= 2);
                 continue;

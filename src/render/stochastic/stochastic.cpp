@@ -1,5 +1,7 @@
 #include "render/stochastic/stochastic.h"
 
+#include "core/error.h"
+#include "gl/context.h"
 #include "render/lens_space/lens_space.h"
 
 namespace defocus {
@@ -39,6 +41,14 @@ public:
             records_ = Buffer();  // before the new one is made: both may not fit
             records_ = Buffer(records * recordBytes);
         }
+        // Mesa's software driver ends loops after 65,535 rounds, whether they are done or not.
+        constexpr std::uint32_t mostRounds = 60000;
+        if (currentIsSoftware() && front.statistics().largestTile > mostRounds)
+            fail(
+                "method stochastic: a tile shows {} triangles, and this software driver's loops end after {}; choose a "
+                "larger "
+                "image or accumulation",
+                front.statistics().largestTile, mostRounds);
         boundBlock_.update(0, wave.count * sizeof(glm::vec4), bounds_.data() + wave.first);
         for (const TileBand& band : front.bands()) {
             front.fill(band);

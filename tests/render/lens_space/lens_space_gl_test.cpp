@@ -163,9 +163,8 @@ TEST_P(LensSpace, hasTheShapeOfTheAperture) {
     EXPECT_GE(psnrAgainst(reference, lensSpaceImage(GetParam(), *small, enoughFor(GetParam()))), 38);
 }
 
-// 224² squares of two triangles each, within one tile: every ray through them must meet one.
-TEST_P(LensSpace, losesNoneOfAHundredThousandTrianglesInATile) {
-    constexpr std::uint32_t side = 224;
+// side² squares of two triangles each over 6 x 6 px within one tile: every ray through them must meet one.
+std::unique_ptr<SmallWorld> gridInATile(std::uint32_t side) {
     auto small = std::make_unique<SmallWorld>();
     Mesh mesh;
     mesh.name = "grid";
@@ -188,7 +187,28 @@ TEST_P(LensSpace, losesNoneOfAHundredThousandTrianglesInATile) {
     const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 2 / 32;  // at 2 m
     // Pixels 17 to 23 from the left and from below: within the tiles of 8 and of 16 px that begin at 16.
     place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {pixel, pixel, -2}), glm::dvec3(6 * pixel)));
+    small->world.environment.type = EnvironmentType::none;  // alpha is coverage
     small->world.pyramids.push_back(fullDetail(small->scene.meshes[0]));
+    return small;
+}
+
+// All are listed. Mesa's software driver ends loops before so many rounds are over, and the methods must say so.
+TEST_P(LensSpace, losesNoneOfAHundredThousandTrianglesInATile) {
+    constexpr std::uint32_t side = 224;
+    const auto small = gridInATile(side);
+    if (currentIsSoftware()) {
+        expectRefusal(GetParam(), *small, "loops");
+        return;
+    }
+    RenderStats stats;
+    lensSpaceImage(GetParam(), *small, 4, &stats);
+    EXPECT_EQ(figureOf(stats, "triangles in the fullest tile"), 2 * side * side);
+}
+
+TEST_P(LensSpace, meetsEachOfThousandsOfTrianglesInATile) {
+    // An exact line walks over its pieces for each triangle, which counts towards the end of software loops.
+    const std::uint32_t side = std::string(GetParam()) == "line" ? 50 : 100;
+    const auto small = gridInATile(side);
     RenderStats stats;
     const Image image = lensSpaceImage(GetParam(), *small, 4, &stats);
     EXPECT_EQ(figureOf(stats, "triangles in the fullest tile"), 2 * side * side);
