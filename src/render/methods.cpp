@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "render/accumulation/accumulation.h"
 #include "render/circular/circular.h"
+#include "render/multirate/multirate.h"
 #include "render/scheuermann/scheuermann.h"
 
 namespace defocus {
@@ -18,6 +19,11 @@ std::vector<Method>& table() {
          .sumsBlocks = true,
          .settings = {},
          .make = makeAccumulationRenderer},
+        {.name = "multirate",
+         .description = "the same, and what is hardly blurred is drawn once for several neighbouring lens samples",
+         .sumsBlocks = true,
+         .settings = {},
+         .make = makeMultirateRenderer},
         scheuermannMethod(),
         circularMethod(),
     };
