@@ -78,6 +78,18 @@ void GlTexture::sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenu
     glTextureParameteri(name(), GL_TEXTURE_WRAP_T, static_cast<GLint>(wrapT));
 }
 
+void GlTexture::clearLayer(std::uint32_t layer) {
+    const FormatRow format = row(info_.format);
+    glClearTexSubImage(name(), 0, 0, 0, static_cast<GLint>(layer), info_.width, info_.height, 1, format.upload,
+                       format.type, nullptr);
+}
+
+void GlTexture::copyLayer(std::uint32_t layer, const TexelRectangle& area, const GlTexture& to,
+                          std::uint32_t toLayer) const {
+    glCopyImageSubData(name(), GL_TEXTURE_2D_ARRAY, 0, area.x, area.y, static_cast<GLint>(layer), to.name(),
+                       GL_TEXTURE_2D_ARRAY, 0, area.x, area.y, static_cast<GLint>(toLayer), area.width, area.height, 1);
+}
+
 std::size_t GlTexture::bytes() const {
     if (!handle_) return 0;
     std::size_t pixels = 0;

@@ -2,6 +2,7 @@
 // An immutable GL texture (2D, or an array of layers), move-only.
 
 #include <cstddef>
+#include <cstdint>
 
 #include "gl/handle.h"
 
@@ -26,6 +27,13 @@ struct TextureInfo {
     int levels = 1;  // mipmap levels
 };
 
+struct TexelRectangle {  // from the lower left corner
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
 class GlTexture {
 public:
     GlTexture() = default;
@@ -36,6 +44,10 @@ public:
     void upload(int level, int width, int height, const void* pixels);
     void generateMipmaps();
     void sampling(GLenum minFilter, GLenum magFilter, GLenum wrapS, GLenum wrapT);
+    // Fills a layer with zeros: black and transparent, or a depth of 0.
+    void clearLayer(std::uint32_t layer);
+    // Copies a rectangle of layer `layer` to the same place of layer `toLayer` of a texture of the same format.
+    void copyLayer(std::uint32_t layer, const TexelRectangle& area, const GlTexture& to, std::uint32_t toLayer) const;
     void attach(GLuint unit) const { glBindTextureUnit(unit, handle_.name()); }
 
     [[nodiscard]] GLuint name() const { return handle_.name(); }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lens/lens_fields.h"
+#include "plan/rates.h"
 
 namespace defocus {
 
@@ -25,7 +26,7 @@ json drawJson(const LevelDraw& draw) {
             {"sampleCount", draw.sampleCount}};
 }
 
-json objectJson(const ObjectPlan& object) {
+json objectJson(const ObjectPlan& object, const ObjectRates& rates) {
     json draws = json::array();
     for (const LevelDraw& draw : {object.coarse, object.fine})
         if (draw.sampleCount > 0) draws.push_back(drawJson(draw));
@@ -40,7 +41,8 @@ json objectJson(const ObjectPlan& object) {
                    {"lambda", object.lambda},
                    {"blended", object.blended},
                    {"moves", !object.motion.empty()},
-                   {"draws", std::move(draws)}};
+                   {"draws", std::move(draws)},
+                   {"rates", {{"lensShare", rates.lensShare}, {"reason", rates.reason}}}};
     if (boundarySample(object)) result["boundaryShare"] = object.boundaryShare;
     return result;
 }
@@ -74,6 +76,22 @@ std::string thresholdsText(const FramePlan& plan) {
     const LodThresholds& thresholds = plan.thresholds;
     if (plan.settings.metric == LodMetric::measured) return fmt::format("light threshold {:.4g}", thresholds.light);
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
+}
+
+// What groups of lens samples share, and why something that is hardly blurred isn't shared.
+std::string ratesText(const FramePlan& plan) {
+    const FrameRates rates = frameRates(plan);
+    std::string text = fmt::format("{} triangles with --method multirate\n", ratedTriangles(plan, rates));
+    for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+        const ObjectPlan& object = plan.objects[i];
+        const ObjectRates& rate = rates.objects[i];
+        if (rate.lensShare > 0)
+            text += fmt::format("  {}: {:.4g} % of the groups of neighbouring lens samples share an image\n",
+                                object.name, 100 * rate.lensShare);
+        else if (object.coc.largest < leastShareBlur)
+            text += fmt::format("  {}: drawn for each sample: {}\n", object.name, rate.reason);
+    }
+    return text;
 }
 
 // No blur has no sign.
@@ -128,14 +146,17 @@ std::string planTable(const FramePlan& plan) {
                                                  : 1;
     text += fmt::format("\n{} triangles in all samples; {} at full detail ({:.1f} times as many)\n",
                         plan.trianglesDrawn, plan.trianglesAtFullDetail, ratio);
+    if (!plan.settings.keepAll && plan.usesLens) text += ratesText(plan);
     if (!plan.leftOut.empty()) text += "\nleft out\n";
     for (const LeftOut& entry : plan.leftOut) text += fmt::format("  {}: {}\n", entry.what, entry.reason);
     return text;
 }
 
 std::string planJson(const FramePlan& plan) {
+    const FrameRates rates = frameRates(plan);
     json objects = json::array();
-    for (const ObjectPlan& object : plan.objects) objects.push_back(objectJson(object));
+    for (std::size_t i = 0; i < plan.objects.size(); ++i)
+        objects.push_back(objectJson(plan.objects[i], rates.objects[i]));
     json leftOut = json::array();
     for (const LeftOut& entry : plan.leftOut) leftOut.push_back({{"what", entry.what}, {"reason", entry.reason}});
     const json document = {{"image", {{"width", plan.view.width}, {"height", plan.view.height}}},
@@ -161,7 +182,8 @@ std::string planJson(const FramePlan& plan) {
                             {{"drawn", plan.trianglesDrawn},
                              {"facingAway", plan.trianglesFacingAway},
                              {"outside", plan.trianglesOutside},
-                             {"fullDetail", plan.trianglesAtFullDetail}}}};
+                             {"fullDetail", plan.trianglesAtFullDetail},
+                             {"multirate", ratedTriangles(plan, rates)}}}};
     return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

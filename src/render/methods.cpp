@@ -11,6 +11,7 @@
 #include "render/accumulation/accumulation.h"
 #include "render/circular/circular.h"
 #include "render/line/line.h"
+#include "render/multirate/multirate.h"
 #include "render/scheuermann/scheuermann.h"
 #include "render/stochastic/stochastic.h"
 
@@ -25,6 +26,11 @@ std::vector<Method>& table() {
          .sumsBlocks = true,
          .settings = {},
          .make = makeAccumulationRenderer},
+        {.name = "multirate",
+         .description = "the same, and what is hardly blurred is drawn once for several neighbouring lens samples",
+         .sumsBlocks = true,
+         .settings = {},
+         .make = makeMultirateRenderer},
         scheuermannMethod(),
         circularMethod(),
         stochasticMethod(),

@@ -35,16 +35,8 @@ void SurfacePass::addDraws(const FramePlan& plan) {
         const ObjectPlan& object = plan.objects[index];
         const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
         GpuMesh& gpuMesh = scene_->mesh(object.mesh);
-        gpuMesh.vertexArray.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
-        gpuMesh.vertexArray.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
-        if (frame_->moments()) {
-            gpuMesh.vertexArray.attribute(momentLocation, 2, GL_FLOAT, false, true);
-            gpuMesh.vertexArray.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec2));
-        }
-        if (frame_->bandShifts()) {
-            gpuMesh.vertexArray.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
-            gpuMesh.vertexArray.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
-        }
+        if (frame_->moments()) gpuMesh.vertexArray.attribute(momentLocation, 2, GL_FLOAT, false, true);
+        if (frame_->bandShifts()) gpuMesh.vertexArray.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
         for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
             Draw draw;
             draw.mesh = object.mesh;
@@ -145,6 +137,14 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
+// Several passes may draw the same meshes, each its own samples.
+void SurfacePass::bindSamples(GpuMesh& mesh) {
+    mesh.vertexArray.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
+    mesh.vertexArray.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
+    if (frame_->moments()) mesh.vertexArray.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec2));
+    if (frame_->bandShifts()) mesh.vertexArray.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
+}
+
 void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t count) {
     const std::uint32_t begin = std::max(first, item.firstSample);
     const std::uint32_t end = std::min(first + count, item.firstSample + item.sampleCount);
@@ -159,6 +159,7 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     const GpuMaterialTextures& textures = scene_->textures(item.material);
     for (GLuint i = 0; i < 5; ++i)
         if (textures.slots[i] != nullptr) textures.slots[i]->attach(i);
+    bindSamples(mesh);
     bindLevel(mesh, item.level);
     if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && info_.shaded && item.level > 0) {
         glUniform4fv(0, 1, &level.leastColor.x);

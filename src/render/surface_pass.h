@@ -82,6 +82,7 @@ private:
     const Program& program(const Draw& draw);
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
     void bindFrame();
+    void bindSamples(GpuMesh& mesh);
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
     void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
     void draw(const Draw& item, std::uint32_t first, std::uint32_t count);

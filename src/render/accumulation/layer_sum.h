@@ -34,6 +34,9 @@ public:
     void beginWave();
     // The layers as a target, which beginWave makes current.
     [[nodiscard]] const Target& layers() const { return layerTarget_; }
+    // What it draws into.
+    [[nodiscard]] const GlTexture& layerColors() const { return layers_; }
+    [[nodiscard]] const GlTexture& layerDepths() const { return depth_; }
     // Adds layers [0, count), each composed over the environment of `frame`, for whose samples from `first` on they
     // were drawn; `count` ≤ K and not beyond the block's end.
     void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);

@@ -1,0 +1,334 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bokeh.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "likeness.h"
+#include "lod/pyramid/pyramid.h"
+#include "plan/rates.h"
+#include "plan/sample_range.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class Multirate : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> Multirate::context_;
+
+RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode::off) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = lod;
+    if (lod != LodMode::off) settings.thresholds = {0.5, 2};
+    return settings;
+}
+
+Image drawnBy(const char* method, const SmallWorld& small, const RenderSettings& settings,
+              const RendererOptions& options = {}) {
+    return imageOf(*methodNamed(method).make(small.world, options), planFrame(small.world, small.view, settings));
+}
+
+// Some of the spheres share, and some don't.
+std::unique_ptr<SmallWorld> partlyShared() {
+    auto small = fiveSpheres();
+    small->view.lens.fStop = 1.2;
+    small->view.width = 120;
+    small->view.height = 90;
+    return small;
+}
+
+std::size_t sharingObjects(const SmallWorld& small, const RenderSettings& settings) {
+    const FramePlan plan = planFrame(small.world, small.view, settings);
+    return static_cast<std::size_t>(
+        std::ranges::count_if(frameRates(plan).objects, [](const ObjectRates& o) { return o.lensShare > 0; }));
+}
+
+// With every rate 1 it is the accumulation.
+TEST_F(Multirate, keepingEverythingGivesTheBitsOfAccumulation) {
+    const auto small = partlyShared();
+    for (const LodMode lod : {LodMode::fractional, LodMode::continuous, LodMode::off}) {
+        RenderSettings settings = ratedSettings(100, lod);
+        ASSERT_GT(sharingObjects(*small, settings), 0u);
+        settings.keepAll = true;
+        EXPECT_TRUE(sameBits(drawnBy("accumulation", *small, settings), drawnBy("multirate", *small, settings)));
+    }
+}
+
+TEST_F(Multirate, waveSizeChangesNoBit) {
+    const auto small = partlyShared();
+    for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5})
+        for (const std::uint32_t samples : {64u, 100u, 200u}) {
+            Image first;
+            for (const std::uint32_t k : {1u, 3u, 8u, 64u}) {
+                RendererOptions options;
+                options.wave = k;
+                options.layerFormat = format;
+                const Image image = drawnBy("multirate", *small, ratedSettings(samples, LodMode::continuous), options);
+                if (first.empty()) first = image;
+                EXPECT_TRUE(sameBits(first, image)) << "K = " << k << ": " << largestDifference(first, image);
+            }
+        }
+}
+
+// Some other machine's GPU may not pick layers in the vertex shader.
+TEST_F(Multirate, geometryShaderLayersGiveTheSameImage) {
+    const auto small = partlyShared();
+    RendererOptions options;
+    options.geometryShaderLayers = true;
+    const RenderSettings settings = ratedSettings(64);
+    EXPECT_LT(
+        largestDifference(drawnBy("multirate", *small, settings), drawnBy("multirate", *small, settings, options)),
+        1e-3);
+}
+
+// Blocks that other machines draw, and blocks that are added later, are those of the whole frame.
+TEST_F(Multirate, blocksAreThoseOfTheWholeFrame) {
+    const auto small = partlyShared();
+    const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
+    const auto whole = methodNamed("multirate").make(small->world, {});
+    const auto part = methodNamed("multirate").make(small->world, {});
+    whole->start(plan);
+    part->start(samplesOf(plan, 0, 64));
+    while (part->advance()) {
+    }
+    for (const std::uint32_t first : {64u, 128u}) {
+        part->continueWith(samplesOf(plan, first, 64));
+        while (part->advance()) {
+        }
+    }
+    while (whole->advance()) {
+    }
+    EXPECT_TRUE(sameBits(whole->image(), part->image()));
+    EXPECT_EQ(whole->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan)));
+    EXPECT_EQ(part->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan)));
+}
+
+TEST_F(Multirate, apertureZeroIsThePinhole) {
+    const auto small = partlyShared();
+    RenderSettings settings = ratedSettings(64);
+    small->view.lens.dofEnabled = false;
+    const Image pinhole = drawnBy("multirate", *small, settings);
+    EXPECT_TRUE(sameBits(pinhole, drawnBy("accumulation", *small, settings)));
+    small->view.lens.dofEnabled = true;
+    small->view.lens.blurScale = 0;
+    EXPECT_TRUE(sameBits(pinhole, drawnBy("multirate", *small, settings)));
+}
+
+// A wall that fills the frame: whatever is shared, every sample shows it once.
+TEST_F(Multirate, constantSceneStaysConstant) {
+    SmallWorld small;
+    small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
+    small.scene.meshes.push_back(quad(0));
+    place(small, 0, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -2.05)), glm::dvec3(9)));
+    small.view.width = 96;
+    small.view.height = 64;
+    small.view.lens.fStop = 1;
+    small.view.lens.focusDistance = 2;
+    finish(small);
+    RendererOptions exact;
+    exact.layerFormat = LayerFormat::rgba32f;
+    for (const std::uint32_t n : {1u, 7u, 32u, 64u, 65u, 200u}) {
+        ASSERT_EQ(sharingObjects(small, ratedSettings(n)), 1u);
+        const Image image = drawnBy("multirate", small, ratedSettings(n), exact);
+        const glm::vec3 expected(0.1f, 0.7f, 1.0f / 3);
+        for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
+            for (glm::length_t c = 0; c < 3; ++c)
+                ASSERT_NEAR(image.pixels[i * 4 + static_cast<std::size_t>(c)], expected[c], 1e-6 * expected[c]) << n;
+    }
+}
+
+Image reference(const SmallWorld& small) {
+    RenderSettings settings = ratedSettings(4096);
+    settings.sequence = Sequence::halton;
+    settings.firstSample = 1u << 20;
+    return drawnBy("accumulation", small, settings);
+}
+
+// Bright pickets, not upright, 2 m away, and a dark wall behind them that ends within the frame.
+std::unique_ptr<SmallWorld> fenceAndWall(double wallDepth, double focus, double fStop) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial({0.9f, 0.8f, 0.3f, 1}));
+    small->scene.materials.push_back(unlitMaterial({0.05f, 0.2f, 0.5f, 1}));
+    small->scene.meshes.push_back(quad(0));
+    small->scene.meshes.push_back(quad(1));
+    const auto at = [](double x, double y, double depth) {
+        return glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(x, y, -depth)), 0.2, glm::dvec3(0, 0, 1));
+    };
+    for (int i = 0; i < 12; ++i) place(*small, 0, glm::scale(at((i - 5.5) * 0.12, 0, 2), glm::dvec3(0.03, 9, 1)));
+    place(*small, 1, glm::scale(at(0.4, 0.3, wallDepth), glm::dvec3(0.9, 0.9, 1)));
+    small->world.environment = {EnvironmentType::uniform, {0.3f, 0.1f, 0.1f}, {}, {}, nullptr, 1};
+    small->view.width = 160;
+    small->view.height = 96;
+    small->view.lens.fStop = fStop;
+    small->view.lens.focusDistance = focus;
+    finish(*small);
+    return small;
+}
+
+// Where everything is shared, the image is the accumulation's of a quarter of the samples.
+TEST_F(Multirate, whatAllShareIsTheAccumulationOfAQuarterOfTheSamples) {
+    const auto small = fenceAndWall(2.4, 2.2, 0.6);
+    for (const ObjectPlan& object : planFrame(small->world, small->view, ratedSettings(64)).objects)
+        ASSERT_TRUE(object.coc.largest > 0.5 && object.coc.largest < wholeShareBlur) << object.coc.largest;
+    RendererOptions exact;
+    exact.layerFormat = LayerFormat::rgba32f;
+    for (const std::uint32_t n : {64u, 256u}) {
+        const Image quarter = drawnBy("accumulation", *small, ratedSettings(n / 4), exact);
+        EXPECT_LT(largestDifference(quarter, drawnBy("multirate", *small, ratedSettings(n), exact)), 1e-5) << n;
+    }
+}
+
+// So it converges as the accumulation does. By the sequence's exponent, N^−0.65, a quarter of the images err by 2.5
+// times more; not all that is shared and seen has just that exponent.
+TEST_F(Multirate, convergesToTheReference) {
+    const auto small = fenceAndWall(3, 2.02, 0.15);
+    ASSERT_EQ(sharingObjects(*small, ratedSettings(64)), 12u);
+    const Image truth = reference(*small);
+    std::vector<double> errors;
+    for (const std::uint32_t n : {64u, 256u, 1024u}) {
+        errors.push_back(compareImages(truth, drawnBy("multirate", *small, ratedSettings(n))).rmse);
+        const double alone = compareImages(truth, drawnBy("accumulation", *small, ratedSettings(n))).rmse;
+        EXPECT_LT(errors.back(), 3 * alone) << n;
+    }
+    EXPECT_GT(std::log(errors.front() / errors.back()) / std::log(16.0), 0.5)
+        << errors[0] << ' ' << errors[1] << ' ' << errors[2];
+}
+
+// Where what is shared lies in front of, or behind, what isn't, neither shows through the other: no pixel is further
+// from the truth than with the accumulation by more than 2/255.
+TEST_F(Multirate, aSharpFenceBeforeABlurredWallAndABlurredOneBeforeASharpWallHaveNoHalo) {
+    for (const bool sharpInFront : {true, false}) {
+        const auto small = fenceAndWall(3, sharpInFront ? 2.02 : 2.98, 0.15);
+        ASSERT_EQ(sharingObjects(*small, ratedSettings(64)), sharpInFront ? 12u : 1u);
+        for (const ObjectPlan& object : planFrame(small->world, small->view, ratedSettings(64)).objects)
+            ASSERT_TRUE(object.coc.largest < 1 || object.coc.largest > 2 * leastShareBlur);
+        const Image truth = reference(*small);
+        const auto worst = [&](const char* method) {
+            return compareImages(truth, drawnBy(method, *small, ratedSettings(1024))).maxError;
+        };
+        EXPECT_LT(worst("multirate"), worst("accumulation") + 2.0 / 255) << sharpInFront;
+    }
+}
+
+// Two panels of one colour that stand edge to edge, one that could share and one that couldn't, before a wall of
+// another colour. No line of the wall may show between them, whatever the levels of detail and wherever the edge lies.
+TEST_F(Multirate, panelsThatTouchShowNoLineBetweenThem) {
+    for (const double across : {0.0, 0.0031}) {
+        SmallWorld small;
+        small.scene.materials.push_back(unlitMaterial({0.5f, 0.5f, 0.5f, 1}));
+        small.scene.materials.push_back(unlitMaterial({1, 0, 0, 1}));
+        small.scene.meshes.push_back(quad(0));
+        small.scene.meshes.push_back(quad(1));
+        // One slants away from the common edge, so that most of it is far more blurred.
+        const glm::dmat4 edge = glm::translate(glm::dmat4(1), glm::dvec3(across, 0, -2.2));
+        const glm::dmat4 panel =
+            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(-0.4, 0, 0)), glm::dvec3(0.4, 0.3, 1));
+        const glm::dmat4 mirrored =
+            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.4, 0, 0)), glm::dvec3(0.4, 0.3, 1));
+        place(small, 0, edge * panel);
+        place(small, 0, edge * glm::rotate(glm::dmat4(1), 1.2, glm::dvec3(0, 1, 0)) * mirrored);
+        place(small, 1, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -9)), glm::dvec3(30)));
+        small.view.width = 160;
+        small.view.height = 96;
+        small.view.lens.fStop = 0.25;
+        small.view.lens.focusDistance = 2.1;
+        finish(small);
+        RendererOptions exact;
+        exact.layerFormat = LayerFormat::rgba32f;
+        const FramePlan plan = planFrame(small.world, small.view, ratedSettings(64));
+        std::size_t couldShare = 0;
+        for (const ObjectPlan& object : plan.objects) couldShare += object.coc.largest < wholeShareBlur ? 1 : 0;
+        ASSERT_EQ(couldShare, 1u);
+        // Near the common edge, away from where either ends before the wall.
+        const auto worst = [&](const char* method) {
+            const Image image = drawnBy(method, small, ratedSettings(64), exact);
+            double largest = 0;
+            for (int y = 36; y < 60; ++y)
+                for (int x = 70; x < 90; ++x)
+                    for (int c = 0; c < 3; ++c) largest = std::max<double>(largest, std::abs(image.at(x, y)[c] - 0.5));
+            return largest;
+        };
+        EXPECT_LT(worst("accumulation"), 1.0 / 255);
+        EXPECT_LT(worst("multirate"), worst("accumulation") + 2.0 / 255);
+    }
+}
+
+// A bright square slightly out of focus, all of it shared, keeps its energy and its second moment.
+TEST_F(Multirate, aBlurredLightKeepsItsEnergyAndItsSpread) {
+    View view = bokehView(64, 64);
+    view.lens.fStop = 0.35;
+    const double depth = 3.5;
+    const double c = blurDiameter(view, depth);
+    ASSERT_LT(c, wholeShareBlur);
+    ASSERT_GT(c, 2);
+    const double side = 9;
+    const Scene scene =
+        rectangleScene(view, {{32 - side / 2, 32 - side / 2, 32 + side / 2, 32 + side / 2, depth}}, {8, 8, 8});
+    World world = flatWorld(scene, blackBackground());
+    world.pyramids = buildPyramids(scene.meshes);
+    RendererOptions exact;
+    exact.layerFormat = LayerFormat::rgba32f;
+    const FramePlan plan = planFrame(world, view, ratedSettings(64));
+    ASSERT_EQ(frameRates(plan).objects[0].lensShare, 1);
+    const Image image = imageOf(*methodNamed("multirate").make(world, exact), plan);
+    double energy = 0;
+    double second = 0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const double value = image.at(x, y)[0];
+            energy += value;
+            second += value * (std::pow(x + 0.5 - 32, 2) + std::pow(y + 0.5 - 32, 2));
+        }
+    EXPECT_NEAR(energy, 8 * side * side, 0.01 * 8 * side * side);
+    // Along both axes: a disk has c²/16 on each, a square side²/12, and a pixel 1/12 twice: where it lies and what it
+    // gathers.
+    const double expected = 2 * (c * c / 16 + side * side / 12 + 1.0 / 12);
+    EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.1);
+}
+
+// What isn't drawn as an opaque surface, or is seen through a limited lens, keeps its place beside what is shared.
+TEST_F(Multirate, everyKindOfSurfaceAndLensStaysWhatItWas) {
+    const auto check = [](const SmallWorld& small, const char* what) {
+        const RenderSettings settings = ratedSettings(256);
+        EXPECT_GT(sharingObjects(small, settings), 0u) << what;
+        const Difference difference =
+            compareImages(drawnBy("accumulation", small, settings), drawnBy("multirate", small, settings));
+        EXPECT_LT(difference.rmse, 0.012) << what;
+        EXPECT_LT(std::abs(difference.mae), 0.004) << what;
+    };
+    auto small = partlyShared();
+    check(*small, "spheres");
+    Material glass = small->scene.materials[0];
+    glass.alphaMode = AlphaMode::blend;
+    glass.baseColorFactor = {1, 0.5f, 0.2f, 0.5f};
+    small->scene.materials.push_back(glass);
+    small->scene.meshes.push_back(bumpySphere(24, 16, 1));
+    place(*small, 1, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.1, 0, -2.6)), glm::dvec3(0.3)));
+    finish(*small);
+    check(*small, "glass");
+    auto map = std::make_shared<Image>(32, 16, 3);
+    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i % 7) / 7;
+    small->world.environment = {EnvironmentType::map, {}, {}, {}, map, 1};
+    check(*small, "map");
+    small->view.lens.focusTilt = 0.05;
+    check(*small, "tilt");
+    small->view.lens.catEye = 0.5;
+    check(*small, "cat's eye");
+    small->view.lens.catEye = 0;
+    small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};
+    check(*small, "transparent");
+}
+
+}  // namespace
+}  // namespace defocus
