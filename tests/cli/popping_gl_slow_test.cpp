@@ -85,6 +85,7 @@ protected:
     // 576 triangles, 100 m long: few pixels and much blur bring its levels into play.
     void fox(const std::filesystem::path& path) {
         options_.scene = path;
+        options_.metresPerUnit = 1;
         options_.clip = "Walk";
         options_.time = 0.3;  // in the middle of a step
         options_.lens.blurScale = 1000;

@@ -36,6 +36,8 @@ struct Counters {
     std::uint32_t unused = 0;
 };
 
+constexpr std::uint32_t standardSegments = 16;
+
 class LineKernel final : public VisibilityKernel {
 public:
     explicit LineKernel(const RendererOptions& options)
@@ -43,7 +45,10 @@ public:
           exact_(options.settings.at("resolve") == "exact"),
           turned_(options.settings.at("wheel") == "turned"),
           segments_(static_cast<std::uint32_t>(numberOf(options.settings, "segments"))),
-          shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {}
+          shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {
+        if (exact_ && segments_ != standardSegments)
+            fail("method line: segments is of resolve=published; exact lines hold as many as they need");
+    }
 
     [[nodiscard]] std::string name() const override { return "line"; }
     [[nodiscard]] std::uint32_t tileSize() const override { return lineTile; }
@@ -98,8 +103,7 @@ public:
             if (counters.unfinished > 0)
                 fail(
                     "method line: this driver ended the loops over the triangles of a tile, {} at most; choose a "
-                    "larger image or "
-                    "accumulation",
+                    "larger image or accumulation",
                     front.statistics().largestTile);
             if (exact_ && counters.droppedSegments > 0 && capacity_ < mostCapacity) {
                 build(capacity_ *= 2);
@@ -109,8 +113,7 @@ public:
                 if (wave.count == 1)
                     fail(
                         "method line: what one line of each pixel sees takes {} records, and this driver's shaders "
-                        "read at "
-                        "most {} of one buffer; choose a smaller image or a longer shading step",
+                        "read at most {} of one buffer; choose a smaller image or a longer shading step",
                         counters.records, mostRecords());
                 wave.count /= 2;
                 continue;
@@ -222,7 +225,7 @@ Method lineMethod() {
          .description = "All that is visible along a line, or a buffer of segments with heuristics, as published",
          .choices = {"exact", "published"}},
         {.name = "segments",
-         .standard = "16",
+         .standard = std::to_string(standardSegments),
          .description = "Segments of a line that the published buffer holds",
          .choices = {},
          .least = 2,
