@@ -71,6 +71,8 @@ struct RenderSettings {
     GivenThresholds thresholds;
     double cocTolerance = 0.5;  // px by which C may differ from its interpolation inside a triangle, > 0
     bool keepAll = false;       // leave nothing out: the image must be the same
+    // The number of samples that the rates of method multirate follow, where it isn't sampleCount; 0: it is.
+    std::uint32_t rateSamples = 0;
 };
 
 // When a frame has lens samples enough, where their number isn't chosen beforehand. With either of the first two,

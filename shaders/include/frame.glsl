@@ -2,10 +2,11 @@
 // gpu_scene.h.
 
 layout(std140, binding = 0) uniform FrameBlock {
-    vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m), unused
+    vec4 projection;      // 1/tan(θx/2), 1/tan(θy/2), near plane (m); 16 times the variance that larger pixels add (px²)
     vec4 coc;             // a, b₁ of C; image width (px); b₂        (src/lens/circle_of_confusion.h)
     vec4 cocField;        // tilt t (2), κ, g
     vec4 cocLimits;       // R₁, R₂; 1/k²; px by which C may differ from its interpolation in a triangle
+    vec4 pixelGrid;       // PIXEL_RATE: from the image's device units to those of the layer: scale, shift
     mat4 worldFromView;   // rotation
     vec4 lightPositions[MAX_LIGHTS];  // from the camera along the world's axes, m; w: range, 0 is unlimited
 } frame;

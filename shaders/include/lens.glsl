@@ -47,7 +47,15 @@ vec4 throughLens(vec3 pinhole, float scale, vec4 lensAndJitter) {
 #else
     float c = frame.coc.x + (frame.coc.y + bandShift) * w;
 #endif
+#ifdef PIXEL_RATE
+    // Variances add: what larger pixels blur, the lens doesn't.
+    float diameter = c / w * frame.coc.z;
+    c *= sqrt(max(1.0 - frame.projection.w / max(diameter * diameter, 1e-6), 0.0));
+    vec2 place = pinhole.xy + c * lensAndJitter.xy + w * lensAndJitter.zw;
+    return vec4(place * frame.pixelGrid.xy + w * frame.pixelGrid.zw, frame.projection.z, w);
+#else
     return vec4(pinhole.xy + c * lensAndJitter.xy + w * lensAndJitter.zw, frame.projection.z, w);
+#endif
 }
 
 // Signed diameter of the circle of confusion in px at a value of the depth buffer (1/w times the near plane; 0 is infinity).

@@ -152,6 +152,7 @@ std::string statsJson(const RenderReport& report) {
         {"device", stats.device},
         {"driver", stats.driver},
     };
+    if (stats.mixedShare) json["mixedShare"] = *stats.mixedShare;
     if (report.options.stop.given()) {
         json["stopped"] = stopReasonText(stats.stopped);
         json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;

@@ -246,6 +246,16 @@ void noteLevels(FramePlan& plan, const World& world) {
 
 }  // namespace
 
+glm::ivec2 layerSize(const glm::ivec2& image, int pixelRate) {
+    return pixelRate == 1 ? image : (image + pixelRate - 1) / pixelRate + 2;
+}
+
+double pixelRateBlur(int pixelRate) {
+    const double box = pixelRate * pixelRate / 12.0;
+    const double tent = pixelRate * pixelRate / 6.0;
+    return pixelRate == 1 ? 0 : 16 * (box + tent - 1 / 12.0);
+}
+
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level) {
     const auto found = std::find_if(object.visible.begin(), object.visible.end(),
                                     [&](const VisibleLevel& visible) { return visible.level == level; });
@@ -265,12 +275,14 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     FramePlan plan;
     plan.view = view;
     plan.settings = settings;
+    if (settings.rateSamples == 0) plan.settings.rateSamples = settings.sampleCount;
     plan.settings.metric = chosenMetric(settings.metric, settings.thresholds);
     plan.thresholds = chosenThresholds(settings.thresholds, settings.metric, settings.sampleCount);
     plan.tanHalfHorizontal = tanHalfHorizontalFov(view.lens);
     plan.apertureDiameter = apertureDiameter(view.lens);
     plan.coc = clipCircleOfConfusion(view.lens, view.width, view.height);
     plan.needsAlpha = world.environment.type == EnvironmentType::none || !world.environment.visible;
+    plan.drawsBackground = world.environment.type == EnvironmentType::map && !plan.needsAlpha;
     if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
         fail("lens: a cat's eye needs a background: what the barrel hides of it has no coverage of its own");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -95,6 +96,9 @@ struct FramePlan {
     // even if the lens is left out. Boxes bound it: an object that reaches the near plane makes it infinite.
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
+    // Px a pixel of the layers that the plan is drawn into, each way: 1, or more for what is strongly blurred
+    // (rates.h).
+    int pixelRate = 1;
     std::vector<LensSample> samples;    // the samples to draw, in order
     std::vector<SampleMoment> moments;  // one for each sample; empty if nothing moves during the exposure
     // From the view at each moment of the shutter to the view in its middle; empty if the camera doesn't move.
@@ -107,7 +111,8 @@ struct FramePlan {
     bool usesCocScales = false;    // some object or vertex scales its blur
     bool usesTextures = false;
     bool usesBlending = false;
-    bool needsAlpha = false;  // the background is transparent, so the accumulation keeps coverage
+    bool needsAlpha = false;       // the background is transparent, so the accumulation keeps coverage
+    bool drawsBackground = false;  // the background is a map, which is drawn for each sample
     // Sums over all samples.
     std::uint64_t trianglesDrawn = 0;
     std::uint64_t trianglesFacingAway = 0;  // left out of the drawn levels, because their clusters face away
@@ -119,6 +124,14 @@ struct FramePlan {
 inline constexpr std::uint32_t antialiasingSamples = 16;
 // If no blur is wider than this diameter, the lens is left out (unless keepAll is set).
 inline constexpr double leastBlur = 0.5;  // px
+
+// Returns the pixels of the layers that an image (px) is drawn into: those of the image, or larger ones and one more of
+// them on each side.
+glm::ivec2 layerSize(const glm::ivec2& image, int pixelRate);
+
+// Returns 16 times the variance along each axis, px², that larger pixels add to the image's own: a box of `pixelRate`
+// px by the pixel offsets, and a tent of twice that by the interpolation. A disk of diameter c has c²/16.
+double pixelRateBlur(int pixelRate);
 
 // Returns the part of `level` that is drawn, or null if all of it is drawn.
 const VisibleLevel* visibleLevel(const ObjectPlan& object, std::uint32_t level);

@@ -30,19 +30,20 @@ json objectJson(const ObjectPlan& object, const ObjectRates& rates) {
     json draws = json::array();
     for (const LevelDraw& draw : {object.coarse, object.fine})
         if (draw.sampleCount > 0) draws.push_back(drawJson(draw));
-    json result = {{"name", object.name},
-                   {"depth", {number(object.nearestDepth), number(object.farthestDepth)}},
-                   {"coc",
-                    {{"nearest", number(object.coc.nearest)},
-                     {"farthest", number(object.coc.farthest)},
-                     {"smallest", number(object.coc.smallest)},
-                     {"largest", number(object.coc.largest)}}},
-                   {"projectedEdge", number(object.projectedEdge)},
-                   {"lambda", object.lambda},
-                   {"blended", object.blended},
-                   {"moves", !object.motion.empty()},
-                   {"draws", std::move(draws)},
-                   {"rates", {{"lensShare", rates.lensShare}, {"reason", rates.reason}}}};
+    json result = {
+        {"name", object.name},
+        {"depth", {number(object.nearestDepth), number(object.farthestDepth)}},
+        {"coc",
+         {{"nearest", number(object.coc.nearest)},
+          {"farthest", number(object.coc.farthest)},
+          {"smallest", number(object.coc.smallest)},
+          {"largest", number(object.coc.largest)}}},
+        {"projectedEdge", number(object.projectedEdge)},
+        {"lambda", object.lambda},
+        {"blended", object.blended},
+        {"moves", !object.motion.empty()},
+        {"draws", std::move(draws)},
+        {"rates", {{"lensShare", rates.lensShare}, {"largerPixels", rates.largerShares}, {"reason", rates.reason}}}};
     if (boundarySample(object)) result["boundaryShare"] = object.boundaryShare;
     return result;
 }
@@ -78,7 +79,7 @@ std::string thresholdsText(const FramePlan& plan) {
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 
-// What groups of lens samples share, and why something that is hardly blurred isn't shared.
+// What groups of lens samples share and what has larger pixels, and why something else doesn't.
 std::string ratesText(const FramePlan& plan) {
     const FrameRates rates = frameRates(plan);
     std::string text = fmt::format("{} triangles with --method multirate\n", ratedTriangles(plan, rates));
@@ -88,8 +89,11 @@ std::string ratesText(const FramePlan& plan) {
         if (rate.lensShare > 0)
             text += fmt::format("  {}: {:.4g} % of the groups of neighbouring lens samples share an image\n",
                                 object.name, 100 * rate.lensShare);
-        else if (object.coc.largest < leastShareBlur)
-            text += fmt::format("  {}: drawn for each sample: {}\n", object.name, rate.reason);
+        for (std::size_t r = 0; r < largerPixelRates.size(); ++r)
+            if (rate.largerShares[r] > 0)
+                text += fmt::format("  {}: {:.4g} % of the samples draw it with pixels {} times as large or larger\n",
+                                    object.name, 100 * rate.largerShares[r], largerPixelRates[r]);
+        if (!rate.reason.empty()) text += fmt::format("  {}: no lower rate: {}\n", object.name, rate.reason);
     }
     return text;
 }

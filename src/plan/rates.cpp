@@ -66,11 +66,10 @@ std::vector<LensSample> groupImages(const FramePlan& block, std::uint32_t groupS
                        (count + groupSize - 1) / groupSize, block.settings.seed);
 }
 
-// How many of the block's groups share an object, whose share is `share`: round(f·n) after n groups.
-std::uint32_t sharedGroups(double share, const RatedBlock& block) {
-    const std::uint32_t before = firstGroup(block.samples, block.groupSize);
-    const auto count = static_cast<double>(block.groups.samples.size());
-    return static_cast<std::uint32_t>(std::round(share * (before + count)) - std::round(share * before));
+// How many of `count` have a rate whose share is `share`: round(f·n) of the first n.
+std::uint32_t ofPrefix(double share, std::uint32_t before, std::size_t count) {
+    const double end = before + static_cast<double>(count);
+    return static_cast<std::uint32_t>(std::round(share * end) - std::round(share * before));
 }
 
 // What the first `count` groups draw of an object.
@@ -88,25 +87,26 @@ ObjectPlan sharedBy(const ObjectPlan& object, std::uint32_t count, std::uint32_t
     return group;
 }
 
-// Divides what a block draws of an object between its first `groupCount` groups, which share it, and the samples after
-// them.
-void divideObject(const ObjectPlan& object, std::uint32_t groupCount, RatedBlock& block) {
+// Divides what a block draws of an object: the first samples draw it with larger pixels, or the first groups share it,
+// and the samples after them draw it themselves. (Rates of both kinds don't meet: blur is large for one and small for
+// the other.)
+void divideObject(const ObjectPlan& object, const ObjectRates& rates, RatedBlock& block) {
     const auto sampleCount = static_cast<std::uint32_t>(block.samples.samples.size());
-    const std::uint32_t shared = std::min(groupCount * block.groupSize, sampleCount);
+    // The largest pixels come first.
+    std::uint32_t enlarged = 0;
+    for (std::size_t i = largerPixelRates.size(); i-- > 0;) {
+        const std::uint32_t end = ofPrefix(rates.largerShares[i], block.samples.settings.firstSample, sampleCount);
+        if (end > enlarged) block.larger[i].objects.push_back(during(object, {enlarged, end}));
+        enlarged = std::max(enlarged, end);
+    }
+    const std::uint32_t groupCount =
+        block.groupSize == 1
+            ? 0
+            : ofPrefix(rates.lensShare, firstGroup(block.samples, block.groupSize), block.groups.samples.size());
     if (groupCount > 0) block.groups.objects.push_back(sharedBy(object, groupCount, block.groupSize));
-    if (shared < sampleCount) block.samples.objects.push_back(during(object, {shared, sampleCount}));
+    const std::uint32_t drawn = std::max(enlarged, std::min(groupCount * block.groupSize, sampleCount));
+    if (drawn < sampleCount) block.samples.objects.push_back(during(object, {drawn, sampleCount}));
     block.groupsShare = std::max(block.groupsShare, groupCount);
-}
-
-// Where any lens sample may show the object; a pixel more on all sides than its blur and the pixel offsets reach.
-PixelArea areaOf(const ObjectPlan& object, const FramePlan& plan) {
-    const ContactBounds bounds = contactBounds(object, plan);
-    const double margin = 0.5 * object.coc.largest + 2;
-    const auto within = [](double value, int size) { return static_cast<int>(std::clamp<double>(value, 0, size)); };
-    return {within(std::floor(bounds.seenLeast.x - margin), plan.view.width),
-            within(std::floor(bounds.seenLeast.y - margin), plan.view.height),
-            within(std::ceil(bounds.seenMost.x + margin), plan.view.width),
-            within(std::ceil(bounds.seenMost.y + margin), plan.view.height)};
 }
 
 bool overlap(const PixelArea& a, const PixelArea& b) {
@@ -117,7 +117,7 @@ bool overlap(const PixelArea& a, const PixelArea& b) {
 std::vector<PixelArea> disjointAreas(const FramePlan& plan) {
     std::vector<PixelArea> areas;
     for (const ObjectPlan& object : plan.objects) {
-        PixelArea area = areaOf(object, plan);
+        PixelArea area = seenArea(object, plan);
         if (area.pixels() == 0) continue;
         for (std::size_t i = 0; i < areas.size();) {
             if (!overlap(area, areas[i])) {
@@ -144,52 +144,103 @@ std::string reasonForFullRate(const FramePlan& plan, const ObjectPlan& object) {
     return "";
 }
 
+// Why the object isn't drawn with larger pixels, whatever its blur is; empty if it may be.
+std::string reasonForSmallPixels(const FramePlan& plan, const ObjectPlan& object) {
+    if (plan.usesBlending) return "alpha-blended surfaces must be drawn in order with it";
+    if (plan.drawsBackground) return "the map around the scene is drawn for each sample";
+    if (plan.usesCocControls) return "its blur is not that of a plain lens";
+    if (plan.usesLens && plan.view.lens.catEye > 0) return "the barrel limits the lens from pixel to pixel";
+    return reasonForFullRate(plan, object);
+}
+
 }  // namespace
+
+PixelArea seenArea(const ObjectPlan& object, const FramePlan& plan) {
+    const ContactBounds bounds = contactBounds(object, plan);
+    const double margin = 0.5 * object.coc.largest + 2 * plan.pixelRate;
+    const auto within = [](double value, int size) { return static_cast<int>(std::clamp<double>(value, 0, size)); };
+    return {within(std::floor(bounds.seenLeast.x - margin), plan.view.width),
+            within(std::floor(bounds.seenLeast.y - margin), plan.view.height),
+            within(std::ceil(bounds.seenMost.x + margin), plan.view.width),
+            within(std::ceil(bounds.seenMost.y + margin), plan.view.height)};
+}
 
 std::uint32_t groupSamples(std::uint32_t count) {
     return std::clamp(count / leastLensGroups, 1u, mostGroupSamples);
 }
 
+double leastLargerBlur(int pixelRate, std::uint32_t samples) {
+    return pixelRate * std::max(leastLargeBlur, largeBlurByRoot * std::sqrt(static_cast<double>(samples)));
+}
+
 FrameRates frameRates(const FramePlan& plan) {
     FrameRates rates;
     rates.objects.resize(plan.objects.size());
+    const std::uint32_t samples = plan.settings.rateSamples;
+    const double least = leastLargerBlur(largerPixelRates.front(), samples);
+    const double most = wholeLargeBlur * leastLargerBlur(largerPixelRates.back(), samples);
     std::vector<ContactBounds> bounds;
-    std::vector<double> blurs;
+    std::vector<double> largest;
+    std::vector<double> smallest;  // negative, as the smallest blur decides
     for (std::size_t i = 0; i < plan.objects.size(); ++i) {
         const ObjectPlan& object = plan.objects[i];
-        rates.objects[i].reason = reasonForFullRate(plan, object);
         bounds.push_back(contactBounds(object, plan));
-        blurs.push_back(rates.objects[i].reason.empty() ? std::clamp(object.coc.largest, wholeShareBlur, leastShareBlur)
-                                                        : leastShareBlur);
+        const bool shares = reasonForFullRate(plan, object).empty();
+        largest.push_back(shares ? std::clamp(object.coc.largest, wholeShareBlur, leastShareBlur) : leastShareBlur);
+        const bool large = reasonForSmallPixels(plan, object).empty();
+        smallest.push_back(large ? -std::clamp(object.coc.smallest, least, most) : -least);
     }
-    const std::vector<double> spread = spreadOverContact(bounds, blurs, wholeShareBlur, leastShareBlur);
-    for (std::size_t i = 0; i < spread.size(); ++i) {
-        rates.objects[i].lensShare = (leastShareBlur - spread[i]) / (leastShareBlur - wholeShareBlur);
-        if (spread[i] > blurs[i]) rates.objects[i].reason = "it lies beside what shares less";
+    const std::vector<double> shared = spreadOverContact(bounds, largest, wholeShareBlur, leastShareBlur);
+    const std::vector<double> enlarged = spreadOverContact(bounds, smallest, -most, -least);
+    for (std::size_t i = 0; i < plan.objects.size(); ++i) {
+        const ObjectPlan& object = plan.objects[i];
+        ObjectRates& rate = rates.objects[i];
+        rate.lensShare = (leastShareBlur - shared[i]) / (leastShareBlur - wholeShareBlur);
+        for (std::size_t r = 0; r < largerPixelRates.size(); ++r) {
+            const double first = leastLargerBlur(largerPixelRates[r], samples);
+            rate.largerShares[r] = std::clamp((-enlarged[i] / first - 1) / (wholeLargeBlur - 1), 0.0, 1.0);
+        }
+        if (object.coc.largest < leastShareBlur) rate.reason = reasonForFullRate(plan, object);
+        if (object.coc.smallest > least) rate.reason = reasonForSmallPixels(plan, object);
+        if (rate.reason.empty() && (shared[i] > largest[i] || enlarged[i] > smallest[i]))
+            rate.reason = "it touches, or nearly, what is drawn at another rate";
     }
     return rates;
 }
 
 RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint32_t first, std::uint32_t count) {
     assert(first % rateBlock == 0 && count <= rateBlock && rates.objects.size() == plan.objects.size());
-    RatedBlock block{samplesOf(plan, first, count), {}, 1, 0, {}};
-    const std::uint32_t size = groupSamples(count);
-    if (plan.settings.keepAll || !plan.usesLens || size == 1) return block;
+    RatedBlock block{.samples = samplesOf(plan, first, count),
+                     .groups = {},
+                     .larger = {},
+                     .groupSize = 1,
+                     .groupsShare = 0,
+                     .sharedAreas = {}};
+    if (plan.settings.keepAll || !plan.usesLens) return block;
 
+    const std::uint32_t size = groupSamples(count);
     block.groupSize = size;
     block.groups = block.samples;
-    block.groups.samples = groupImages(block.samples, size);
-    reorder(block.samples, groupedOrder(block.samples.samples, block.groups.samples, size));
-    for (std::size_t i = 0; i < count; ++i) block.samples.samples[i].pixel = block.groups.samples[i / size].pixel;
     block.groups.moments.clear();
-    block.groups.objects.clear();
+    if (size > 1) {
+        block.groups.samples = groupImages(block.samples, size);
+        reorder(block.samples, groupedOrder(block.samples.samples, block.groups.samples, size));
+    }
     const std::vector<ObjectPlan> objects = std::exchange(block.samples.objects, {});
-    for (std::size_t i = 0; i < objects.size(); ++i)
-        divideObject(objects[i], sharedGroups(rates.objects[i].lensShare, block), block);
+    block.groups.objects.clear();
+    for (std::size_t r = 0; r < largerPixelRates.size(); ++r) {
+        block.larger[r] = block.samples;
+        block.larger[r].pixelRate = largerPixelRates[r];
+        for (LensSample& sample : block.larger[r].samples) sample.pixel *= static_cast<float>(largerPixelRates[r]);
+    }
+    if (size > 1)
+        for (std::size_t i = 0; i < count; ++i) block.samples.samples[i].pixel = block.groups.samples[i / size].pixel;
+    for (std::size_t i = 0; i < objects.size(); ++i) divideObject(objects[i], rates.objects[i], block);
     if (block.groups.objects.empty()) block.groups.samples.clear();
     block.sharedAreas = disjointAreas(block.groups);
-    countTriangles(block.samples);
-    countTriangles(block.groups);
+    for (FramePlan& part : block.larger)
+        if (part.objects.empty()) part.samples.clear();
+    for (FramePlan* part : {&block.samples, &block.groups, &block.larger[0], &block.larger[1]}) countTriangles(*part);
     return block;
 }
 
@@ -198,7 +249,8 @@ std::uint64_t ratedTriangles(const FramePlan& plan, const FrameRates& rates) {
     const auto total = static_cast<std::uint32_t>(plan.samples.size());
     for (std::uint32_t first = 0; first < total; first += rateBlock) {
         const RatedBlock block = ratedBlock(plan, rates, first, std::min(rateBlock, total - first));
-        triangles += block.samples.trianglesDrawn + block.groups.trianglesDrawn;
+        triangles += block.samples.trianglesDrawn + block.groups.trianglesDrawn + block.larger[0].trianglesDrawn +
+                     block.larger[1].trianglesDrawn;
     }
     return triangles;
 }

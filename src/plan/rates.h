@@ -21,6 +21,7 @@
 // begins to share or ceases to. A group whose samples don't all draw the same level draws both, each at its own pixels
 // (LodMode::continuous).
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -35,6 +36,12 @@ inline constexpr std::uint32_t mostGroupSamples = 4;  // of a group
 // All of an object is shared up to the first diameter of its largest blur, and nothing from the second on.
 inline constexpr double wholeShareBlur = 3.5;  // px
 inline constexpr double leastShareBlur = 5;    // px
+// Larger pixels: an object is drawn with them in all samples from the second diameter of its smallest blur on, and in
+// none up to the first. Images of N lens points lie about c/√N px apart.
+inline constexpr std::array<int, 2> largerPixelRates = {2, 4};  // px a pixel, each way
+inline constexpr double leastLargeBlur = 4;                     // px a px of them, for any number of samples
+inline constexpr double largeBlurByRoot = 0.625;                // the same, times √N
+inline constexpr double wholeLargeBlur = 1.25;                  // the second diameter, in first ones
 
 // Pixels [left, right) × [bottom, top) of the image; row 0 is at the bottom, as OpenGL has it.
 struct PixelArea {
@@ -46,8 +53,10 @@ struct PixelArea {
 };
 
 struct ObjectRates {
-    double lensShare = 0;  // f, of the samples, [0, 1]
-    std::string reason;    // why it shares less than its own blur allows; else empty
+    double lensShare = 0;                  // f, of the samples, [0, 1]
+    std::array<double, 2> largerShares{};  // of the samples that draw it with pixels as large as each of
+                                           // largerPixelRates or larger, [0, 1]
+    std::string reason;                    // why its rates are less than its own blur allows; else empty
 };
 
 // Of all objects of a plan, in its order.
@@ -63,16 +72,26 @@ struct RatedBlock {
     // As its samples the groups' images, and as its objects what is shared. Group g serves samples [g·groupSize,
     // (g + 1)·groupSize). Without samples if no object shares.
     FramePlan groups;
+    // For each of largerPixelRates: the same samples with the offsets of so large pixels, and the objects that are
+    // drawn so. Without samples if there are none.
+    std::array<FramePlan, 2> larger;
     std::uint32_t groupSize = 1;
     std::uint32_t groupsShare = 0;  // groups [0, groupsShare) share something
     // Outside these areas no group's image shows anything. They don't overlap.
     std::vector<PixelArea> sharedAreas;
 };
 
+// Returns the part of the image that any lens sample may show an object in; two of the plan's pixels more on all sides.
+PixelArea seenArea(const ObjectPlan& object, const FramePlan& plan);
+
 // Returns the samples of a group in a block of `count` samples; 1: none is large enough to share.
 std::uint32_t groupSamples(std::uint32_t count);
 
 FrameRates frameRates(const FramePlan& plan);
+
+// Returns the smallest blur (diameter, px) from which on an object is drawn with pixels of a rate at all, for N
+// samples.
+double leastLargerBlur(int pixelRate, std::uint32_t samples);
 
 // Returns samples [first, first + count) of `plan`, whose rates are `rates`; `first` is a multiple of 64 and `count` ≤
 // 64. With RenderSettings::keepAll, and without a lens, every sample draws everything, in the plan's own order and with

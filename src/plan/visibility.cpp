@@ -14,7 +14,8 @@ namespace defocus {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double snapping = 1.0 / 128;      // px that an altitude may lose where positions have 8 bits below the pixel
+constexpr double sampledOutside = 4.5;  // px, of the image: half a pixel's offset, and as far as interpolation reaches
+constexpr double snapping = 1.0 / 128;  // px that an altitude may lose where positions have 8 bits below the pixel
 constexpr double transformation = 0x1p-21;  // of a position's terms: what single precision may lose of their sum
 constexpr double storage = 1e-6;            // relative: of a cluster's values
 constexpr double guardBand = 1.8;           // images from the middle beyond which triangles may be clipped
@@ -264,9 +265,9 @@ CocBox cocBoxOf(const Bounds& viewBox, double scaleLeast, double scaleMost, cons
     return box;
 }
 
-// All corners lie outside one plane of the frustum: for the left one while x/tan + w + |C| < 0 (half a pixel added for
-// the jitter). The thin lens's |C(w)| is convex, so corners bound it; otherwise |C|/w is at most `largest` px over the
-// image's width.
+// All corners lie outside one plane of the frustum: for the left one while x/tan + w + |C| < 0 (with what the jitter
+// and large pixels reach beyond the border). The thin lens's |C(w)| is convex, so corners bound it; otherwise |C|/w is
+// at most `largest` px over the image's width.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest) {
     const View& view = plan.view;
     const ClipCircleOfConfusion& coc = plan.coc;
@@ -279,8 +280,8 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double 
                                             : std::abs(w) * largest / view.width;
         const double x = corner.x / tanX;
         const double y = corner.y / tanY;
-        const double marginX = std::abs(w) / view.width + reach;
-        const double marginY = std::abs(w) / view.height + reach * view.width / view.height;
+        const double marginX = 2 * sampledOutside * std::abs(w) / view.width + reach;
+        const double marginY = 2 * sampledOutside * std::abs(w) / view.height + reach * view.width / view.height;
         outside[0] &= x + w + marginX < 0;
         outside[1] &= w - x + marginX < 0;
         outside[2] &= y + w + marginY < 0;

@@ -79,6 +79,7 @@ RenderSettings BlockSchedule::nextBlock() const {
     settings.firstSample += samples_;
     settings.sampleCount = std::min(blockSamples, stop_.sampleLimit - samples_);
     fixThresholds(settings, static_cast<std::uint32_t>(thresholdSamples()));
+    settings.rateSamples = expectedSamples();
     return settings;
 }
 

@@ -32,6 +32,7 @@ struct GpuFrame {
     glm::vec4 coc;
     glm::vec4 cocField;
     glm::vec4 cocLimits;
+    glm::vec4 pixelGrid;
     glm::mat4 worldFromView;
     std::array<glm::vec4, mostLights> lightPositions;
 };
@@ -153,6 +154,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     if (!knownMap) irradiance_ = diffuseCoefficients(world.environment);
     if (plan.usesCocScales) defines_.emplace_back("COC_SCALES", "1");
     if (plan.coc.chromatic > 0) defines_.emplace_back("CHROMATIC", "1");
+    if (plan.pixelRate > 1) defines_.emplace_back("PIXEL_RATE", std::to_string(plan.pixelRate));
     countsInAlpha_ = barrelCuts(plan);
     if (countsInAlpha_) defines_.emplace_back("CAT_EYE", fmt::format("{:.6f}", plan.view.lens.catEye));
     if (plan.usesCocControls) defines_.emplace_back("COC_CONTROLS", "1");
@@ -163,7 +165,13 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     const double tanX = plan.tanHalfHorizontal;
     const double tanY = tanX * view.height / view.width;
     GpuFrame block{};
-    block.projection = {1 / tanX, 1 / tanY, view.nearPlane, 0};
+    block.projection = {1 / tanX, 1 / tanY, view.nearPlane, pixelRateBlur(plan.pixelRate)};
+    // Where the image's device units lie in those of layers with larger pixels.
+    const glm::dvec2 image(view.width, view.height);
+    const glm::dvec2 layer =
+        glm::dvec2(layerSize({view.width, view.height}, plan.pixelRate)) * static_cast<double>(plan.pixelRate);
+    const double before = plan.pixelRate > 1 ? plan.pixelRate : 0;
+    block.pixelGrid = glm::vec4(image / layer, (image + 2 * before) / layer - 1.0);
     const ClipCircleOfConfusion& coc = plan.coc;
     block.coc = {coc.a, coc.front, view.width, coc.behind};
     block.cocField = {coc.tilt, coc.curvature, coc.gain};

@@ -66,6 +66,7 @@ void ProgressiveImage::planBlock() {
     RenderSettings settings = settings_;
     settings.firstSample += block_ * blockSamples;
     fixThresholds(settings, (block_ + 1) * blockSamples);
+    settings.rateSamples = (block_ + 1) * blockSamples;
     plan_ = withAllLevels(planFrame(*world_, view_, settings));
 }
 

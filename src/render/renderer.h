@@ -32,7 +32,8 @@ struct RenderStats {
     std::string driver;
     StopReason stopped = StopReason::sampleCount;  // why there are no more samples
     std::optional<double> estimatedError;          // RMSE as StopSettings has it, where it was estimated
-    std::vector<PassTime> passes;                  // of methods that time them, in the order they run
+    std::optional<double> mixedShare;  // of the image, where each sample is composed of layers of several sizes
+    std::vector<PassTime> passes;      // of methods that time them, in the order they run
 };
 
 // The sum of the samples of one block (64, the frame's last one fewer), RGBA: the value and what its additions lost,

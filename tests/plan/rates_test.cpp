@@ -45,7 +45,8 @@ void addShares(Shares& shares, const FramePlan& plan, std::uint32_t sample, doub
 Shares shownIn(const RatedBlock& block, std::uint32_t sample) {
     Shares shares;
     addShares(shares, block.samples, sample);
-    addShares(shares, block.groups, sample / block.groupSize);
+    if (block.groupsShare > 0) addShares(shares, block.groups, sample / block.groupSize);
+    for (const FramePlan& larger : block.larger) addShares(shares, larger, sample);
     return shares;
 }
 

@@ -65,16 +65,22 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
         for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
         addLayers_ = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     }
+    addWave(count, frame.countsInAlpha(), [&](std::uint32_t firstInBlock) {
+        frame.bind(first);
+        layers_.attach(0);
+        glProgramUniform1i(addLayers_.name(), 0, static_cast<GLint>(count));
+        glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(firstInBlock));
+        fullscreen_.draw(addLayers_);
+    });
+}
+
+void LayerSum::addWave(std::uint32_t count, bool countsInAlpha, const std::function<void(std::uint32_t)>& pass) {
     block_.target[1 - block_.current].bind();
-    frame.bind(first);
-    layers_.attach(0);
     block_.sum[block_.current].attach(1);
     block_.compensation[block_.current].attach(2);
-    glProgramUniform1i(addLayers_.name(), 0, static_cast<GLint>(count));
-    glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(samples_ % blockSamples));
-    fullscreen_.draw(addLayers_);
+    pass(samples_ % blockSamples);
     block_.flip();
-    countsInAlpha_ = frame.countsInAlpha();
+    countsInAlpha_ = countsInAlpha;
     samples_ += count;
     if (samples_ % blockSamples == 0) {
         addBlockTo(frame_, samples_ == blockSamples);

@@ -6,6 +6,7 @@
 // block borders. The sum is divided when it is read, never in place.
 
 #include <cstdint>
+#include <functional>
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -40,6 +41,13 @@ public:
     // Adds layers [0, count), each composed over the environment of `frame`, for whose samples from `first` on they
     // were drawn; `count` ≤ K and not beyond the block's end.
     void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
+    // The same with a pass of the caller's, which adds `count` samples to the sum so far: it reads that from texture
+    // unit 1 and its compensation from unit 2, and writes all of both to the target that is bound. It is told how many
+    // samples of the block are in the sum. `countsInAlpha`: FrameUniforms::countsInAlpha.
+    void addWave(std::uint32_t count, bool countsInAlpha, const std::function<void(std::uint32_t)>& pass);
+    // The sum of the block that the last wave belongs to, as far as it goes.
+    [[nodiscard]] const GlTexture& blockSum() const { return block_.sum[block_.current]; }
+    [[nodiscard]] const GlTexture& blockCompensation() const { return block_.compensation[block_.current]; }
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
     // The block that the last wave belongs to, as far as it is summed. At least one sample.
     [[nodiscard]] BlockSum block() const;

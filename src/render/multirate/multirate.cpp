@@ -1,6 +1,7 @@
 #include "render/multirate/multirate.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "core/error.h"
@@ -9,6 +10,7 @@
 #include "render/accumulation/layer_sum.h"
 #include "render/frame_clock.h"
 #include "render/multirate/group_layers.h"
+#include "render/multirate/tile_sum.h"
 #include "render/surface_pass.h"
 
 namespace defocus {
@@ -17,12 +19,13 @@ namespace {
 
 static_assert(rateBlock == blockSamples);
 
-// As many layers as the memory allows, at most a block; groups take half as many again.
+// As many layers as the memory allows, at most a block; groups take half as many again, and those of larger pixels a
+// third.
 std::uint32_t chosenSampleLayers(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
                                  LayerFormat format) {
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
                                      static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format);
-    const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * 2 / 3;
+    const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * 6 / 11;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
 }
@@ -65,7 +68,10 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        for (GpuTimer* timer : {&groupTimer_, &opaqueTimer_, &skyTimer_, &blendedTimer_, &sumTimer_}) timer->reset();
+        mixedShares_ = 0;
+        blocks_ = 0;
+        for (GpuTimer* timer : {&groupTimer_, &largerTimer_, &opaqueTimer_, &skyTimer_, &blendedTimer_, &sumTimer_})
+            timer->reset();
         prepareFrame();
     }
 
@@ -107,7 +113,10 @@ public:
         clock_.fill(stats);
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
-        stats.passes = {{"groups", groupTimer_.milliseconds()}, {"opaque", opaqueTimer_.milliseconds()}};
+        stats.mixedShare = blocks_ > 0 ? mixedShares_ / blocks_ : 0;
+        stats.passes = {{"groups", groupTimer_.milliseconds()},
+                        {"larger pixels", largerTimer_.milliseconds()},
+                        {"opaque", opaqueTimer_.milliseconds()}};
         if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
         if (samples_.surfaces->hasBlended()) stats.passes.push_back({"blended", blendedTimer_.milliseconds()});
         stats.passes.push_back({"sum", sumTimer_.milliseconds()});
@@ -130,6 +139,15 @@ private:
         groupsShare_ = block.groupsShare;
         sharedAreas_ = std::move(block.sharedAreas);
         groupsDrawn_ = 0;
+        const Tiles tiles = blockTiles(block);
+        tileSum_->beginBlock(tiles, plan_.view);
+        mixedShares_ += tiles.mixedShare();
+        ++blocks_;
+        for (std::size_t rate = 0; rate < larger_.size(); ++rate) {
+            drawsLarger_[rate] = !block.larger[rate].samples.empty();
+            if (drawsLarger_[rate])
+                larger_[rate].prepare(scene_.world(), std::move(block.larger[rate]), sum_->info().layers);
+        }
         samples_.prepare(scene_.world(), std::move(block.samples), sum_->info().layers);
         if (groupsShare_ > 0) {
             if (!groupLayers_) groupLayers_.emplace(*sum_);
@@ -137,6 +155,7 @@ private:
         }
         stats_.peakBytes =
             std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + samples_.bytes() + groups_.bytes() +
+                                                          larger_[0].bytes() + larger_[1].bytes() + tileSum_->bytes() +
                                                           sum_->bytes() + (groupLayers_ ? groupLayers_->bytes() : 0));
     }
 
@@ -148,10 +167,12 @@ private:
         const bool same = sum_ && sum_->info().width == info.width && sum_->info().height == info.height &&
                           sum_->info().layers == info.layers && sum_->info().format == info.format;
         if (!same) {
-            groupLayers_.reset();  // both before the new ones are made, as all may not fit
+            groupLayers_.reset();  // all before the new ones are made, as both may not fit
+            tileSum_.reset();
             sum_.reset();
             sum_.emplace(info);
-            for (BlockDraws* draws : {&samples_, &groups_})
+            tileSum_.emplace(*sum_);
+            for (BlockDraws* draws : {&samples_, &groups_, &larger_[0], &larger_[1]})
                 draws->surfaces.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
                                                                 .defines = layerFormatDefines(format),
                                                                 .vertexShaderLayers = vertexShaderMayPickLayer() &&
@@ -192,9 +213,22 @@ private:
                 groupLayers_->copyTo(*sum_, layer, group, sharedAreas_);
     }
 
+    // What has larger pixels, summed in them.
+    void drawLarger(std::uint32_t first, std::uint32_t count) {
+        for (std::size_t rate = 0; rate < larger_.size(); ++rate) {
+            if (!drawsLarger_[rate]) continue;
+            LayerSum& sum = tileSum_->larger(rate);
+            sum.beginWave();
+            larger_[rate].surfaces->drawOpaque(first, count);
+            sum.endWave(larger_[rate].frame, first, count);
+            stats_.trianglesDrawn += trianglesDrawn(larger_[rate].plan, first, count);
+        }
+    }
+
     // Samples [first, first + count) of the block.
     void drawWave(std::uint32_t first, std::uint32_t count) {
         if (groupsShare_ > 0) timed(groupTimer_, [&] { drawGroups(first, first + count); });
+        timed(largerTimer_, [&] { drawLarger(first, count); });
         timed(opaqueTimer_, [&] {
             beginWave(first, count);
             samples_.surfaces->drawOpaque(first, count);
@@ -202,7 +236,7 @@ private:
         if (drawsSky()) timed(skyTimer_, [&] { samples_.surfaces->drawSky(first, count); });
         if (samples_.surfaces->hasBlended())
             timed(blendedTimer_, [&] { samples_.surfaces->drawBlended(first, count); });
-        timed(sumTimer_, [&] { sum_->endWave(samples_.frame, first, count); });
+        timed(sumTimer_, [&] { tileSum_->endWave(*sum_, samples_.frame, first, count); });
         stats_.trianglesDrawn += trianglesDrawn(samples_.plan, first, count);
     }
 
@@ -215,14 +249,19 @@ private:
     // Of the block that the next sample belongs to.
     BlockDraws samples_;
     BlockDraws groups_;
+    std::array<BlockDraws, largerPixelRates.size()> larger_;
+    std::array<bool, largerPixelRates.size()> drawsLarger_{};
     std::uint32_t groupsShare_ = 0;
     std::vector<PixelArea> sharedAreas_;
     std::uint32_t groupSize_ = 1;
     std::uint32_t groupsDrawn_ = 0;  // groups before this one have been drawn
     std::optional<LayerSum> sum_;
     std::optional<GroupLayers> groupLayers_;
+    std::optional<TileSum> tileSum_;
+    double mixedShares_ = 0;  // added up over the frame's blocks
+    std::uint32_t blocks_ = 0;
     mutable FrameClock clock_;
-    mutable GpuTimer groupTimer_, opaqueTimer_, skyTimer_, blendedTimer_, sumTimer_;
+    mutable GpuTimer groupTimer_, largerTimer_, opaqueTimer_, skyTimer_, blendedTimer_, sumTimer_;
     RenderStats stats_;
 };
 

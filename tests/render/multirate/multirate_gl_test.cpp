@@ -297,6 +297,121 @@ TEST_F(Multirate, aBlurredLightKeepsItsEnergyAndItsSpread) {
     EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.1);
 }
 
+// Drawn with pixels of largerPixelRates[rate] or larger in all samples.
+std::size_t enlargedObjects(const SmallWorld& small, const RenderSettings& settings, std::size_t rate = 0) {
+    const FramePlan plan = planFrame(small.world, small.view, settings);
+    return static_cast<std::size_t>(std::ranges::count_if(
+        frameRates(plan).objects, [&](const ObjectRates& o) { return o.largerShares[rate] == 1; }));
+}
+
+// A bright square far out of focus, drawn with larger pixels, keeps its energy, and its disk the size that the lens
+// gives it, wherever it lies between the pixels.
+TEST_F(Multirate, aLightOfLargerPixelsKeepsItsEnergyAndItsSpread) {
+    for (const std::size_t rate : {0u, 1u})
+        for (const double offset : {0.0, 0.3, 1.0}) {
+            View view = bokehView(97, 95);
+            view.lens.fStop = rate == 0 ? 0.3 : 0.15;
+            const double depth = 5;
+            const double c = blurDiameter(view, depth);
+            const glm::dvec2 centre = glm::dvec2(48.5, 47.5) + offset;
+            const double side = 9;
+            const Scene scene = rectangleScene(
+                view, {{centre.x - side / 2, centre.y - side / 2, centre.x + side / 2, centre.y + side / 2, depth}},
+                {8, 8, 8});
+            World world = flatWorld(scene, blackBackground());
+            world.pyramids = buildPyramids(scene.meshes);
+            RendererOptions exact;
+            exact.layerFormat = LayerFormat::rgba32f;
+            const FramePlan plan = planFrame(world, view, ratedSettings(256));
+            ASSERT_EQ(frameRates(plan).objects[0].largerShares[rate], 1) << c;
+            const Image image = imageOf(*methodNamed("multirate").make(world, exact), plan);
+            double energy = 0;
+            double second = 0;
+            for (int y = 0; y < image.height; ++y)
+                for (int x = 0; x < image.width; ++x) {
+                    const double value = image.at(x, y)[0];
+                    energy += value;
+                    second += value * (std::pow(x + 0.5 - centre.x, 2) + std::pow(y + 0.5 - centre.y, 2));
+                }
+            EXPECT_NEAR(energy, 8 * side * side, 0.005 * 8 * side * side);
+            const double expected = 2 * (c * c / 16 + side * side / 12 + 1.0 / 12);
+            EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.1) << c;
+        }
+}
+
+// Wherever both kinds of pixels meet, neither shows through the other.
+TEST_F(Multirate, fencesAndWallsOfDifferentPixelsHaveNoHalo) {
+    for (const bool sharpInFront : {true, false}) {
+        const auto small = fenceAndWall(3, sharpInFront ? 2.02 : 2.98, 0.08);
+        const std::size_t enlarged = sharpInFront ? 1 : 12;
+        ASSERT_EQ(enlargedObjects(*small, ratedSettings(64)), enlarged);
+        const Image truth = reference(*small);
+        const auto error = [&](const char* method) {
+            return compareImages(truth, drawnBy(method, *small, ratedSettings(64)));
+        };
+        const Difference rated = error("multirate");
+        const Difference full = error("accumulation");
+        EXPECT_LT(rated.maxError, full.maxError + 2.0 / 255) << sharpInFront;
+        EXPECT_LT(rated.rmse, 1.1 * full.rmse) << sharpInFront;
+    }
+}
+
+// Its error vanishes as the lens samples' does.
+TEST_F(Multirate, largerPixelsConvergeToTheReference) {
+    const auto small = fenceAndWall(3, 2.02, 0.04);
+    const Image truth = reference(*small);
+    std::vector<double> errors;
+    for (const std::uint32_t n : {64u, 256u, 1024u}) {
+        ASSERT_EQ(enlargedObjects(*small, ratedSettings(n)), 1u) << n;
+        errors.push_back(compareImages(truth, drawnBy("multirate", *small, ratedSettings(n))).rmse);
+        const double alone = compareImages(truth, drawnBy("accumulation", *small, ratedSettings(n))).rmse;
+        EXPECT_LT(errors.back(), 3 * alone) << n;
+    }
+    EXPECT_GT(std::log(errors.front() / errors.back()) / std::log(16.0), 0.5)
+        << errors[0] << ' ' << errors[1] << ' ' << errors[2];
+}
+
+TEST_F(Multirate, waveSizeAndBlocksChangeNoBitOfLargerPixels) {
+    const auto small = fenceAndWall(3, 2.02, 0.08);
+    for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgb9e5}) {
+        Image first;
+        for (const std::uint32_t k : {1u, 3u, 64u}) {
+            RendererOptions options;
+            options.wave = k;
+            options.layerFormat = format;
+            ASSERT_EQ(enlargedObjects(*small, ratedSettings(100)), 1u);
+            const Image image = drawnBy("multirate", *small, ratedSettings(100), options);
+            if (first.empty()) first = image;
+            EXPECT_TRUE(sameBits(first, image)) << "K = " << k << ": " << largestDifference(first, image);
+        }
+    }
+}
+
+// A wall that fills the frame is drawn with larger pixels up to the image's
+// border.
+TEST_F(Multirate, aConstantOfLargerPixelsStaysConstant) {
+    for (const EnvironmentType background : {EnvironmentType::none, EnvironmentType::uniform}) {
+        SmallWorld small;
+        small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
+        small.scene.meshes.push_back(quad(0));
+        place(small, 0, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4)), glm::dvec3(19)));
+        small.world.environment = {background, {0.3f, 0.1f, 0.1f}, {}, {}, nullptr, 1};
+        small.view.width = 97;
+        small.view.height = 64;
+        small.view.lens.fStop = 0.1;
+        small.view.lens.focusDistance = 2;
+        finish(small);
+        RendererOptions exact;
+        exact.layerFormat = LayerFormat::rgba32f;
+        ASSERT_EQ(enlargedObjects(small, ratedSettings(65)), 1u);
+        const Image image = drawnBy("multirate", small, ratedSettings(65), exact);
+        const glm::vec4 expected(0.1f, 0.7f, 1.0f / 3, 1);
+        for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
+            for (glm::length_t c = 0; c < 4; ++c)
+                ASSERT_NEAR(image.pixels[i * 4 + static_cast<std::size_t>(c)], expected[c], 2e-6) << i;
+    }
+}
+
 // What isn't drawn as an opaque surface, or is seen through a limited lens, keeps its place beside what is shared.
 TEST_F(Multirate, everyKindOfSurfaceAndLensStaysWhatItWas) {
     const auto check = [](const SmallWorld& small, const char* what) {
