@@ -200,8 +200,8 @@ FrameRates frameRates(const FramePlan& plan) {
             const double first = leastLargerBlur(largerPixelRates[r], samples);
             rate.largerShares[r] = std::clamp((-enlarged[i] / first - 1) / (wholeLargeBlur - 1), 0.0, 1.0);
         }
-        if (object.coc.largest < leastShareBlur) rate.reason = reasonForFullRate(plan, object);
-        if (object.coc.smallest > least) rate.reason = reasonForSmallPixels(plan, object);
+        rate.reason = reasonForFullRate(plan, object);
+        if (rate.reason.empty() && object.coc.smallest > least) rate.reason = reasonForSmallPixels(plan, object);
         if (rate.reason.empty() && (shared[i] > largest[i] || enlarged[i] > smallest[i]))
             rate.reason = "it touches, or nearly, what is drawn at another rate";
     }

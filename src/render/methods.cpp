@@ -20,7 +20,7 @@ std::vector<Method>& table() {
          .settings = {},
          .make = makeAccumulationRenderer},
         {.name = "multirate",
-         .description = "the same, and what is hardly blurred is drawn once for several neighbouring lens samples",
+         .description = "the same, with fewer images of what is hardly blurred and larger pixels of what is strongly blurred",
          .sumsBlocks = true,
          .settings = {},
          .make = makeMultirateRenderer},

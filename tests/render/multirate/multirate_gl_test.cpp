@@ -221,46 +221,69 @@ TEST_F(Multirate, aSharpFenceBeforeABlurredWallAndABlurredOneBeforeASharpWallHav
     }
 }
 
-// Two panels of one colour that stand edge to edge, one that could share and one that couldn't, before a wall of
-// another colour. No line of the wall may show between them, whatever the levels of detail and wherever the edge lies.
+// Two panels of one colour that stand edge to edge, before a wall of another colour. One faces the camera, and one
+// slants away from the common edge by `angle`, so that it has other rates than the first would have alone.
+std::unique_ptr<SmallWorld> touchingPanels(double across, double depth, double angle, double fStop) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial({0.5f, 0.5f, 0.5f, 1}));
+    small->scene.materials.push_back(unlitMaterial({1, 0, 0, 1}));
+    small->scene.meshes.push_back(quad(0));
+    small->scene.meshes.push_back(quad(1));
+    const glm::dmat4 edge = glm::translate(glm::dmat4(1), glm::dvec3(across, 0, -depth));
+    const auto panel = [](double x) {
+        return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, 0, 0)), glm::dvec3(0.4, 0.6, 1));
+    };
+    place(*small, 0, edge * panel(-0.4));
+    place(*small, 0, edge * glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)) * panel(0.4));
+    place(*small, 1, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -9)), glm::dvec3(30)));
+    small->view.width = 160;
+    small->view.height = 96;
+    small->view.lens.fStop = fStop;
+    small->view.lens.focusDistance = 2.1;
+    finish(*small);
+    return small;
+}
+
+// How far any pixel near the common edge is from the panels' colour.
+double lineBetweenPanels(const SmallWorld& small, const char* method) {
+    RendererOptions exact;
+    exact.layerFormat = LayerFormat::rgba32f;
+    const Image image = drawnBy(method, small, ratedSettings(64), exact);
+    double largest = 0;
+    for (int y = 36; y < 60; ++y)
+        for (int x = 70; x < 90; ++x)
+            for (int c = 0; c < 3; ++c) largest = std::max<double>(largest, std::abs(image.at(x, y)[c] - 0.5));
+    return largest;
+}
+
+// One could share its images, and one couldn't. No line of the wall may show between them, wherever the edge lies.
 TEST_F(Multirate, panelsThatTouchShowNoLineBetweenThem) {
     for (const double across : {0.0, 0.0031}) {
-        SmallWorld small;
-        small.scene.materials.push_back(unlitMaterial({0.5f, 0.5f, 0.5f, 1}));
-        small.scene.materials.push_back(unlitMaterial({1, 0, 0, 1}));
-        small.scene.meshes.push_back(quad(0));
-        small.scene.meshes.push_back(quad(1));
-        // One slants away from the common edge, so that most of it is far more blurred.
-        const glm::dmat4 edge = glm::translate(glm::dmat4(1), glm::dvec3(across, 0, -2.2));
-        const glm::dmat4 panel =
-            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(-0.4, 0, 0)), glm::dvec3(0.4, 0.3, 1));
-        const glm::dmat4 mirrored =
-            glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.4, 0, 0)), glm::dvec3(0.4, 0.3, 1));
-        place(small, 0, edge * panel);
-        place(small, 0, edge * glm::rotate(glm::dmat4(1), 1.2, glm::dvec3(0, 1, 0)) * mirrored);
-        place(small, 1, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -9)), glm::dvec3(30)));
-        small.view.width = 160;
-        small.view.height = 96;
-        small.view.lens.fStop = 0.25;
-        small.view.lens.focusDistance = 2.1;
-        finish(small);
-        RendererOptions exact;
-        exact.layerFormat = LayerFormat::rgba32f;
-        const FramePlan plan = planFrame(small.world, small.view, ratedSettings(64));
+        const auto small = touchingPanels(across, 2.2, 1.2, 0.25);
         std::size_t couldShare = 0;
-        for (const ObjectPlan& object : plan.objects) couldShare += object.coc.largest < wholeShareBlur ? 1 : 0;
+        for (const ObjectPlan& object : planFrame(small->world, small->view, ratedSettings(64)).objects)
+            couldShare += object.coc.largest < wholeShareBlur ? 1 : 0;
         ASSERT_EQ(couldShare, 1u);
-        // Near the common edge, away from where either ends before the wall.
-        const auto worst = [&](const char* method) {
-            const Image image = drawnBy(method, small, ratedSettings(64), exact);
-            double largest = 0;
-            for (int y = 36; y < 60; ++y)
-                for (int x = 70; x < 90; ++x)
-                    for (int c = 0; c < 3; ++c) largest = std::max<double>(largest, std::abs(image.at(x, y)[c] - 0.5));
-            return largest;
-        };
-        EXPECT_LT(worst("accumulation"), 1.0 / 255);
-        EXPECT_LT(worst("multirate"), worst("accumulation") + 2.0 / 255);
+        EXPECT_LT(lineBetweenPanels(*small, "accumulation"), 1.0 / 255);
+        EXPECT_LT(lineBetweenPanels(*small, "multirate"), 2.0 / 255);
+    }
+}
+
+// The same where one could have larger pixels, and one couldn't.
+TEST_F(Multirate, panelsThatTouchHaveTheSamePixels) {
+    for (const double across : {0.0, 0.0031, 0.009}) {
+        const auto small = touchingPanels(across, 3.5, -1.2, 0.143);
+        const double least = leastLargerBlur(2, 64);
+        std::size_t could = 0;
+        std::size_t couldNot = 0;
+        for (const ObjectPlan& object : planFrame(small->world, small->view, ratedSettings(64)).objects) {
+            could += object.coc.smallest > wholeLargeBlur * least ? 1 : 0;
+            couldNot += object.coc.smallest < least ? 1 : 0;
+        }
+        ASSERT_EQ(could, 2u);  // the wall, too
+        ASSERT_EQ(couldNot, 1u);
+        EXPECT_LT(lineBetweenPanels(*small, "accumulation"), 1.0 / 255);
+        EXPECT_LT(lineBetweenPanels(*small, "multirate"), 2.0 / 255);
     }
 }
 
@@ -310,11 +333,11 @@ TEST_F(Multirate, aLightOfLargerPixelsKeepsItsEnergyAndItsSpread) {
     for (const std::size_t rate : {0u, 1u})
         for (const double offset : {0.0, 0.3, 1.0}) {
             View view = bokehView(97, 95);
-            view.lens.fStop = rate == 0 ? 0.3 : 0.15;
+            view.lens.fStop = rate == 0 ? 0.12 : 0.065;
             const double depth = 5;
             const double c = blurDiameter(view, depth);
             const glm::dvec2 centre = glm::dvec2(48.5, 47.5) + offset;
-            const double side = 9;
+            const double side = 8;  // whole pixels of both rates: each sample has all of the energy
             const Scene scene = rectangleScene(
                 view, {{centre.x - side / 2, centre.y - side / 2, centre.x + side / 2, centre.y + side / 2, depth}},
                 {8, 8, 8});
@@ -322,7 +345,7 @@ TEST_F(Multirate, aLightOfLargerPixelsKeepsItsEnergyAndItsSpread) {
             world.pyramids = buildPyramids(scene.meshes);
             RendererOptions exact;
             exact.layerFormat = LayerFormat::rgba32f;
-            const FramePlan plan = planFrame(world, view, ratedSettings(256));
+            const FramePlan plan = planFrame(world, view, ratedSettings(64));
             ASSERT_EQ(frameRates(plan).objects[0].largerShares[rate], 1) << c;
             const Image image = imageOf(*methodNamed("multirate").make(world, exact), plan);
             double energy = 0;
@@ -335,30 +358,55 @@ TEST_F(Multirate, aLightOfLargerPixelsKeepsItsEnergyAndItsSpread) {
                 }
             EXPECT_NEAR(energy, 8 * side * side, 0.005 * 8 * side * side);
             const double expected = 2 * (c * c / 16 + side * side / 12 + 1.0 / 12);
-            EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.1) << c;
+            EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.2) << c;
         }
+}
+
+// The disk of a bright point is a stack of images of the lens points; larger pixels fill the gaps between them.
+TEST_F(Multirate, largerPixelsHalveTheRippleOfAPoint) {
+    View view = bokehView(97, 97);
+    view.lens.fStop = 0.0505;
+    const double depth = 5;
+    const double c = blurDiameter(view, depth);
+    ASSERT_NEAR(c, 40, 1);
+    const Scene scene = rectangleScene(view, {{47.5, 47.5, 49.5, 49.5, depth}}, {8, 8, 8});
+    World world = flatWorld(scene, blackBackground());
+    world.pyramids = buildPyramids(scene.meshes);
+    const auto ripple = [&](const char* method) {
+        const Image image = imageOf(*methodNamed(method).make(world, {}), planFrame(world, view, ratedSettings(32)));
+        double sum = 0;
+        double squares = 0;
+        double count = 0;
+        for (int y = 0; y < 97; ++y)
+            for (int x = 0; x < 97; ++x) {
+                if (std::hypot(x - 48, y - 48) > 0.4 * c) continue;
+                sum += image.at(x, y)[0];
+                squares += image.at(x, y)[0] * image.at(x, y)[0];
+                ++count;
+            }
+        const double mean = sum / count;
+        return std::sqrt(squares / count - mean * mean) / mean;
+    };
+    EXPECT_LT(ripple("multirate"), 0.5 * ripple("accumulation"));
 }
 
 // Wherever both kinds of pixels meet, neither shows through the other.
 TEST_F(Multirate, fencesAndWallsOfDifferentPixelsHaveNoHalo) {
     for (const bool sharpInFront : {true, false}) {
-        const auto small = fenceAndWall(3, sharpInFront ? 2.02 : 2.98, 0.08);
+        const auto small = fenceAndWall(3, sharpInFront ? 2.02 : 2.98, 0.03);
         const std::size_t enlarged = sharpInFront ? 1 : 12;
-        ASSERT_EQ(enlargedObjects(*small, ratedSettings(64)), enlarged);
+        ASSERT_EQ(enlargedObjects(*small, ratedSettings(1024)), enlarged);
         const Image truth = reference(*small);
-        const auto error = [&](const char* method) {
-            return compareImages(truth, drawnBy(method, *small, ratedSettings(64)));
+        const auto worst = [&](const char* method) {
+            return compareImages(truth, drawnBy(method, *small, ratedSettings(1024))).maxError;
         };
-        const Difference rated = error("multirate");
-        const Difference full = error("accumulation");
-        EXPECT_LT(rated.maxError, full.maxError + 2.0 / 255) << sharpInFront;
-        EXPECT_LT(rated.rmse, 1.1 * full.rmse) << sharpInFront;
+        EXPECT_LT(worst("multirate"), worst("accumulation") + 2.0 / 255) << sharpInFront;
     }
 }
 
 // Its error vanishes as the lens samples' does.
 TEST_F(Multirate, largerPixelsConvergeToTheReference) {
-    const auto small = fenceAndWall(3, 2.02, 0.04);
+    const auto small = fenceAndWall(3, 2.02, 0.03);
     const Image truth = reference(*small);
     std::vector<double> errors;
     for (const std::uint32_t n : {64u, 256u, 1024u}) {
