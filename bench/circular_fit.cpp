@@ -30,7 +30,7 @@ using Values = std::vector<double>;
 
 constexpr double pi = std::numbers::pi;
 
-// Niemitalo 2010.
+// Niemitalo 2010, in his units.
 const std::array<Kernel, 2> publishedKernels = {
     {{{0.862325, 1.624835, 0.767583, 1.862321}},
      {{0.886528, 5.268909, 0.411259, -0.548794}, {1.960518, 1.558213, 0.513282, 4.561110}}}};
@@ -355,6 +355,11 @@ void printTables(const std::vector<Kernel>& kernels) {
             printRow(inRadii(kernel, suited), suited.extent / suited.diskRadius);
             fmt::print("   in its own units extent {:.3f}, disk radius {:.3f}\n", suited.extent, suited.diskRadius);
         }
+    }
+    printHead("Published, as circular_kernel.cpp has them: at the extent of the fitted ones");
+    for (int n = 1; n <= publishedKernelLimit; ++n) {
+        const auto kernel = publishedCircularKernel(n);
+        printRow(inRadii({kernel.begin(), kernel.end()}, {0, extent, 1}), extent);
     }
 }
 

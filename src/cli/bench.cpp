@@ -87,37 +87,23 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
         "speedup", "A fixed camera: frame time and image of full detail, nearest and fractional levels");
     const char* group = "Measurement";
     SpeedupOptions& options = arguments->speedup;
-    command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
-        ->delimiter(',')
-        ->check(unnamed(CLI::Range(1u, mostSamples)))
-        ->type_name("N,N,…")
-        ->default_str("16,32,64,128,256,512")
+    addWholes(*command, "--counts", options.sampleCounts, 1, mostSamples, "Numbers of lens samples")->group(group);
+    addNumbers(*command, "--fstops", options.fStops, {0.001, 1e6}, "N,N,…", "Further f-numbers, at 64 samples")
         ->group(group);
-    command->add_option("--fstops", options.fStops, "Further f-numbers, at 64 samples")
-        ->delimiter(',')
-        ->check(unnamed(CLI::PositiveNumber))
-        ->type_name("N,N,…")
-        ->group(group);
-    command->add_option("--focus-distances", options.focusDistances, "Further focus distances, at 64 samples")
-        ->delimiter(',')
-        ->check(unnamed(CLI::PositiveNumber))
-        ->type_name("M,M,…")
+    addNumbers(*command, "--focus-distances", options.focusDistances, {1e-6, 1e12}, "M,M,…",
+               "Further focus distances, at 64 samples")
         ->group(group);
     addParsed(*command, "--methods", "NAME,NAME,…",
               "Further methods, each with its settings, as in scheuermann,circular:far-components=2",
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
-    command->add_option("--runs", options.runs, "Runs of each mode; the median counts")
-        ->check(unnamed(CLI::Range(1, 1000)))
-        ->type_name("N")
-        ->default_str("3")
-        ->group(group);
-    command
-        ->add_option("--reference-samples", options.referenceSamples,
-                     "Lens samples of the converged reference that each lens is compared with; without it, eight times "
-                     "the most that are measured with the lens; 0: no reference")
-        ->check(unnamed(CLI::Range(0u, mostSamples)))
-        ->type_name("N")
+    addWhole(*command, "--runs", options.runs, 1, 1000, "Runs of each mode; the median counts")->group(group);
+    addParsed(*command, "--reference-samples", "N",
+              "Lens samples of the converged reference that each lens is compared with; without it, eight times the "
+              "most that are measured with the lens; 0: no reference",
+              [&options](const std::string& text) {
+                  options.referenceSamples = static_cast<std::uint32_t>(parseWhole(text, 0, mostSamples));
+              })
         ->group(group);
     CLI::Option* output =
         command->add_option("-o,--output", arguments->folder, "Folder for speedup.csv and speedup.json")

@@ -215,18 +215,6 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
 
 // ---- options --------------------------------------------------------------------------------------------------------
 
-template <typename Value, typename Parse>
-void addList(CLI::App& command, const std::string& name, const std::string& type, std::vector<Value>& target,
-             const std::string& standard, const std::string& description, Parse parse) {
-    addParsed(command, name, type, description,
-              [&target, parse](const std::string& text) {
-                  target.clear();
-                  for (const std::string& part : partsOf(text)) target.push_back(parse(part));
-              })
-        ->default_str(standard)
-        ->group("Measurement");
-}
-
 void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
     const char* group = "Measurement";
     ConvergenceOptions& options = arguments.options;
@@ -236,23 +224,26 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
         "program has. Accumulation at full detail is always there",
         [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
-    addList(command, "--counts", "N,N,…", options.sampleCounts, "8,16,32,64,128,256", "Numbers of lens samples",
-            [](const std::string& part) { return static_cast<std::uint32_t>(parseWhole(part, 1, mostSamples)); });
-    addList(command, "--lod", "off,nearest,fractional,continuous", options.lods, "off,fractional",
-            "Levels of detail, of methods that draw levels", [](const std::string& part) {
+    addWholes(command, "--counts", options.sampleCounts, 1, mostSamples, "Numbers of lens samples")->group(group);
+    addList(command, "--lod", "off,nearest,fractional,continuous", options.lods,
+            "Levels of detail, of methods that draw levels",
+            [](const std::string& part) {
                 constexpr std::array modes = {LodMode::off, LodMode::nearest, LodMode::fractional, LodMode::continuous};
                 return modes[parseChoice(part, {"off", "nearest", "fractional", "continuous"})];
-            });
+            })
+        ->default_str("off,fractional")
+        ->group(group);
     addList(
-        command, "--metrics", "size,error,halving,measured", options.metrics, "measured", "What levels are chosen by",
+        command, "--metrics", "size,error,halving,measured", options.metrics, "What levels are chosen by",
         [](const std::string& part) {
             constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving, LodMetric::measured};
             return metrics[parseChoice(part, {"size", "error", "halving", "measured"})];
-        });
-    addList(command, "--threshold-factors", "F,F,…", options.thresholdFactors, "0.5,1,2",
-            "Times the standard thresholds for each number of samples", [](const std::string& part) {
-                return parseNumber(part, {0, 1000});
-            });
+        })
+        ->default_str("measured")
+        ->group(group);
+    addNumbers(command, "--threshold-factors", options.thresholdFactors, {0, 1000}, "F,F,…",
+               "Times the standard thresholds for each number of samples")
+        ->group(group);
     addChoice<bool>(command, "--shading", arguments.unlit, {{"lit", false}, {"unlit", true}},
                     "The scene's own light, or a fixed one painted on its meshes, which ray tracers show alike; "
                     "unlit where this program has ray tracers")

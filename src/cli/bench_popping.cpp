@@ -101,12 +101,7 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
         settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "exposureTime", "iso"}));
     const char* group = "Measurement";
     PoppingOptions& options = arguments->options;
-    command->add_option("--counts", options.sampleCounts, "Numbers of lens samples")
-        ->delimiter(',')
-        ->check(unnamed(CLI::Range(1, 4096)))
-        ->type_name("N,N,…")
-        ->default_str("8,16,32")
-        ->group(group);
+    addWholes(*command, "--counts", options.sampleCounts, 1, 4096, "Numbers of lens samples")->group(group);
     addWhole(*command, "--frames", options.frames, 2, 10'000,
              "Frames of each movement: the stretch of it over which levels change most often")
         ->group(group);

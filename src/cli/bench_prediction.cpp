@@ -64,11 +64,7 @@ void addPredictionCommand(CLI::App& bench, const GlobalOptions& global) {
         "prediction",
         "A scene's largest mesh alone, level by level under growing blur: the error that its pyramid "
         "expects against the rendered one");
-    command->add_option("--cocs", arguments->options.cocs, "Blur of the mesh's centre")
-        ->delimiter(',')
-        ->check(unnamed(CLI::Range(0.01, 1e4)))
-        ->type_name("PX,PX,…")
-        ->default_str("1,4,16,64")
+    addNumbers(*command, "--cocs", arguments->options.cocs, {0.01, 1e4}, "PX,PX,…", "Blur of the mesh's centre")
         ->group("Measurement");
     addSettings(*command, arguments->request, {"scene", "fishCount", "trianglesPerFish", "size"});
     command->add_option("-o,--output", arguments->folder, "Folder for prediction.csv and prediction.json")

@@ -82,20 +82,12 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
         "scaling", "Time and memory against triangles, instances, samples, pixels and blur, with fitted exponents");
     const char* group = "Measurement";
     ScalingOptions& options = arguments->options;
-    addParsed(*command, "--axes", "AXIS,AXIS,…", "What grows: triangles, instances, samples, pixels, blur",
-              [&options](const std::string& text) {
-                  options.axes.clear();
-                  for (std::size_t begin = 0; begin <= text.size();) {
-                      const std::size_t end = std::min(text.find(',', begin), text.size());
-                      const std::vector<ScalingAxis> all = ScalingOptions().axes;
-                      std::vector<std::string> names;
-                      names.reserve(all.size());
-                      for (const ScalingAxis axis : all) names.emplace_back(scalingAxisName(axis));
-                      options.axes.push_back(all[parseChoice(text.substr(begin, end - begin), names)]);
-                      begin = end + 1;
-                  }
-              })
-        ->default_str("triangles,instances,samples,pixels,blur")
+    const std::vector<ScalingAxis> all = options.axes;
+    std::vector<std::string> names;
+    for (const ScalingAxis axis : all) names.emplace_back(scalingAxisName(axis));
+    addList(*command, "--axes", "AXIS,AXIS,…", options.axes, "What grows: triangles, instances, samples, pixels, blur",
+            [all, names](const std::string& part) { return all[parseChoice(part, names)]; })
+        ->default_str(fmt::format("{}", fmt::join(names, ",")))
         ->group(group);
     command
         ->add_flag("--large", options.large,

@@ -157,18 +157,13 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
                         "Write FLIP per pixel: .png and .jpg through the magma colour map, .exr as plain values");
     CLI::Option* hdr = command->add_flag("--hdr", arguments->hdr,
                                          "FLIP for HDR images: the worst over several exposures, instead of at EV 0");
-    command->add_option("--start-exposure", arguments->hdrFlip.startExposure, "First exposure of --hdr, EV")
-        ->needs(hdr)
-        ->check(unnamed(CLI::Range(-60.0, 60.0)))
-        ->capture_default_str();
-    command->add_option("--stop-exposure", arguments->hdrFlip.stopExposure, "Last exposure of --hdr, EV")
-        ->needs(hdr)
-        ->check(unnamed(CLI::Range(-60.0, 60.0)))
-        ->capture_default_str();
-    command->add_option("--exposures", arguments->hdrFlip.exposures, "Number of exposures of --hdr")
-        ->needs(hdr)
-        ->check(unnamed(CLI::Range(1, 64)))
-        ->capture_default_str();
+    const Range exposures = {-60, 60};
+    addNumber(*command, "--start-exposure", arguments->hdrFlip.startExposure, exposures, "EV",
+              "First exposure of --hdr")
+        ->needs(hdr);
+    addNumber(*command, "--stop-exposure", arguments->hdrFlip.stopExposure, exposures, "EV", "Last exposure of --hdr")
+        ->needs(hdr);
+    addWhole(*command, "--exposures", arguments->hdrFlip.exposures, 1, 64, "Number of exposures of --hdr")->needs(hdr);
     command
         ->add_option("--fail-above", arguments->failAbove,
                      "METRIC=VALUE: exit with 1 when a metric is worse than VALUE: above it, or below it for psnr "

@@ -1,6 +1,8 @@
 #include "cli/help_format.h"
 
+#include <algorithm>
 #include <sstream>
+#include <string_view>
 
 namespace defocus {
 
@@ -8,10 +10,16 @@ namespace {
 
 constexpr std::size_t lineWidth = 100;
 
+// Columns that a text of UTF-8 takes: bytes that go on with a letter don't count.
+std::size_t columnsOf(std::string_view text) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; }));
+}
+
 // `left` in its column, then `text` word by word; on lines of its own where `left` is too wide.
 std::string inColumns(const std::string& left, const std::string& text, std::size_t column) {
     std::string lines = "  " + left;
-    std::size_t at = lines.size();
+    std::size_t at = columnsOf(lines);
     const auto startColumn = [&] {
         lines.append(column - at, ' ');
         at = column;
@@ -27,12 +35,12 @@ std::string inColumns(const std::string& left, const std::string& text, std::siz
         startColumn();
     std::istringstream words(text);
     for (std::string word; words >> word;) {
-        if (at > column && at + 1 + word.size() > lineWidth)
+        if (at > column && at + 1 + columnsOf(word) > lineWidth)
             breakLine();
         else if (at > column)
             word.insert(word.begin(), ' ');
         lines += word;
-        at += word.size();
+        at += columnsOf(word);
     }
     return lines + '\n';
 }

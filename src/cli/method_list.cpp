@@ -1,18 +1,8 @@
 #include "cli/method_list.h"
 
-#include <algorithm>
+#include "cli/option_text.h"
 
 namespace defocus {
-
-std::vector<std::string> partsOf(const std::string& text) {
-    std::vector<std::string> parts;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        parts.push_back(text.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return parts;
-}
 
 std::vector<MethodUse> parseMethods(const std::string& text) {
     std::vector<std::string> names;

@@ -1,5 +1,5 @@
 #pragma once
-// Lists on the command line.
+// Lists of methods on the command line.
 
 #include <string>
 #include <vector>
@@ -7,9 +7,6 @@
 #include "render/methods.h"
 
 namespace defocus {
-
-// What stands between the commas.
-std::vector<std::string> partsOf(const std::string& text);
 
 // "a:x=1,y=2,b" is a with two settings, and b: what has a "=" and no name of its own belongs to the method before it.
 // Throws Error for an unknown method or setting and for a value out of range.

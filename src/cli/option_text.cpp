@@ -1,5 +1,7 @@
 #include "cli/option_text.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace defocus {
@@ -32,6 +34,23 @@ CLI::Option* addNumber(CLI::App& command, const std::string& names, double& targ
     return addParsed(command, names, type, description,
                      [&target, range](const std::string& text) { target = parseNumber(text, range); })
         ->default_str(fmt::format("{:g}", target));
+}
+
+std::vector<std::string> partsOf(const std::string& text) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+CLI::Option* addNumbers(CLI::App& command, const std::string& names, std::vector<double>& target, const Range& range,
+                        const std::string& type, const std::string& description) {
+    return addList(command, names, type, target, description,
+                   [range](const std::string& part) { return parseNumber(part, range); })
+        ->default_str(fmt::format("{:g}", fmt::join(target, ",")));
 }
 
 }  // namespace defocus

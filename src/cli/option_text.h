@@ -2,6 +2,9 @@
 // Options that are read by our own rules, so that a wrong value gives one clear line: "--samples: '0' is not a whole
 // number from 1 to 65536".
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
@@ -37,6 +40,31 @@ CLI::Option* addWhole(CLI::App& command, const std::string& names, Whole& target
                          target = static_cast<Whole>(parseWhole(text, least, most));
                      })
         ->default_str(std::to_string(target));
+}
+
+// The parts of a list, between its commas.
+std::vector<std::string> partsOf(const std::string& text);
+
+// An option for a list parted by commas, each part read by `parse`.
+template <typename Value, typename Parse>
+CLI::Option* addList(CLI::App& command, const std::string& names, const std::string& type, std::vector<Value>& target,
+                     const std::string& description, Parse parse) {
+    return addParsed(command, names, type, description, [&target, parse](const std::string& text) {
+        target.clear();
+        for (const std::string& part : partsOf(text)) target.push_back(parse(part));
+    });
+}
+
+// The same for numbers.
+CLI::Option* addNumbers(CLI::App& command, const std::string& names, std::vector<double>& target, const Range& range,
+                        const std::string& type, const std::string& description);
+
+template <typename Whole>
+CLI::Option* addWholes(CLI::App& command, const std::string& names, std::vector<Whole>& target, std::uint64_t least,
+                       std::uint64_t most, const std::string& description) {
+    return addList(command, names, "N,N,…", target, description,
+                   [least, most](const std::string& part) { return static_cast<Whole>(parseWhole(part, least, most)); })
+        ->default_str(fmt::format("{}", fmt::join(target, ",")));
 }
 
 template <typename Value>

@@ -8,8 +8,8 @@
 #include "cli/command.h"
 #include "cli/request_options.h"
 #include "frame/plan_warnings.h"
-#include "frame/unused_settings.h"
 #include "frame/prepared_frame.h"
+#include "frame/unused_settings.h"
 #include "plan/frame_plan.h"
 #include "plan/plan_text.h"
 

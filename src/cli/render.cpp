@@ -40,12 +40,7 @@ using Clock = std::chrono::steady_clock;
 void parseAovs(const std::string& text, AovRequest& aovs) {
     const std::vector<std::string> names = {"depth", "coc", "level", "work"};
     const std::array<bool*, 4> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work};
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        *wanted[parseChoice(text.substr(begin, end - begin), names)] = true;
-        begin = end + 1;
-    }
+    for (const std::string& part : partsOf(text)) *wanted[parseChoice(part, names)] = true;
 }
 
 void addOutputs(CLI::App& command, RenderArguments& arguments) {

@@ -32,10 +32,12 @@ void checkRequest(const View& view, const RenderSettings& settings) {
         chosenThresholds(settings.thresholds, settings.metric, std::max(settings.sampleCount, 1u));
     if (!(thresholds.blur >= 0) || !(thresholds.size >= 0) || !(thresholds.light >= 0))
         fail("level-of-detail thresholds must be 0 or more");
-    const bool measured = chosenMetric(settings.metric, settings.thresholds) == LodMetric::measured;
+    const LodMetric metric = chosenMetric(settings.metric, settings.thresholds);
+    const bool measured = metric == LodMetric::measured;
     if (measured ? settings.thresholds.blur || settings.thresholds.size : settings.thresholds.light.has_value())
-        fail("levels by {} have {} alone", lodMetricName(settings.metric),
-             measured ? "a light threshold" : "a blur and a size threshold");
+        fail("levels by {} take {} alone", measured ? "measured error" : lodMetricName(metric),
+             measured ? "a light threshold (--light-threshold)"
+                      : "a blur and a size threshold (--blur-threshold, --size-threshold)");
 }
 
 const Material& materialOf(const Scene& scene, const Primitive& primitive) {

@@ -1,19 +1,34 @@
 #pragma once
-// The name table of rendering methods. Optional builds (the Embree ray tracer) add theirs with registerMethod before
-// use.
+// The name table of rendering methods, and what each can be asked for, by name and as text: the options of `render`,
+// the methods of a bench and the metadata of an image say it alike, for example
+// "circular:far-components=5,resolution=half". Optional builds (the Embree ray tracer) add their methods with
+// registerMethod before use.
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "render/layer_format.h"
-#include "render/method_settings.h"
 #include "render/renderer.h"
 
 namespace defocus {
+
+struct MethodSetting {
+    std::string name;                  // "far-components"; on the command line --far-components
+    std::string standard;              // its value when nothing is said
+    std::string description;           // for --help
+    std::vector<std::string> choices;  // one of these, or, when empty, a number:
+    double least = 0;
+    double most = 0;
+    bool whole = true;  // a whole number
+};
+
+// Values by name, as text.
+using MethodSettings = std::map<std::string, std::string>;
 
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
@@ -50,5 +65,16 @@ void registerMethod(Method method);
 const Method& methodNamed(std::string_view name);
 // The inverse of MethodUse::text. Throws Error for an unknown method or setting and for a value out of range.
 MethodUse parseMethodUse(std::string_view text);
+
+// `given` with the standard values filled in. Throws Error, naming `method`, for a name that isn't in `known` (it lists
+// those that are) and for a value that the setting doesn't take.
+MethodSettings completeSettings(std::string_view method, const std::vector<MethodSetting>& known,
+                                const MethodSettings& given);
+
+// The value of a setting that is a number; `settings` must be complete.
+double numberOf(const MethodSettings& settings, const std::string& name);
+
+// "taps=16,coc=thin-lens": what differs from the standard values, in the table's order; empty when nothing does.
+std::string settingsText(const std::vector<MethodSetting>& known, const MethodSettings& settings);
 
 }  // namespace defocus

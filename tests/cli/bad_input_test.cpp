@@ -99,9 +99,12 @@ TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "exact motion", {"--target-error", "0.01", "--shutter", "1", "--motion-segments", "exact"});
     expectFault(2, "--sample-range", {"--target-error", "0.01", "--sample-range", "0:64", "-o", "a.exr"});
     expectFault(1, "accumulation", {"--method", "circular", "--background", "none"});
-    expectFault(1, "a light threshold alone", {"--lod-metric", "measured", "--blur-threshold", "0.1"});
-    expectFault(1, "a blur and a size threshold alone", {"--light-threshold", "0.1", "--size-threshold", "2"});
-    expectFault(1, "a blur and a size threshold alone", {"--lod-metric", "error", "--light-threshold", "0.1"});
+    expectFault(1, "levels by measured error take a light threshold",
+                {"--lod-metric", "measured", "--blur-threshold", "0.1"});
+    expectFault(1, "levels by size take a blur and a size threshold",
+                {"--light-threshold", "0.1", "--size-threshold", "2"});
+    expectFault(1, "levels by error take a blur and a size threshold",
+                {"--lod-metric", "error", "--light-threshold", "0.1"});
     expectFault(1, "layer format", {"--method", "scheuermann", "--layer-format", "rgb9e5"});
 }
 

@@ -35,7 +35,7 @@ struct OptionCase {
 namespace option_cases {
 
 // A ball of 700 triangles that goes away from the camera within 2 s, and turns to its right half-way, before a board. A
-// second clip holds it still. A second camera stands closer, and a third one has a focus distance of its own.
+// second clip holds it still. A second camera stands closer and has a focus distance of its own.
 inline std::string movingBall() {
     const Mesh ball = bumpySphere(24, 16, 0);
     GltfBuilder builder;
@@ -51,14 +51,12 @@ inline std::string movingBall() {
                  {{"name", "Board"}, {"translation", {-1.5, 0.5, -9}}, {"scale", {2, 2, 1}}});
     builder.json["cameras"] = {
         {{"name", "Far"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"znear", 0.1}}}},
-        {{"name", "Near"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}},
-        {{"name", "Focused"},
+        {{"name", "Near"},
          {"type", "perspective"},
-         {"perspective", {{"yfov", 0.9}, {"znear", 0.1}}},
+         {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}},
          {"extras", {{"focusDistance", 1}}}}};
     builder.add("nodes", {{"camera", 0}});
     builder.add("nodes", {{"camera", 1}, {"translation", {0.2, 0, -0.5}}});
-    builder.add("nodes", {{"camera", 2}});
     const int times = builder.floats({0, 1, 2}, "SCALAR", 1);
     const int away = builder.floats({0, 0, -3, 0.2, 0.3, -3.5, 1.5, 0, -6}, "VEC3", 3);
     const int still = builder.floats({0, 0, -3, 0, 0, -3, 0, 0, -3}, "VEC3", 3);
@@ -123,7 +121,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"focusNode", {{"--focus-node", "Board"}, blurred}},
         {"focusPixel", {{"--focus-pixel", "24,18"}, {"--fstop", "0.5", "--time", "1", "--camera", "Near"}}},
         {"focusPoints", {{"--focus-points", "10,16,24,18,26,8"}, blurred}},
-        {"focusAuto", {{"--focus-auto"}, {"--fstop", "0.5", "--camera", "Focused"}}},
+        {"focusAuto", {{"--focus-auto"}, {"--fstop", "0.5", "--camera", "Near"}}},
         {"horizontalAperture", {{"--horizontal-aperture", "50"}, blurred}},
         {"dofEnabled", {{"--no-dof"}, blurred}},
         {"blurScale", {{"--blur-scale", "3"}, blurred}},
@@ -186,6 +184,7 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
         {"near-components", {{"--near-components", "3"}, joined(only("circular"), {"--focus-distance", "8"})}},
         {"far-components", {{"--far-components", "4"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"resolution", {{"--resolution", "half"}, only("circular")}},
+        {"kernel", {{"--kernel", "published"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"kernel-taps", {{"--kernel-taps", "eight"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"storage", {{"--storage", "float"}, only("circular")}},
         {"fields", {{"--fields", "combined"}, joined(only("circular"), {"--near-components", "2"})}},

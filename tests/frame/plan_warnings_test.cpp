@@ -43,7 +43,7 @@ TEST(PlanWarnings, thereAreNoneForABlurThatShowsAndIsFilled) {
 }
 
 TEST(PlanWarnings, anOpenLensThatBlursNothingIsNamedWithAScaleThatHelps) {
-    const auto small = quadsAt({227, 240});
+    const auto small = quadsAt({227, 600});
     small->view.lens.fStop = 1.4;
     small->view.lens.focusDistance = 230;
     const std::vector<std::string> lines = warningsOf(*small);

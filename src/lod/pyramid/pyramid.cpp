@@ -18,7 +18,6 @@
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/surface_distance.h"
 #include "lod/pyramid/vertex_order.h"
-#include "lod/simplify/conserve.h"
 #include "lod/simplify/level_fit.h"
 #include "lod/simplify/simplify.h"
 #include "lod/simplify/weld.h"

@@ -6,6 +6,8 @@
 // the surviving vertices. Positions, normals, colours and texture coordinates are each level's own, fitted to level 0
 // (level_fit.h), or with LevelVertices::surviving those of the surviving vertices, too.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -14,7 +16,6 @@
 
 #include "core/progress.h"
 #include "defocus/settings.h"
-#include "lod/pyramid/blur_table.h"
 #include "lod/simplify/pyramid_end.h"
 #include "scene/mesh.h"
 
@@ -41,6 +42,12 @@ struct Cluster {
 };
 
 inline constexpr std::uint32_t mostClusterTriangles = 64;
+
+// What a blur leaves of a difference: its root mean square once it is averaged over patches of growing size.
+// [0]: over no patch, point by point. [i], i ≥ 1: over square patches of side 2^(i − 1) · Pyramid::smallestPatch. Light
+// is in units of the mesh's own mean, so that 1 is all of it.
+inline constexpr std::size_t blurSizes = 10;
+using BlurTable = std::array<float, blurSizes>;
 
 struct PyramidLevel {
     std::vector<IndexRange> primitives;  // one a primitive of the mesh, in its order

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "core/bounds.h"
-#include "lod/simplify/triangle_distance.h"
+#include "lod/simplify/triangle.h"
 
 namespace defocus {
 

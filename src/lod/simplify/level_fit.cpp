@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
+#include <vector>
 
-#include "lod/simplify/anchored.h"
-#include "lod/simplify/grouping.h"
-#include "lod/simplify/least_squares.h"
-#include "lod/simplify/surface_mean.h"
-#include "lod/simplify/texture_fit.h"
-#include "lod/simplify/upright.h"
+#include "lod/simplify/fit_data.h"
 
 namespace defocus {
 
@@ -247,6 +244,27 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
     }
 }
 
+// Levels of more triangles cover what level 0 does without help.
+constexpr std::size_t mostOutlineTriangles = 16'384;
+
+void conserveOutline(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
+    if (level.triangles.count() > mostOutlineTriangles) return;
+    const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
+    const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
+    std::vector<std::uint32_t> places;
+    places.reserve(groups.of.size());
+    for (const UnknownNumber g : groups.of) places.push_back(g.value);
+    fitOutlines(fit.positions, plainCorners(level.triangles), places, source.outlines, source.bounds);
+}
+
+void conserveColor(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
+    if (fit.colors.empty()) return;
+    const glm::dvec4 own = areaMean(
+        level.triangles, [&](LevelVertexNumber v) { return fit.positions[v]; },
+        [&](LevelVertexNumber v) { return fit.colors[v]; });
+    for (glm::vec4& color : fit.colors) color += glm::vec4(source.meanColor - own);
+}
+
 }  // namespace
 
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors) {
@@ -259,6 +277,11 @@ LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<Mesh
     fit.colors = fitColors(source, level, sums);
     growComponents(fit.positions, level, source.bounds);
     return fit;
+}
+
+void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
+    conserveOutline(source, level, fit);
+    conserveColor(source, level, fit);
 }
 
 }  // namespace defocus

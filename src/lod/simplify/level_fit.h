@@ -6,11 +6,37 @@
 // gradients, Hestenes and Stiefel 1952).
 
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
 
-#include "lod/simplify/fit_source.h"
+#include "core/bounds.h"
+#include "lod/simplify/outline.h"
 #include "lod/simplify/triangle_set.h"
+#include "lod/simplify/weld.h"
+#include "scene/mesh.h"
 
 namespace defocus {
+
+// What all levels of a mesh are fitted to: its vertices, what they share with each other, and what the levels keep of
+// the whole surface.
+struct FitSource {
+    const Vertices& vertices;
+    const WeldedPositions& positions;
+    const VertexGroups& smoothing;                   // vertices of one group share a normal
+    VertexGroups shades;                             // those of one group share a colour; empty without colours
+    VertexGroups charts;                             // those of one group share texture coordinates; empty without
+    Numbered<MeshVertexNumber, std::uint8_t> seams;  // 1: others at its position have other coordinates; empty without
+    Numbered<MeshVertexNumber, float> areas;  // the share of level 0's surface that each vertex stands for, mean 1
+    Bounds bounds;                            // of level 0's triangles
+    // Level 0's values of what the levels keep; see conserve().
+    glm::dvec4 meanColor{0};
+    std::vector<CoverGrid> outlines;
+};
+
+// Prepares the fit; `triangles` are level 0's. It keeps references to the other three.
+FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
+                     const TriangleSet<MeshVertexNumber>& triangles);
 
 // Where a vertex of level 0 lies on a coarser level: a point of one of its triangles, as a weighted mean of the
 // corners. Weights of 0 leave the vertex out.
@@ -53,5 +79,11 @@ struct LevelFit {
 // than 60° and leaves no part of them outside level 0's box. Vertices at one position stay at one; those whose normals
 // agree within a degree share one normal, and with equal colours one colour, so that neither gap nor seam shows.
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors);
+
+// Corrects a fitted level until it keeps what a wide blur would show of level 0:
+// - the area that it covers, where it is so coarse that it may lose any: what lies at its outlines moves (outline.h);
+// - the mean colour over its area, alpha included: all colours are shifted alike.
+// What fitLevel promises of places and of normals that are shared still holds; a triangle turns by at most 60° more.
+void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
 
 }  // namespace defocus

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "lod/simplify/state.h"
-#include "lod/simplify/triangle_distance.h"
+#include "lod/simplify/triangle.h"
 
 namespace defocus {
 

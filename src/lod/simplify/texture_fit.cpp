@@ -1,4 +1,6 @@
-#include "lod/simplify/texture_fit.h"
+// Texture coordinates of a level, fitted so that it shows the texture where level 0 does. Those at seams stay as they
+// are, so that each chart keeps its rim. No triangle turns over in texture space, or becomes less than half or more
+// than twice as large there.
 
 #include <algorithm>
 #include <array>
@@ -6,8 +8,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "lod/simplify/anchored.h"
-#include "lod/simplify/grouping.h"
+#include "lod/simplify/fit_data.h"
 
 namespace defocus {
 

@@ -26,6 +26,7 @@ struct CircularOptions {
     double blendBias = 1;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
+    KernelConstants constants = KernelConstants::fitted;
 };
 
 CircularOptions parsed(const MethodSettings& settings) {
@@ -43,6 +44,11 @@ CircularOptions parsed(const MethodSettings& settings) {
                       : storage == "half" ? ComplexStorage::half
                                           : ComplexStorage::rgb10A2;
     options.taps = taps == "exact" ? ComplexTaps::exact : taps == "eight" ? ComplexTaps::eight : ComplexTaps::sets;
+    options.constants = settings.at("kernel") == "published" ? KernelConstants::published : KernelConstants::fitted;
+    if (options.constants == KernelConstants::published &&
+        std::max(options.nearComponents, options.farComponents) > publishedKernelLimit)
+        fail("method circular: kernel=published has constants for up to {} components; the others are kernel=fitted",
+             publishedKernelLimit);
     if (options.direct && options.storage == ComplexStorage::rgb10A2)
         fail(
             "method circular: convolution=direct stores no sums between its passes, so storage has no effect; leave it "
@@ -154,8 +160,14 @@ private:
         const int rows = (fieldHeight + tileSize - 1) / tileSize;
         tiles_ = texture(TextureFormat::r32f, columns, rows);
         reaching_ = texture(TextureFormat::r32f, columns, rows);
-        ComplexBlurInfo info{fieldWidth,    fieldHeight,     options_.farComponents, options_.storage,
-                             options_.taps, options_.direct, shaderFolder_};
+        ComplexBlurInfo info{.width = fieldWidth,
+                             .height = fieldHeight,
+                             .components = options_.farComponents,
+                             .constants = options_.constants,
+                             .storage = options_.storage,
+                             .taps = options_.taps,
+                             .direct = options_.direct,
+                             .shaderFolder = shaderFolder_};
         far_.emplace(info);
         std::vector<const GlTexture*> targets = {&farField_, &farRadius_, &ownNearRadius_};
         if (!options_.combined) {
@@ -216,6 +228,12 @@ std::vector<MethodSetting> circularSettings() {
          .standard = "full",
          .description = "Of the blurred fields; as published, half with one far component or quarter with two",
          .choices = {"full", "half", "quarter"}},
+        {.name = "kernel",
+         .standard = "fitted",
+         .description =
+             "Constants of the kernel: those that come closest to the disk, or those of Garcia's slides (one or "
+             "two components)",
+         .choices = {"fitted", "published"}},
         {.name = "kernel-taps",
          .standard = "exact",
          .description = "Taps on each side: one a pixel, eight as published, or sets of 4, 8, 16 and 32 by the blur",

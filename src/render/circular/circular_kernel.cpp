@@ -75,6 +75,25 @@ constexpr std::array<CircularComponent, 45> components = {{
     {-0.140223, 49.595900, -0.018297, -0.025707},
 }};
 
+// Niemitalo 2010, as Garcia's slides print them: one component, then two. The disks have these radii.
+constexpr std::array<CircularComponent, 3> published = {{
+    {0.862325, 1.624835, 0.767583, 1.862321},
+    {0.886528, 5.268909, 0.411259, -0.548794},
+    {1.960518, 1.558213, 0.513282, 4.561110},
+}};
+constexpr std::array<double, 3> publishedDiskRadius = {1.068, 1.097, 1.097};
+
+// With u = r² in squared radii of the disk, e^((−a + ib)·u·ρ²) is the component whose disk has the radius ρ.
+std::array<CircularComponent, 3> publishedInRadii() {
+    std::array<CircularComponent, 3> kernels = published;
+    for (std::size_t i = 0; i < kernels.size(); ++i) {
+        const double square = publishedDiskRadius[i] * publishedDiskRadius[i];
+        kernels[i].decay *= square;
+        kernels[i].frequency *= square;
+    }
+    return kernels;
+}
+
 struct LinePoint {
     double x;       // in (−1, 1)
     double weight;  // all together 2
@@ -124,6 +143,13 @@ std::span<const CircularComponent> circularKernel(int count) {
     }
     const auto n = static_cast<std::size_t>(count);
     return std::span(components).subspan(n * (n - 1) / 2, n);
+}
+
+std::span<const CircularComponent> publishedCircularKernel(int count) {
+    if (count < 1 || count > publishedKernelLimit)
+        fail("a published circular kernel of {} components: there are those of 1 and {}", count, publishedKernelLimit);
+    static const std::array<CircularComponent, 3> kernels = publishedInRadii();
+    return std::span(kernels).subspan(count == 1 ? 0 : 1, static_cast<std::size_t>(count));
 }
 
 std::complex<double> circularFactor(const CircularComponent& component, double offset) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numeric>
+#include <vector>
 
 #include "render/circular/circular_kernel.h"
 
@@ -20,6 +22,7 @@ constexpr GLint bracketLocation = 16;
 constexpr int mostComponentsInHalf = 5;
 constexpr double outermostTap = 2;  // in radii: taps within radius + 1/2 of radii above 1/2
 constexpr int bracketSteps = 4096;
+constexpr int publishedTaps = 8;  // on each side
 
 TextureFormat textureFormat(ComplexStorage storage) {
     switch (storage) {
@@ -56,6 +59,35 @@ ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
             {"TAPS_SETS", info.taps == ComplexTaps::sets ? "1" : "0"}};
 }
 
+std::span<const CircularComponent> kernelOf(const ComplexBlurInfo& info) {
+    return info.constants == KernelConstants::published ? publishedCircularKernel(info.components)
+                                                        : circularKernel(info.components);
+}
+
+std::vector<double> realParts(const std::vector<std::complex<double>>& values) {
+    std::vector<double> parts;
+    for (const std::complex<double>& value : values) parts.push_back(value.real());
+    return parts;
+}
+
+std::vector<double> imaginaryParts(const std::vector<std::complex<double>>& values) {
+    std::vector<double> parts;
+    for (const std::complex<double>& value : values) parts.push_back(value.imag());
+    return parts;
+}
+
+// Of all the taps that are summed.
+Bracket bracketOfSum(const std::vector<double>& taps) {
+    const double offset = std::ranges::min(taps);
+    return {offset, std::reduce(taps.begin(), taps.end()) / static_cast<double>(taps.size()) - offset};
+}
+
+// Of taps that lie among these values.
+Bracket bracketOfRange(const std::vector<double>& taps) {
+    const auto [least, greatest] = std::ranges::minmax(taps);
+    return {least, greatest - least};
+}
+
 void setKernel(const Program& program, std::span<const CircularComponent> kernel) {
     std::vector<float> values;
     for (const CircularComponent& c : kernel)
@@ -65,16 +97,16 @@ void setKernel(const Program& program, std::span<const CircularComponent> kernel
 
 }  // namespace
 
-Bracket bracketOf(const CircularComponent& component) {
-    Bracket bracket;
-    for (int i = 0; i <= bracketSteps; ++i) {
-        const std::complex<double> tap = circularFactor(component, outermostTap * i / bracketSteps);
-        bracket.leastReal = std::min(bracket.leastReal, tap.real());
-        bracket.greatestReal = std::max(bracket.greatestReal, tap.real());
-        bracket.leastImaginary = std::min(bracket.leastImaginary, tap.imag());
-        bracket.greatestImaginary = std::max(bracket.greatestImaginary, tap.imag());
+ComplexBracket bracketOf(const CircularComponent& component, ComplexTaps taps) {
+    std::vector<std::complex<double>> factors;
+    if (taps == ComplexTaps::eight) {
+        for (int i = -publishedTaps; i <= publishedTaps; ++i)
+            factors.push_back(circularFactor(component, double(i) / publishedTaps));
+        return {bracketOfSum(realParts(factors)), bracketOfSum(imaginaryParts(factors))};
     }
-    return bracket;
+    for (int i = 0; i <= bracketSteps; ++i)
+        factors.push_back(circularFactor(component, outermostTap * i / bracketSteps));
+    return {bracketOfRange(realParts(factors)), bracketOfRange(imaginaryParts(factors))};
 }
 
 ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
@@ -86,7 +118,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     if (info_.direct) {
         direct_ = Program(
             {{fullscreenShader, "circular/direct.frag"}, definesOf(info_, info_.components), info_.shaderFolder});
-        setKernel(direct_, circularKernel(info_.components));
+        setKernel(direct_, kernelOf(info_));
         return;
     }
     makeGroups();
@@ -114,7 +146,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
 }
 
 void ComplexBlur::makeGroups() {
-    const std::span<const CircularComponent> kernel = circularKernel(info_.components);
+    const std::span<const CircularComponent> kernel = kernelOf(info_);
     const int atOnce = componentsAtOnce(info_.storage);
     for (int first = 0; first < info_.components; first += atOnce) {
         Group group;
@@ -127,9 +159,9 @@ void ComplexBlur::makeGroups() {
         for (const CircularComponent& component :
              kernel.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(group.count))) {
             if (!bracketed()) break;
-            const Bracket bracket = bracketOf(component);
-            for (const double value : {bracket.leastReal, bracket.greatestReal - bracket.leastReal,
-                                       bracket.leastImaginary, bracket.greatestImaginary - bracket.leastImaginary})
+            const ComplexBracket bracket = bracketOf(component, info_.taps);
+            for (const double value :
+                 {bracket.real.offset, bracket.real.scale, bracket.imaginary.offset, bracket.imaginary.scale})
                 brackets.push_back(static_cast<float>(value));
         }
         for (const Program* program : {&group.horizontal, &group.vertical}) {

@@ -17,8 +17,8 @@ namespace defocus {
 // How the rows' complex sums are stored.
 enum class ComplexStorage {
     float32,
-    half,  // kernels of more than five components take float32 all the same: rounding grows with their number
-    rgb10A2,  // Garcia's brackets: I = S·I′ + O·ΣJ with I′ and ΣJ in [0, 1], J divided by the field's largest value
+    half,     // kernels of more than five components take float32 all the same: rounding grows with their number
+    rgb10A2,  // Garcia's brackets, see Bracket; the field is divided by its largest value
 };
 
 enum class ComplexTaps {
@@ -27,10 +27,16 @@ enum class ComplexTaps {
     sets,   // 4, 8, 16 or 32 on each side, by the radius at the pixel
 };
 
+enum class KernelConstants {
+    fitted,     // circularKernel: the closest to the disk
+    published,  // publishedCircularKernel: those of Garcia's slides
+};
+
 struct ComplexBlurInfo {
     int width = 1;
     int height = 1;
-    int components = 1;  // 1 … circularKernelLimit
+    int components = 1;  // 1 … circularKernelLimit, or publishedKernelLimit
+    KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
     bool direct = false;  // gather the whole square instead: the same image, O(radius²)
@@ -73,15 +79,20 @@ private:
     Fullscreen fullscreen_;
 };
 
-// The least and the greatest tap of a component, real and imaginary, at any radius from half a pixel on. With a mean
-// ΣJ/n of values in [0, 1] under n taps, the bracketed sums (ΣF·J/n − least·ΣJ/n)/(greatest − least) lie in [0, 1].
+// How the sums of a component's real or imaginary taps G over n samples J in [0, 1] are stored (Garcia's appendix): as
+// I′ = (ΣG·J/n − offset·ΣJ/n)/scale with the least tap as offset.
+// Where the taps don't depend on the radius, scale = Σ(G − offset)/n as published: I′ is 1 for a white field, and no
+// tap weighs more than its share. Else scale is the range of the taps at any radius, which bounds I′ to [0, 1] as well,
+// but leaves its upper half unused.
 struct Bracket {
-    double leastReal = 0;
-    double greatestReal = 0;
-    double leastImaginary = 0;
-    double greatestImaginary = 0;
+    double offset = 0;
+    double scale = 1;
+};
+struct ComplexBracket {
+    Bracket real;
+    Bracket imaginary;
 };
 struct CircularComponent;
-Bracket bracketOf(const CircularComponent& component);
+ComplexBracket bracketOf(const CircularComponent& component, ComplexTaps taps);
 
 }  // namespace defocus

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "lod/numbered.h"
-#include "lod/simplify/conserve.h"
 
 namespace defocus {
 namespace {

@@ -149,6 +149,29 @@ TEST(CircularKernel, noFurtherFromTheDiskThanThePublishedKernels) {
     }
 }
 
+// In units of the disk they are what the slides print, at the radius where they come closest to a disk: at the same
+// extent any other radius is further from it.
+TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
+    EXPECT_THROW(publishedCircularKernel(0), Error);
+    EXPECT_THROW(publishedCircularKernel(publishedKernelLimit + 1), Error);
+    const CircularComponent& one = publishedCircularKernel(1)[0];
+    EXPECT_NEAR(one.decay / one.frequency, 0.862325 / 1.624835, 1e-12);
+    EXPECT_EQ(one.cosine, 0.767583);
+    EXPECT_EQ(one.sine, 1.862321);
+    for (int n = 1; n <= publishedKernelLimit; ++n) {
+        const auto kernel = publishedCircularKernel(n);
+        const double error = diskProfileError(kernel, circularKernelExtent, 1);
+        for (const double factor : {0.97, 1.03}) {
+            Kernel other{kernel.begin(), kernel.end()};
+            for (CircularComponent& c : other) {
+                c.decay *= factor * factor;
+                c.frequency *= factor * factor;
+            }
+            EXPECT_GT(diskProfileError(other, circularKernelExtent, 1), error) << n << ", " << factor;
+        }
+    }
+}
+
 // What the kernels are the least of (see the header).
 double guardedSquares(const Kernel& kernel) {
     const double error = diskProfileError(kernel, circularKernelExtent, 1);

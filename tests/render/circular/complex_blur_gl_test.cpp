@@ -145,19 +145,52 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
-TEST(Brackets, boundTheTapsOfEveryRadius) {
+// As published, the eight taps' scale is their sum: what is stored of a white field is 1, of a black one 0, and of a
+// field with any samples lies between.
+TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
     for (int n = 1; n <= circularKernelLimit; ++n)
         for (const CircularComponent& component : circularKernel(n)) {
-            const Bracket bracket = bracketOf(component);
+            const ComplexBracket bracket = bracketOf(component, ComplexTaps::eight);
+            std::complex<double> sum = 0;
+            for (int i = -8; i <= 8; ++i) {
+                const std::complex<double> tap = circularFactor(component, i / 8.0);
+                EXPECT_GE(tap.real(), bracket.real.offset - 1e-12);
+                EXPECT_GE(tap.imag(), bracket.imaginary.offset - 1e-12);
+                sum += tap / 17.0;
+            }
+            EXPECT_NEAR((sum.real() - bracket.real.offset) / bracket.real.scale, 1, 1e-12);
+            EXPECT_NEAR((sum.imag() - bracket.imaginary.offset) / bracket.imaginary.scale, 1, 1e-12);
+        }
+}
+
+TEST(Brackets, boundTheTapsOfEveryRadius) {
+    const auto expectWithin = [](double tap, const Bracket& bracket) {
+        EXPECT_GE(tap, bracket.offset - 1e-4);
+        EXPECT_LE(tap, bracket.offset + bracket.scale + 1e-4);
+    };
+    for (int n = 1; n <= circularKernelLimit; ++n)
+        for (const CircularComponent& component : circularKernel(n)) {
+            const ComplexBracket bracket = bracketOf(component, ComplexTaps::exact);
             for (const double radius : {0.51, 1.3, 5.05, 17.71, 160.3})
                 for (int i = 0; i < radius + 0.5; ++i) {
                     const std::complex<double> tap = circularFactor(component, i / radius);
-                    EXPECT_GE(tap.real(), bracket.leastReal - 1e-4);
-                    EXPECT_LE(tap.real(), bracket.greatestReal + 1e-4);
-                    EXPECT_GE(tap.imag(), bracket.leastImaginary - 1e-4);
-                    EXPECT_LE(tap.imag(), bracket.greatestImaginary + 1e-4);
+                    expectWithin(tap.real(), bracket.real);
+                    expectWithin(tap.imag(), bracket.imaginary);
                 }
         }
+}
+
+// The sum of the taps makes better use of ten bits than their range at any radius.
+TEST_F(ComplexBlurs, publishedBracketsLoseLessThanRanges) {
+    const auto lost = [&](ComplexTaps taps) {
+        ComplexBlurInfo info = infoOf(2, ComplexStorage::float32);
+        info.taps = taps;
+        info.constants = KernelConstants::published;
+        const Image exact = blurred(info, blocks(), filled(1, 8));
+        info.storage = ComplexStorage::rgb10A2;
+        return largestDifference(exact, blurred(info, blocks(), filled(1, 8)));
+    };
+    EXPECT_LT(lost(ComplexTaps::eight), 0.7 * lost(ComplexTaps::sets));
 }
 
 }  // namespace

@@ -1,14 +1,50 @@
 #pragma once
-// The unknowns of a level's fit: groups of its vertices that share a value, and their equations.
+// What the fits of a level share: what each anchor stands for, and the equations of the groups of vertices that are
+// fitted as one. Private to level_fit.cpp and texture_fit.cpp.
 
 #include <array>
 #include <cstddef>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <unordered_map>
+#include <vector>
 
 #include "lod/simplify/least_squares.h"
 #include "lod/simplify/level_fit.h"
 
 namespace defocus {
+
+// Both sets of texture coordinates; a set that the vertices don't have is 0.
+struct Coordinates {
+    glm::vec2 uv0{0};
+    glm::vec2 uv1{0};
+};
+
+Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v);
+
+// Returns whether the anchor leaves its vertex out of the fit.
+bool isUnused(const Anchor& anchor);
+
+// The vertices that an anchor stands for: its own, and those that share it.
+struct Anchored {
+    float area = 0;
+    glm::vec3 normal{0};  // the mean over the area
+    glm::vec4 color{0};   // the same; 0 without colours
+};
+
+// Returns a value for each vertex. It means nothing for a vertex without an anchor of its own.
+Numbered<MeshVertexNumber, Anchored> anchoredValues(const FitSource& source,
+                                                    const Numbered<MeshVertexNumber, Anchor>& anchors);
+
+// Returns the unit normals of a level's triangles, with their corners at `positions`, which are those of level 0's
+// vertices. A triangle without area gets zero.
+Numbered<TriangleNumber, glm::vec3> unitNormals(const std::vector<glm::vec3>& positions, const LevelMesh& level);
+
+// Returns how much of `area` counts: what its projection onto the anchor's triangle covers, but at least a fiftieth.
+// `normal` is the normal of the area and `face` the unit normal of the triangle. All of it counts if the anchor lies at
+// a corner or the triangle has no area.
+float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, const glm::vec3& normal);
 
 // The level's vertices in groups that share a value.
 struct Grouping {
@@ -66,5 +102,9 @@ void startFromMeans(LeastSquares& fit, const Own& own) {
         for (std::size_t c = 0; c < channels; ++c)
             fit.solution[g][c] = fit.weights[g] > 0 ? fit.sums[g][c] / fit.weights[g] : own(g, c);
 }
+
+// texture_fit.cpp: fills uv0 and uv1 of `fit`, if the mesh has them.
+void fitCoordinates(const FitSource& source, const LevelMesh& level, const Numbered<MeshVertexNumber, Anchor>& anchors,
+                    LevelFit& fit);
 
 }  // namespace defocus

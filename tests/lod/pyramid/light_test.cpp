@@ -1,10 +1,9 @@
-#include "lod/simplify/light.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "lod/pyramid/conserved.h"
 #include "lod/shapes.h"
 
 namespace defocus {

@@ -1,9 +1,8 @@
-#include "render/method_settings.h"
+#include "render/methods.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "render/methods.h"
 
 namespace defocus {
 namespace {

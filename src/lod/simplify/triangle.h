@@ -1,0 +1,100 @@
+#pragma once
+// Geometry of single triangles: their areas, the points closest to others, points to integrate over, and a guard of
+// what is fitted against triangles that turn over.
+
+#include <array>
+#include <cstddef>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <span>
+#include <utility>
+
+namespace defocus {
+
+// Twice the area of a triangle, along its normal; at(corner) is its place.
+template <typename Corner, typename At>
+glm::dvec3 triangleCross(std::span<const Corner, 3> corners, const At& at) {
+    const glm::dvec3 a = at(corners[0]);
+    return glm::cross(glm::dvec3(at(corners[1])) - a, glm::dvec3(at(corners[2])) - a);
+}
+
+// Ericson 2005, Real-Time Collision Detection, 5.1.5, by Voronoi region: (u, v) of the closest point a + u·(b − a) +
+// v·(c − a) of the triangle abc to `p`.
+inline glm::dvec2 closestCoordinates(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
+                                     const glm::dvec3& c) {
+    const glm::dvec3 ab = b - a;
+    const glm::dvec3 ac = c - a;
+    const double alongAbFromA = glm::dot(ab, p - a);
+    const double alongAcFromA = glm::dot(ac, p - a);
+    if (alongAbFromA <= 0 && alongAcFromA <= 0) return {0, 0};
+    const double alongAbFromB = glm::dot(ab, p - b);
+    const double alongAcFromB = glm::dot(ac, p - b);
+    if (alongAbFromB >= 0 && alongAcFromB <= alongAbFromB) return {1, 0};
+    const double alongAbFromC = glm::dot(ab, p - c);
+    const double alongAcFromC = glm::dot(ac, p - c);
+    if (alongAcFromC >= 0 && alongAbFromC <= alongAcFromC) return {0, 1};
+
+    // Twice the areas that p spans with each edge, times the triangle's: ≤ 0 beyond the edge.
+    const double overAb = alongAbFromA * alongAcFromB - alongAbFromB * alongAcFromA;
+    if (overAb <= 0 && alongAbFromA >= 0 && alongAbFromB <= 0) return {alongAbFromA / (alongAbFromA - alongAbFromB), 0};
+    const double overAc = alongAbFromC * alongAcFromA - alongAbFromA * alongAcFromC;
+    if (overAc <= 0 && alongAcFromA >= 0 && alongAcFromC <= 0) return {0, alongAcFromA / (alongAcFromA - alongAcFromC)};
+    const double overBc = alongAbFromB * alongAcFromC - alongAbFromC * alongAcFromB;
+    const double pastB = alongAcFromB - alongAbFromB;
+    const double pastC = alongAbFromC - alongAcFromC;
+    if (overBc <= 0 && pastB >= 0 && pastC >= 0) return {pastC / (pastB + pastC), pastB / (pastB + pastC)};
+    const double whole = overAb + overAc + overBc;
+    return {overAc / whole, overAb / whole};
+}
+
+inline glm::dvec3 closestPoint(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec2 along = closestCoordinates(p, a, b, c);
+    return a + along.x * (b - a) + along.y * (c - a);
+}
+
+// Calls visit(weights, share) for points of a triangle that is split into parts² alike: the middles of their edges,
+// which integrate quadratic functions exactly. `weights` are those of the corners, and the shares sum to 1.
+template <typename Visit>
+void forEachTrianglePoint(int parts, const Visit& visit) {
+    const double step = 1.0 / parts;
+    const auto middles = [&](double x, double y, double size) {
+        for (const auto& [dx, dy] : {std::pair{0.5, 0.0}, std::pair{0.0, 0.5}, std::pair{0.5, 0.5}}) {
+            const double s = x + dx * size;
+            const double t = y + dy * size;
+            visit(glm::dvec3(1 - s - t, s, t), step * step / 3);
+        }
+    };
+    for (int i = 0; i < parts; ++i)
+        for (int j = 0; i + j < parts; ++j) {
+            middles(i * step, j * step, step);
+            if (i + j + 1 < parts) middles((i + 1) * step, (j + 1) * step, -step);
+        }
+}
+
+// Moves corners back to where they were until no triangle is turned by more than 60°; at worst all of them.
+// cornersOf(t) are the three items of both arrays, below `triangles`, that a triangle joins.
+template <typename Points, typename CornersOf>
+void keepFacesUpright(Points& fitted, const Points& original, std::size_t triangles, const CornersOf& cornersOf) {
+    constexpr double leastTurnCosine = 0.5;
+    const auto normalOf = [&](const Points& points, const auto& corners) {
+        const glm::dvec3 a = points[corners[0]];
+        return glm::cross(glm::dvec3(points[corners[1]]) - a, glm::dvec3(points[corners[2]]) - a);
+    };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t t = 0; t < triangles; ++t) {
+            const auto corners = cornersOf(t);
+            const glm::dvec3 before = normalOf(original, corners);
+            const glm::dvec3 after = normalOf(fitted, corners);
+            if (glm::dot(before, after) >= leastTurnCosine * glm::length(before) * glm::length(after)) continue;
+            for (const auto corner : corners) {
+                changed |= fitted[corner] != original[corner];
+                fitted[corner] = original[corner];
+            }
+        }
+    }
+}
+
+}  // namespace defocus
