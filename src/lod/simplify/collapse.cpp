@@ -136,9 +136,9 @@ Choice chooseWedge(const Sides& sides, WedgeNumber wedge, PrimitiveNumber primit
 // triangles.
 constexpr float edgeWeight = 1e-4f;
 
-// OpenMesh's collapse walks around all four vertices of the edge's faces in search of a border. Around the middle of a
-// fan that would take the square of its faces.
-constexpr std::size_t mostSpokes = 8192;
+// A vertex of more spokes stays as long as it has them: to find its cheapest collapse that is allowed takes the square
+// of their number.
+constexpr std::size_t mostSpokesToJudge = 256;
 
 }  // namespace
 
@@ -150,25 +150,6 @@ const std::string& ShapeModule::name() const {
 float ShapeModule::collapse_priority(const CollapseInfo& collapse) {
     const bool allowed = keepsTopology(collapse.v0v1) && judge(collapse.v0v1) < Fit::bad;
     return static_cast<float>(allowed ? LEGAL_COLLAPSE : ILLEGAL_COLLAPSE);
-}
-
-ShapeModule::ShapeModule(SurfaceMesh& surface) : CollapseModule(surface, true) {
-    for (const VertexHandle v : surface.vertices()) {
-        if (!surface.halfedge_handle(v).is_valid()) continue;
-        std::size_t spokes = 0;
-        forEachSpoke(surface, v, [&](HalfedgeHandle) { ++spokes; });
-        if (spokes > mostSpokes) hubs_.push_back(v);
-    }
-}
-
-bool ShapeModule::besideHub(HalfedgeHandle along) {
-    const SurfaceMesh& surface = mesh();
-    const HalfedgeHandle back = surface.opposite_halfedge_handle(along);
-    return std::ranges::any_of(hubs_, [&](VertexHandle hub) {
-        return hub == surface.to_vertex_handle(along) || hub == surface.to_vertex_handle(back) ||
-               hub == surface.to_vertex_handle(surface.next_halfedge_handle(along)) ||
-               hub == surface.to_vertex_handle(surface.next_halfedge_handle(back));
-    });
 }
 
 bool ShapeModule::keepsTopology(HalfedgeHandle along) {
@@ -189,7 +170,6 @@ bool ShapeModule::keepsTopology(HalfedgeHandle along) {
 }
 
 Fit ShapeModule::judge(HalfedgeHandle along) {
-    if (besideHub(along)) return Fit::impossible;
     const SurfaceMesh& surface = mesh();
     const HalfedgeHandle back = surface.opposite_halfedge_handle(along);
     const VertexHandle from = surface.to_vertex_handle(back);
@@ -319,6 +299,7 @@ Candidate QuadricModule::cheapest(VertexHandle v) {
         spokes_.push_back(spoke);
     });
     Candidate best;
+    if (spokes_.size() > mostSpokesToJudge) return best;
     for (const HalfedgeHandle spoke : spokes_) {
         const float price = cost(spoke, best.cost);
         if (!(price < best.cost)) continue;

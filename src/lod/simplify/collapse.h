@@ -15,7 +15,7 @@ namespace defocus {
 // decimater module, it lets collapses through that are neither impossible nor bad.
 class ShapeModule final : public CollapseModule {
 public:
-    explicit ShapeModule(SurfaceMesh& surface);
+    explicit ShapeModule(SurfaceMesh& surface) : CollapseModule(surface, true) {}
 
     [[nodiscard]] const std::string& name() const override;
     float collapse_priority(const CollapseInfo& collapse) override;
@@ -25,13 +25,8 @@ public:
     [[nodiscard]] bool keepsTopology(HalfedgeHandle along);
     // Judges what the collapse does to the faces that stay, and doesn't look at the topology. Poor: it makes a sliver,
     // or draws the surface away from its border. Bad: it turns a face's normal by more than 75°, or leaves a face no
-    // area. Impossible: one of the vertices around the edge has more than 8,192 spokes.
+    // area.
     [[nodiscard]] Fit judge(HalfedgeHandle along);
-
-private:
-    [[nodiscard]] bool besideHub(HalfedgeHandle along);
-
-    std::vector<VertexHandle> hubs_;  // with so many spokes that no edge of their faces collapses
 };
 
 // A corner of a face that stays, and the wedge of the survivor that it takes over.

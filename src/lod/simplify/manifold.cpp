@@ -20,6 +20,10 @@ namespace {
 // Beyond this many faces at one edge nothing continues anything: all are cut apart, in time linear in their number.
 constexpr std::size_t mostFacesToPair = 32;
 
+// A vertex of more faces is cut into several. Where collapses go around a vertex with all of its faces, those around
+// the middle of a huge fan would take the square of their number.
+constexpr std::uint32_t mostSpokes = 1024;
+
 // What a face was repaired by.
 constexpr std::uint8_t turnedRepair = 1;
 constexpr std::uint8_t cutRepair = 2;
@@ -217,6 +221,48 @@ void pairAllEdges(PairedSurface& surface, const EdgeGroups& groups) {
     }
 }
 
+// Cuts the fans around vertices of too many faces along every 1,024th of their spokes.
+void cutHugeFans(PairedSurface& surface) {
+    Numbered<PositionNumber, std::uint32_t> faces(surface.points.size(), 0);
+    for (const PositionNumber p : surface.at) ++faces[p];
+    // Around its position each corner's face lies between two half-edges; the next face lies beyond the one that is
+    // left.
+    const auto entered = [&](SurfaceCorner corner) {
+        return surface.turned[faceOf(corner)] != 0 ? previousCorner(corner) : corner;
+    };
+    const auto left = [&](SurfaceCorner corner) {
+        return surface.turned[faceOf(corner)] != 0 ? corner : previousCorner(corner);
+    };
+    const auto beyond = [&](SurfaceCorner edge, PositionNumber middle) {
+        const SurfaceCorner twin = surface.twins[edge];
+        return !twin.isValid() || surface.at[twin] == middle ? twin : nextCorner(twin);
+    };
+    const auto cut = [&](SurfaceCorner edge) {
+        const SurfaceCorner twin = surface.twins[edge];
+        if (!twin.isValid()) return;
+        for (const SurfaceCorner side : {edge, twin}) {
+            surface.twins[side] = SurfaceCorner();
+            surface.repaired[faceOf(side)] |= cutRepair;
+        }
+    };
+
+    Numbered<SurfaceCorner, std::uint8_t> seen(surface.at.size(), 0);
+    for (const SurfaceCorner any : surface.at.numbers()) {
+        const PositionNumber middle = surface.at[any];
+        if (faces[middle] <= mostSpokes || seen[any] != 0) continue;
+        SurfaceCorner first = any;
+        for (SurfaceCorner before = beyond(entered(any), middle); before.isValid() && before != any;
+             before = beyond(entered(before), middle))
+            first = before;
+        std::uint32_t number = 0;
+        for (SurfaceCorner corner = first; corner.isValid() && seen[corner] == 0;
+             corner = beyond(left(corner), middle)) {
+            seen[corner] = 1;
+            if (number++ % mostSpokes == 0) cut(entered(corner));
+        }
+    }
+}
+
 // Numbers the fans: corners that are joined by paired edges are one vertex. Union-find, the smaller corner is the root.
 void numberVertices(PairedSurface& surface, Manifold& manifold) {
     Numbered<SurfaceCorner, SurfaceCorner> parent(surface.at.size());
@@ -305,6 +351,7 @@ Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
     const EdgeGroups groups = groupEdges(surface);
     orient(surface, groups);
     pairAllEdges(surface, groups);
+    cutHugeFans(surface);
     numberVertices(surface, manifold);
 
     manifold.turned = std::move(surface.turned);

@@ -43,6 +43,28 @@ TEST(Manifold, TetrahedronIsClosed) {
     EXPECT_EQ(manifold.repairs.faces, 0u);
 }
 
+// A fan of more than 1,024 faces is cut into as few vertices as there must be, whichever way its faces follow each
+// other.
+TEST(Manifold, HugeFanIsCutIntoSmallerOnes) {
+    constexpr std::uint32_t spokes = 2500;
+    Points points = {{0, 0, 0}};
+    for (std::uint32_t i = 0; i < spokes; ++i) points.push_back({std::cos(0.002 * i), std::sin(0.002 * i), 0});
+    for (const bool closed : {true, false})
+        for (const bool backwards : {true, false}) {
+            std::vector<std::uint32_t> corners;
+            for (std::uint32_t i = 0; i < (closed ? spokes : spokes - 1); ++i) {
+                const std::uint32_t face = backwards ? spokes - 2 + (closed ? 1 : 0) - i : i;
+                corners.insert(corners.end(), {0, face + 1, (face + 1) % spokes + 1});
+            }
+            const Manifold manifold = manifoldOf(points, corners);
+            expectConsistent(manifold);
+            Numbered<SurfaceVertexNumber, std::uint32_t> faces(manifold.positions.size(), 0);
+            for (const SurfaceVertexNumber v : manifold.corners) ++faces[v];
+            EXPECT_LE(*std::max_element(faces.begin(), faces.end()), 1024u);
+            EXPECT_EQ(std::count(manifold.positions.begin(), manifold.positions.end(), PositionNumber{0}), 3);
+        }
+}
+
 // 3---2
 // | / |
 // 0---1
