@@ -6,6 +6,8 @@
 // isn't
 //   GLSL 4.50 core or an extension that the shader names. A driver may take more.
 //
+// - With DEFOCUS_EXPECTED_DRIVER in the environment all tests skip where another driver draws.
+//
 // libepoxy calls OpenGL and EGL through pointers. Those of a few functions lead here first.
 
 #include "gl_conduct.h"
@@ -26,6 +28,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
+#include "gl/context.h"
 #include "image/scratch_folder.h"
 
 namespace defocus {
@@ -148,8 +152,20 @@ std::pair<std::string, bool> outputOf(const std::string& command) {
     return {output, pclose(pipe) == 0};
 }
 
-class Validation : public testing::Environment {
+class Conduct : public testing::Environment {
 public:
+    void SetUp() override {
+        const char* const driver = std::getenv("DEFOCUS_EXPECTED_DRIVER");
+        if (driver == nullptr) return;
+        std::string found = "no OpenGL";
+        try {
+            found = createHeadlessContext()->device();
+        } catch (const Error& error) {
+            found = error.what();
+        }
+        if (found.find(driver) == std::string::npos) GTEST_SKIP() << "skipped: no " << driver << " but " << found;
+    }
+
     void TearDown() override {
         if (shaders.empty()) return;
         if (!outputOf("command -v glslangValidator").second) {
@@ -175,7 +191,7 @@ public:
     }
 };
 
-[[maybe_unused]] const testing::Environment* const validation = testing::AddGlobalTestEnvironment(new Validation);
+[[maybe_unused]] const testing::Environment* const conduct = testing::AddGlobalTestEnvironment(new Conduct);
 
 }  // namespace
 
