@@ -27,6 +27,8 @@ struct FilmFrame {
     std::vector<std::filesystem::path> files;  // one an output pattern
     WriteOptions write;                        // of PNG, JPEG and video
     bool finished = false;                     // there already, and as it should be
+    std::filesystem::path
+        other;  // a whole image that would be replaced, of other settings; empty: none (with `resume`)
 };
 
 struct FilmOptions {

@@ -15,6 +15,7 @@
 #include "capture/partial.h"
 #include "capture/settings_hash.h"
 #include "cli/command.h"
+#include "cli/image_output.h"
 #include "cli/option_text.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -22,6 +23,7 @@
 #include "frame/exposure.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
+#include "frame/program_facts.h"
 #include "frame/render_report.h"
 #include "frame/unused_settings.h"
 #include "gl/context.h"
@@ -47,9 +49,11 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
     const char* group = "Output";
     arguments.outputs = {"out.exr"};
     command
-        .add_option("-o,--output", arguments.outputs,
-                    "Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. Can be given "
-                    "several times")
+        .add_option(
+            "-o,--output", arguments.outputs,
+            fmt::format("Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. {}. "
+                        "Can be given several times",
+                        standardOutputHelp))
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->default_str("out.exr")
@@ -64,8 +68,9 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
               "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
               [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
         ->group(group);
-    addParsed(command, "--stats", "FILE", "Write times, triangles and memory as JSON; - is standard output",
-              [&arguments](const std::string& text) { arguments.stats = text == "-" ? "/dev/stdout" : text; })
+    addParsed(command, "--stats", "FILE",
+              "Write times, triangles, memory and what was asked for as JSON; - is standard output",
+              [&arguments](const std::string& text) { arguments.stats = text; })
         ->group(group);
 }
 
@@ -89,12 +94,11 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
 }
 
 void checkOutputs(const RenderArguments& arguments) {
-    for (const std::filesystem::path& path : arguments.outputs) {
-        checkImageExtension(path);
-        checkWritable(path);
-    }
-    for (const std::filesystem::path& path : aovPaths(arguments)) checkWritable(path);
-    if (!arguments.stats.empty()) checkWritable(arguments.stats);
+    std::vector<std::filesystem::path> more = aovPaths(arguments);
+    if (!arguments.stats.empty()) more.push_back(arguments.stats);
+    checkImageOutputs(arguments.outputs, more);
+    if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
+        fail("--aov writes files beside the first output, which must be a file");
     if (!arguments.sampleRange) return;
     if (arguments.request.stop.given())
         throw UsageError("--sample-range needs a number of samples, which --target-error and --time-limit leave open");
@@ -150,7 +154,8 @@ void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Im
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report) {
     std::string names;
-    for (const std::filesystem::path& path : arguments.outputs) names += (names.empty() ? "" : ", ") + path.string();
+    for (const std::filesystem::path& path : arguments.outputs)
+        names += (names.empty() ? "" : ", ") + shownOutput(path);
     for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
     printMessage("{}: {}\n", names, summary(report));
 }
@@ -219,17 +224,18 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     if (metersExposure(arguments.request, *frame.scene, frame.view.lens) && !context) context = createHeadlessContext();
     const double exposure =
         chosenExposure(arguments.request, frame.world, frame.view, frame.settings, global.shaderDir);
-    const RenderReport report{arguments.request, use.text(), frame, plan, stats, software, milliseconds, exposure};
+    const RenderReport report{
+        arguments.request, use.text(), frame, plan, stats, software, milliseconds, exposure, commandLine(global.words)};
     const Metadata metadata = renderMetadata(report);
     if (arguments.sampleRange)
         writeSums(arguments, std::move(part), frame, global.shaderDir, metadata);
     else
         for (const std::filesystem::path& path : arguments.outputs)
-            writeImage(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});
+            writeOutput(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});
     if (arguments.aovs.surfaces()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
     if (arguments.aovs.work)
         writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
-    if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
+    if (!arguments.stats.empty()) writeOutput(arguments.stats, statsJson(report));
     if (global.verbose) printChoices(context.get(), plan, report);
     if (!global.quiet) printSummary(arguments, report);
 }

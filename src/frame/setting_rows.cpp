@@ -272,16 +272,17 @@ Rows sceneRows() {
                      "Straight lines that a vertex's way is cut into while the shutter is open (1 to 64), or 'exact' "
                      "for a pose of its own for each sample"),
                "/shutter/segments"),
-        inShot(path("environment", "--environment", "NAME|FILE", MEMBER(environment),
-                    "What lies behind the scene and lights it alone, beside the scene's own lights: studio, overcast, "
-                    "sunset, or an equirectangular image (.hdr or .exr)"),
+        inShot(path("environment", "--environment", "studio|overcast|sunset|FILE", MEMBER(environment),
+                    "What lies behind the scene and lights it alone, beside the scene's own lights: one of those built "
+                    "in, or "
+                    "an equirectangular image (.hdr or .exr)"),
                "/environment"),
         withUnit(inShot(number("environmentRotation", "--environment-rotation", "DEG", -360, 360,
                                MEMBER(environmentRotation), "Turns it counter-clockwise, seen from above"),
                         "/environmentRotation"),
                  "degrees"),
         inShot(
-            other("background", "--background", "WHAT", setBackground, backgroundText,
+            other("background", "--background", "environment|none|R,G,B", setBackground, backgroundText,
                   "'environment' (the default), 'none' for a transparent image, or R,G,B (linear) for one colour all "
                   "around"),
             "/background"),
@@ -526,6 +527,11 @@ Rows developerRows() {
 
 #undef MEMBER
 
+// Settings that most people use, of which --help alone tells.
+constexpr auto everyday =
+    std::to_array<std::string_view>({"scene", "time", "environment", "camera", "size", "focalLength", "fStop",
+                                     "focusDistance", "focusNode", "blurScale", "samples", "method", "exposure"});
+
 Rows allRows() {
     Rows rows;
     add(rows, SettingGroup::scene, sceneRows());
@@ -535,6 +541,7 @@ Rows allRows() {
     add(rows, SettingGroup::method, methodRows());
     add(rows, SettingGroup::display, displayRows());
     add(rows, SettingGroup::developer, developerRows());
+    for (Setting& setting : rows) setting.everyday = std::ranges::find(everyday, setting.name) != everyday.end();
     return rows;
 }
 
