@@ -107,7 +107,9 @@ DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, cons
         drawn.stats.samples = drawn.part.frameSamples;
     } else {
         FrameRun run(world, renderer);
-        run.start(frame.view, frame.settings, options.stop);
+        RenderSettings settings = frame.settings;
+        if (options.automatic) settings.sampleCount = automaticSamples;
+        run.start(frame.view, settings, options.stop);
         drawn.times.planMilliseconds = run.planMilliseconds();
         do {
             step(static_cast<double>(run.samples()) / run.sampleTotal());

@@ -37,6 +37,7 @@ struct FilmOptions {
     ToneMap toneMap = ToneMap::none;         // of PNG, JPEG and video, as is the exposure
     std::optional<double> exposure;          // EV; none: what each frame's lens makes
     bool metered = false;                    // the exposure is that of a meter, which is read later
+    bool automatic = false;                  // each frame gets as many samples as it asks for
     StopSettings stop;                       // of each frame; no time limit, which no two runs would keep alike
     FilmSettings settings;                   // all but the encoding
     std::filesystem::path timings;           // the sidecar

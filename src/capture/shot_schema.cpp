@@ -50,6 +50,8 @@ Json valueSchema(const Setting& setting) {
                 return {{"anyOf", {rangeJson("number", setting), {{"enum", setting.choices}}}}};
             return rangeJson("number", setting);
         case SettingKind::whole:
+            if (!setting.choices.empty())
+                return {{"anyOf", {rangeJson("integer", setting), {{"enum", setting.choices}}}}};
             return rangeJson("integer", setting);
         case SettingKind::truth:
             return {{"type", "boolean"}};

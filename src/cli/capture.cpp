@@ -108,6 +108,7 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     options.sampleRange = arguments.sampleRange;
     options.toneMap = arguments.request.toneMap;
     options.exposure = arguments.request.exposure;
+    options.automatic = isAutomatic(arguments.request);
     options.stop = arguments.request.stop;
     options.stop.timeLimit.reset();  // the run's: the same frame gets the same samples whenever it is rendered
     options.settings = settings;
@@ -120,7 +121,8 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
                const std::vector<FilmFrame>& film) {
     const StopSettings& stop = arguments.request.stop;
     const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
-                                                 : fmt::format("{} samples", base.settings.sampleCount);
+                                : isAutomatic(arguments.request) ? "as many samples as each frame asks for"
+                                                                 : fmt::format("{} samples", base.settings.sampleCount);
     fmt::print("{}, camera '{}', {}x{}, {}, {:g} frames a second\n", prepared.sceneName, prepared.cameraName,
                base.view.width, base.view.height, samples, arguments.shot.frameRate);
     fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
@@ -371,6 +373,8 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
 
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<CaptureArguments>();
+    // As many for each frame: a number that changes from frame to frame would be seen.
+    arguments->request.settings.sampleCount = RenderSettings{}.sampleCount;
     CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and film");
     addShot(*command, *arguments);
     addOutputs(*command, *arguments);

@@ -21,6 +21,7 @@
 #include "core/file.h"
 #include "core/message.h"
 #include "frame/exposure.h"
+#include "frame/picture_warnings.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/program_facts.h"
@@ -102,6 +103,8 @@ void checkOutputs(const RenderArguments& arguments) {
     if (!arguments.sampleRange) return;
     if (arguments.request.stop.given())
         throw UsageError("--sample-range needs a number of samples, which --target-error and --time-limit leave open");
+    if (arguments.request.settings.sampleCount == automaticSamples)
+        throw UsageError("--sample-range is a part of a number of samples: give --samples N too");
     checkSampleRange(*arguments.sampleRange, arguments.request.settings.sampleCount);
     if (arguments.outputs.size() != 1 || arguments.outputs.front().extension() != ".exr" || arguments.aovs.any())
         fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
@@ -109,7 +112,7 @@ void checkOutputs(const RenderArguments& arguments) {
 
 Image renderImage(FrameRun& run, Renderer& renderer, const RenderArguments& arguments, const PreparedFrame& frame,
                   const Progress& progress) {
-    run.start(frame.view, frame.settings, arguments.request.stop);
+    run.start(frame.view, runSettings(frame, arguments.request), arguments.request.stop);
     do {
         report(progress, "samples", run.samples(), run.sampleTotal());
     } while (run.advance());
@@ -188,10 +191,10 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     printFrameWarnings(frame, global);
     printWarnings(ignoredWarnings(*frame.scene), global);
     printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
-    const auto warnOfPlan = [&](const FramePlan& plan) {
-        printWarnings(planWarnings(plan, method.usesLensSamples), global);
+    const auto warnOfPlan = [&](const FramePlan& plan, std::uint64_t samples = 0) {
+        printWarnings(planWarnings(plan, method.usesLensSamples, samples), global);
     };
-    const bool counted = !arguments.request.stop.given();
+    const bool counted = !arguments.request.stop.given() && !isAutomatic(arguments.request);
     if (counted) warnOfPlan(planFrame(frame.world, frame.view, frame.settings));
     progress = terminalProgress(global);
 
@@ -216,7 +219,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     }
     const RenderStats stats = arguments.sampleRange ? renderer->stats() : run.stats();
     progress = {};
-    if (!counted) warnOfPlan(plan);
+    if (!counted) warnOfPlan(plan, stats.samples);
 
     // Write.
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -227,6 +230,11 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const RenderReport report{
         arguments.request, use.text(), frame, plan, stats, software, milliseconds, exposure, commandLine(global.words)};
     const Metadata metadata = renderMetadata(report);
+    const auto hasCurve = [](const std::filesystem::path& path) {
+        return !path.string().starts_with("exr:") && path.extension() != ".exr";
+    };
+    if (!arguments.sampleRange && std::ranges::any_of(arguments.outputs, hasCurve))
+        printWarnings(clippingWarnings(image, {arguments.request.toneMap, exposure}), global);
     if (arguments.sampleRange)
         writeSums(arguments, std::move(part), frame, global.shaderDir, metadata);
     else

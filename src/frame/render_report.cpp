@@ -175,6 +175,10 @@ std::string statsJson(const RenderReport& report) {
         json["stopped"] = stopReasonText(stats.stopped);
         json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
     }
+    if (isAutomatic(report.options)) {
+        json["samplesAutomatic"] = true;
+        json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
+    }
     for (const MethodFigure& figure : stats.figures) json["methodFigures"][figure.name] = figure.value;
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -191,6 +195,8 @@ std::string summary(const RenderReport& report) {
     std::string samples = fmt::format("{} samples", stats.samples);
     if (report.options.stop.given())
         samples += fmt::format(" ({}; {})", errorText(stats), stopReasonText(stats.stopped));
+    else if (isAutomatic(report.options))
+        samples += stats.estimatedError ? fmt::format(" (automatic, {})", errorText(stats)) : " (automatic)";
     return fmt::format("{}x{}, {} in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height, samples,
                        stats.renderMilliseconds / 1000, triangles, stats.device);
 }

@@ -133,10 +133,17 @@ void setMethod(Request& request, const std::string& text) {
     request.method = parseMethodUse(text).text();
 }
 
+std::optional<std::string> samplesText(const Request& request) {
+    const std::uint32_t count = request.settings.sampleCount;
+    return count == automaticSamples ? "auto" : fmt::format("{}", count);
+}
+
 // A number of samples that is given is also the most that a target error or a time limit may take.
 void setSamples(Request& request, const std::string& text) {
-    request.settings.sampleCount = static_cast<std::uint32_t>(parseWhole(text, 1, mostSamples));
-    request.stop.sampleLimit = request.settings.sampleCount;
+    const bool automatic = text == "auto";
+    request.settings.sampleCount =
+        automatic ? automaticSamples : static_cast<std::uint32_t>(parseWhole(text, 1, mostSamples));
+    request.stop.sampleLimit = automatic ? StopSettings{}.sampleLimit : request.settings.sampleCount;
 }
 
 // ---- the lens -------------------------------------------------------------------------------------------------------
@@ -381,13 +388,15 @@ Rows sampleRows() {
         modes.emplace_back(lodModeName(mode), mode);
     Setting samples =
         inShot(whole("samples", "--samples", 1, mostSamples, MEMBER(settings.sampleCount),
-                     fmt::format("Lens samples; with --target-error or --time-limit the most, else {}", mostSamples)),
+                     fmt::format("Lens samples; auto: 32 to 1024, by the largest blur, and where that is wide by the "
+                                 "picture's estimated error. With --target-error or --time-limit the most, else {}",
+                                 mostSamples)),
                "/samples");
+    samples.metavar = "N|auto";
+    samples.choices = {"auto"};
     samples.set = setSamples;
-    samples.clear = [](Request& request) {
-        request.settings.sampleCount = RenderSettings{}.sampleCount;
-        request.stop.sampleLimit = StopSettings{}.sampleLimit;
-    };
+    samples.text = samplesText;
+    samples.clear = [](Request& request) { setSamples(request, "auto"); };
     return {
         inShot(presetSetting(), "/preset"),
         samples,

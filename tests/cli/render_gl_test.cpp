@@ -239,6 +239,43 @@ TEST_F(Render, aDashIsStandardOutputForImages) {
     expectOneLine(render({"-o", "-", "--aov", "depth"}), 1);
 }
 
+// Without a number the picture decides: few where little is blurred, more where much is, and the same bits each time.
+TEST_F(Render, theNumberOfSamplesIsAutomatic) {
+    const auto rendered = [&](const std::string& name, std::vector<std::string> options) {
+        options.insert(options.begin(),
+                       {"render", "quads.gltf", "--size", "128x96", "--stats", "stats.json", "-o", name});
+        const Outcome outcome = run(options);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        const auto samples = json::parse(textOf(folder() / "stats.json")).at("samples").get<int>();
+        EXPECT_NE(outcome.err.find(fmt::format("{} samples (automatic", samples)), std::string::npos) << outcome.err;
+        return samples;
+    };
+    EXPECT_EQ(rendered("sharp.exr", {"--no-dof"}), 16) << "pinhole samples only smooth edges";
+    EXPECT_EQ(rendered("little.exr", {"--fstop", "4"}), 32);
+    const int many = rendered("much.exr", {"--fstop", "0.3", "--focus-distance", "1"});
+    EXPECT_GE(many, 128);
+    EXPECT_EQ(rendered("again.exr", {"--fstop", "0.3", "--focus-distance", "1", "--samples", "auto", "--wave", "5"}),
+              many);
+    EXPECT_TRUE(readImage(folder() / "much.exr").pixels == readImage(folder() / "again.exr").pixels);
+    Metadata metadata;
+    static_cast<void>(readImage(folder() / "much.exr", metadata));
+    EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), many);
+
+    // The library's default is the program's.
+    Request request;
+    request.scene = folder() / "quads.gltf";
+    request.width = 128;
+    request.height = 96;
+    request.lens.fStop = 0.3;
+    request.lens.focusDistance = 1;
+    EXPECT_TRUE(defocus::render(request).pixels == readImage(folder() / "much.exr").pixels);
+
+    // A part of a number needs the number.
+    const Outcome part = run({"render", "quads.gltf", "--sample-range", "0:64"});
+    expectOneLine(part, 2);
+    EXPECT_NE(part.err.find("--samples N"), std::string::npos) << part.err;
+}
+
 TEST_F(Render, statsHaveTheStatedKeys) {
     ASSERT_EQ(render({"--stats", "stats.json", "--lod", "off", "--wave", "3"}).exitCode, 0);
     const json stats = json::parse(textOf(folder() / "stats.json"));
