@@ -146,9 +146,11 @@ TEST_F(BenchConvergence, diffOfARunWithItselfIsNothing) {
         << outcome.out;
 }
 
-// Nothing is fetched from elsewhere, links lead into the page or to the data beside it, and every picture has a text in its place.
+// Nothing is fetched from elsewhere, links lead into the page or to the data beside it, and every picture has a text in
+// its place.
 void expectWholePage(const std::string& page) {
-    const std::regex outside("src=\"(?!data:)|href=\"(?!data:|#|[a-z]+[.](json|csv)\")|url\\((?!#)|@import|<script(?!>)|<link");
+    const std::regex outside(
+        "src=\"(?!data:)|href=\"(?!data:|#|[a-z]+[.](json|csv)\")|url\\((?!#)|@import|<script(?!>)|<link");
     const std::regex picture("<img (?![^>]*alt=\"[^\"]+\")|<svg (?![^>]*role=\"img\")");
     std::smatch found;
     EXPECT_FALSE(std::regex_search(page, found, outside)) << found.str();

@@ -157,6 +157,7 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"bench convergence --threshold-factors", {.words = {"--threshold-factors", "3"}}},
         {"bench convergence --shading", {.words = {"--shading", "unlit"}}},
         {"bench convergence --runs", {.words = {"--runs", "2"}}},
+        {"bench convergence --seeds", {.words = {"--seeds", "1"}, .more = {"--runs", "2"}}},
         {"bench convergence --reference-samples", {.words = {"--reference-samples", "6"}}},
         {"bench convergence --output", {.words = {"-o", "other"}}},
         {"bench convergence --resume", {.words = {"--resume"}, .before = converged}},
