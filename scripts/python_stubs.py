@@ -17,7 +17,7 @@ TYPES = {"number": "float", "whole": "int", "truth": "bool", "text": "str", "pat
 # Of settings whose values have a form of their own. A string in the command line's form always goes too.
 FORMS = {
     "N|exact": "Union[int, str]",
-    "WHAT": "Union[str, Point]",
+    "environment|none|R,G,B": "Union[str, Point]",
     "X,Y,Z": "Union[Point, str]",
     "WxH": "Union[Tuple[int, int], str]",
     "X,Y": "Union[Pixel, str]",
@@ -30,8 +30,8 @@ FORMS = {
 def type_of(setting):
     if setting.kind == "choice":
         return "Literal[" + ", ".join(f'"{choice}"' for choice in setting.choices) + "]"
-    if setting.kind == "number" and setting.choices:
-        return "Union[float, Literal[" + ", ".join(f'"{word}"' for word in setting.choices) + "]]"
+    if setting.kind in ("number", "whole") and setting.choices:
+        return f"Union[{TYPES[setting.kind]}, Literal[" + ", ".join(f'"{word}"' for word in setting.choices) + "]]"
     if setting.kind == "number" and setting.unit == "s" and setting.range[0] >= 0:
         return "Union[float, str]"  # 1/48 too
     return FORMS[setting.form] if setting.kind == "other" else TYPES[setting.kind]

@@ -117,13 +117,32 @@ def results_of(folder, bench):
 # ---- plots ----------------------------------------------------------------------------------------------------------
 
 
+def told(line, texts):
+    """Gives each point of a line a text that the page shows when a pointer is on it."""
+    figure = line.figure
+    figure.told = getattr(figure, "told", [])
+    line.set_gid(f"told{len(figure.told)}")
+    figure.told.append(list(texts))
+
+
+def with_told_points(svg, told_lines):
+    """The markers of the told lines carry their texts: matplotlib draws them in order, each a <use>."""
+    for index, texts in enumerate(told_lines):
+        begin = svg.find(f'<g id="told{index}">')
+        end = svg.find('<g id="', begin + 1)
+        part, left = svg[begin:end], iter(texts)
+        part = re.sub(r"<use ", lambda _: f'<use tabindex="0" data-value="{html.escape(next(left, ""))}" ', part)
+        svg = svg[:begin] + part + svg[end:]
+    return svg
+
+
 def as_svg(figure, name, description):
     """The figure as SVG inside a page: page colours, ids of its own, a text in its place for those who don't see it."""
     text = io.StringIO()
     figure.savefig(text, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     plt.close(figure)
     svg = text.getvalue()
-    svg = svg[svg.index("<svg"):]
+    svg = with_told_points(svg[svg.index("<svg"):], getattr(figure, "told", []))
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
     svg = re.sub(r"'DejaVu Sans'[^;\"]*", "system-ui, sans-serif", svg)
     svg = re.sub(r'\bid="', f'id="{name}-', svg)
@@ -161,7 +180,9 @@ def draw_mode(axes, mode, points, size=6):
     """A line of one of MODES; returns its end for label_beside."""
     label, colour = MODES[mode]
     marker = MARKERS[list(MODES).index(mode)]
-    axes.plot(*zip(*points), color=STAND_INS[colour], marker=marker, markersize=size, linewidth=1.6 if size > 4 else 1.2)
+    line, = axes.plot(*zip(*points), color=STAND_INS[colour], marker=marker, markersize=size,
+                      linewidth=1.6 if size > 4 else 1.2)
+    told(line, (f"{label}: {x:g}, {y:.4g}" for x, y in points))
     return (*points[-1], label, STAND_INS[colour], marker)
 
 
@@ -213,6 +234,16 @@ def draw_counts(axes, rows, error_of):
                       xytext=(0, 9), ha="center", fontsize=8.5, color=INK)
 
 
+def error_bars(rows, error_of, name):
+    """From the least to the most over the seeds; None where each row has one."""
+    spreads = [row.get("errorsOverSeeds", {}).get(name) for row in rows]
+    if not any(spreads):
+        return None
+    ends = [(spread["low"], spread["high"]) if spread else (error_of(row),) * 2 for row, spread in zip(rows, spreads)]
+    return [[max(0, error_of(row) - low) for row, (low, _) in zip(rows, ends)],
+            [max(0, high - error_of(row)) for row, (_, high) in zip(rows, ends)]]
+
+
 def error_plot(results, series, error_of, name, axis_label, front_key):
     figure, axes = new_plot()
     axes.set_xscale("log")
@@ -237,8 +268,10 @@ def error_plot(results, series, error_of, name, axis_label, front_key):
         values = [error_of(row) for row in rows]
         spread = [[row["milliseconds"]["median"] - row["milliseconds"]["low"] for row in rows],
                   [row["milliseconds"]["high"] - row["milliseconds"]["median"] for row in rows]]
-        axes.errorbar(times, values, xerr=spread, color=one["colour"], marker=one["marker"], markersize=6,
-                      linewidth=one["width"], elinewidth=0.9, zorder=3)
+        bars = axes.errorbar(times, values, xerr=spread, yerr=error_bars(rows, error_of, name), color=one["colour"],
+                             marker=one["marker"], markersize=6, linewidth=one["width"], elinewidth=0.9, zorder=3)
+        told(bars[0], (f"{one['label']}, {samples_text(row)}: {value:.4g} in {time_text(time)}"
+                       for row, value, time in zip(rows, values, times)))
         end = (times[-1], values[-1])
         if floors.get(key, 0) > 0:
             axes.plot([times[-1], most * 1.6], [floors[key]] * 2, "--", color=one["colour"], linewidth=1.3, zorder=2)
@@ -287,7 +320,8 @@ def samples_plot(name, axis_label, lines, text, limits):
     ends, described = [], []
     for index, (label, points) in enumerate(lines):
         colour, marker = STAND_INS[index % len(STAND_INS)], MARKERS[index % len(MARKERS)]
-        axes.plot(*zip(*points), color=colour, marker=marker, markersize=6, linewidth=1.6)
+        drawn, = axes.plot(*zip(*points), color=colour, marker=marker, markersize=6, linewidth=1.6)
+        told(drawn, (f"{label}, {samples} samples: {text(value)}" for samples, value in points))
         ends.append((*points[-1], label, colour, marker))
         described.append(f"{label}: {text(points[0][1])} at {points[0][0]} samples, {text(points[-1][1])} at {points[-1][0]}")
     limits(axes)
@@ -479,7 +513,9 @@ def strips_section(folder):
 
 
 def table(header, rows, left=1):
-    """`left`: how many columns hold text."""
+    """`left`: how many columns hold text. A column without a single cell is left out."""
+    full = [i for i in range(len(header)) if any(str(row[i]) for row in rows)]
+    header, rows = [header[i] for i in full], [[row[i] for i in full] for row in rows]
     head = "".join(f'<th scope="col"{" class=text" if i < left else ""}>{cell}</th>' for i, cell in enumerate(header))
     lines = []
     for row in rows:
@@ -513,17 +549,23 @@ def note_text(row):
     return "; ".join(words for words in (front_text(row), below) if words)
 
 
+def seeds_text(row):
+    spread = row.get("errorsOverSeeds", {}).get("rmse")
+    return f"{spread['low']:.5f}–{spread['high']:.5f}" if spread else ""
+
+
 def rows_table(rows):
     header = ["method, setting", "lens samples (or pinholes)", "frame, ms", "10–90 %, ms", "runs", "set-up, ms", "pyramids, ms",
-              "RMSE", "PSNR, dB", "SSIM", "FLIP", "bias, PSNR dB", "triangles, millions", "peak, MiB", "on the front of; notes"]
+              "RMSE", "over seeds", "PSNR, dB", "SSIM", "FLIP", "bias, PSNR dB", "triangles, millions", "peak, MiB",
+              "on the front of; notes"]
     lines = []
     for row in sorted(rows, key=lambda row: (row["method"], row["setting"], row["samples"])):
         time = row["milliseconds"]
         lines.append([
             html.escape(label_of(row["method"], row["setting"])), row["samples"], f"{time['median']:.1f}",
             f"{time['low']:.1f}–{time['high']:.1f}", row["runs"], f"{row['setupMilliseconds']['median']:.0f}",
-            f"{row['pyramidMilliseconds']:.0f}", f"{rmse(row):.5f}", number(row["psnr"], 2), f"{row['ssim']:.4f}",
-            f"{row['flip']:.4f}", number(row["bias"]["psnr"], 2) if row["bias"] else "", f"{row['triangles'] / 1e6:.2f}",
+            f"{row['pyramidMilliseconds']:.0f}", f"{rmse(row):.5f}", seeds_text(row), number(row["psnr"], 2),
+            f"{row['ssim']:.4f}", f"{row['flip']:.4f}", number(row["bias"]["psnr"], 2) if row["bias"] else "", f"{row['triangles'] / 1e6:.2f}",
             f"{row['peakBytes'] / 2**20:.0f}", note_text(row)])
     return table(header, lines)
 
@@ -569,6 +611,10 @@ def subject_table(results):
     ])
 
 
+def optional(row, name):
+    return f"{row[name]:.0f}" if name in row else ""
+
+
 def spread_text(time):
     return f"{time['low']:.1f}–{time['high']:.1f}"
 
@@ -611,7 +657,7 @@ def style():
   :root {{ --page:#15171a; --ink:#e9ebee; --soft:#a8aeb6; --grid:#3a3f46; --band:#1e2125; {dark} }}
 }}
 * {{ box-sizing: border-box; }}
-body {{ margin: 0 auto; padding: 2rem 1.5rem 4rem; max-width: 74rem; background: var(--page); color: var(--ink);
+body {{ margin: 0 auto; padding: 2rem 1.2rem 4rem; max-width: 80rem; background: var(--page); color: var(--ink);
   font: 16px/1.5 system-ui, sans-serif; }}
 h1 {{ margin: 0; font-size: 1.9rem; line-height: 1.2; }}
 h2 {{ margin: 3rem 0 .6rem; font-size: 1.35rem; }}
@@ -634,13 +680,34 @@ figure.overview svg {{ width: 100%; max-width: 40rem; height: auto; display: blo
 .scroll {{ overflow-x: auto; }}
 .scroll, .facts {{ margin-top: 1rem; }}
 table {{ border-collapse: collapse; font-size: .82rem; font-variant-numeric: tabular-nums; }}
-th, td {{ padding: .28rem .6rem; text-align: right; border-bottom: 1px solid var(--grid); vertical-align: top; }}
+th, td {{ padding: .28rem .42rem; text-align: right; border-bottom: 1px solid var(--grid); vertical-align: top; }}
 thead th {{ vertical-align: bottom; background: var(--band); }}
 th:first-child, .text {{ text-align: left; }}
 tbody th {{ font-weight: normal; }}
-tbody th, .scroll td {{ white-space: nowrap; }}
-.scroll td.text {{ white-space: normal; }}
+.scroll table {{ font-size: .76rem; }}
+.scroll th, .scroll td {{ padding: .28rem .26rem; }}
+thead th {{ hyphens: auto; }}
+.scroll tbody th {{ min-width: 8rem; }}
 .facts th {{ color: var(--soft); }}
+thead th {{ cursor: pointer; }}
+thead th[aria-sort=ascending]::after {{ content: " ↑"; }}
+thead th[aria-sort=descending]::after {{ content: " ↓"; }}
+.scroll th:first-child {{ position: sticky; left: 0; background: var(--page); }}
+.scroll thead th:first-child {{ background: var(--band); }}
+.headline {{ font-size: 1.2rem; margin: .6rem 0; }}
+nav ul {{ display: flex; flex-wrap: wrap; gap: .2rem 1.2rem; padding: 0; list-style: none; }}
+a {{ color: var(--c0); }}
+[data-value] {{ cursor: help; }}
+#tip {{ position: fixed; max-width: min(24rem, 92vw); padding: .25rem .5rem; border-radius: 4px; background: var(--ink);
+  color: var(--page); font-size: .82rem; pointer-events: none; }}
+@media (max-width: 40rem) {{
+  body {{ padding: 1rem .8rem 3rem; }}
+  figure.plot svg {{ min-width: 0; }}
+  figure.plot.large svg {{ min-width: 44rem; }}
+  .facts th {{ min-width: 0; }}
+  .facts, .facts tbody, .facts tr, .facts th, .facts td {{ display: block; }}
+  .facts th {{ border: 0; padding-bottom: 0; }}
+}}
 pre {{ margin: 0 0 .3rem; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8rem; }}
 """
 
@@ -684,11 +751,42 @@ def convergence_section(results, folder, extra):
     return parts + ["<h3>How it was measured</h3>", subject_table(results)]
 
 
+def time_at_error(rows, error):
+    """When rows of one line of samples reach an error, ms, by power laws between them; None beyond what was measured."""
+    points = sorted((row["fromReference"]["rmse"], row["milliseconds"]["median"]) for row in rows if row["fromReference"])
+    for (low, slow), (high, fast) in zip(points, points[1:]):
+        if low <= error <= high:
+            share = math.log(error / low) / math.log(high / low) if high > low else 0
+            return slow * (fast / slow) ** share
+    return next((time for rmse, time in points if rmse == error), None)
+
+
+def equal_error_speedup(row, rows):
+    """How many times as fast as full detail with as many samples as it needs for the row's own error."""
+    if not row["fromReference"]:
+        return None
+    full = [other for other in rows if other["lod"] == "off" and other["sweep"] == "samples" and
+            all(other.get(name) == row.get(name) for name in ("fStop", "focusDistance"))]
+    time = time_at_error(full, row["fromReference"]["rmse"])
+    return time / row["milliseconds"]["median"] if time else None
+
+
+def speedup_headline(results):
+    """What the section comes to, of the row whose number of samples is nearest to 64."""
+    rows = [row for row in results["rows"] if row["sweep"] == "samples" and row["lod"] == "fractional" and not row.get("preset")]
+    if not rows:
+        return ""
+    row = min(rows, key=lambda row: abs(math.log(row["samples"] / 64)))
+    equal = equal_error_speedup(row, results["rows"])
+    text = f"Levels are {row['speedUp']:.2f} times as fast as full detail at equal N ({row['samples']} lens samples)"
+    return text + (f", and {equal:.2f} times at equal error." if equal else "; at equal error: not measured.")
+
+
 def reference_cells(row):
-    truth, own = row["fromReference"], row["referenceRemaining"]
-    if truth is None:
-        return ["", ""]
-    return [row["referenceSamples"], below_reference(truth["rmse"] < own["rmse"], truth["flip"] < own["flip"])]
+    truth, own = row["fromReference"], row.get("referenceRemaining")
+    if truth is None or own is None:
+        return [""]
+    return [f"{row['referenceSamples']} samples<br>{below_reference(truth['rmse'] < own['rmse'], truth['flip'] < own['flip'])}"]
 
 
 def speedup_section(results):
@@ -698,19 +796,26 @@ def speedup_section(results):
     for row in results["rows"]:
         time = row["milliseconds"]
         parts = [f"{row[part]['speedUp']:.2f}" if row.get(part) else "" for part in ("sizeOnly", "blurOnly")]
+        equal = equal_error_speedup(row, results["rows"])
         lines.append([html.escape(drawn_text(row)), row["samples"], f"{row['fStop']:g}", f"{row['focusDistance']:.3g}",
-                      f"{time['median']:.1f}", spread_text(time), f"{row['speedUp']:.2f}", *parts, f"{row['triangles'] / 1e6:.2f}",
-                      f"{row['gpuBytes'] / 2**20:.0f}", f"{row['setupMilliseconds']:.0f}", f"{row['pyramidMilliseconds']:.0f}"]
+                      f"{time['median']:.1f}<br>{spread_text(time)}", f"{row['speedUp']:.2f}",
+                      "—" if equal is None else f"{equal:.2f}", *parts, f"{row['triangles'] / 1e6:.2f}",
+                      f"{row['gpuBytes'] / 2**20:.0f}", optional(row, "setupMilliseconds"), optional(row, "pyramidMilliseconds")]
                      + [cell for key, _ in truths for cell in differences(row[key])] + reference_cells(row))
-    header = ["levels", "lens samples", "f-number", "focus, m", "frame, ms", "10–90 %, ms", "times as fast",
-              "size only", "blur only", "triangles, millions", "GPU, MiB", "set-up, ms", "pyramids, ms"] + [
+    header = ["levels", "lens samples", "f-number", "focus, m", "frame, ms; 10–90 %", "times as fast at equal N",
+              "at equal error", "size only", "blur only", "triangles, millions", "GPU, MiB", "set-up, ms", "pyramids, ms"] + [
                   f"{name} from {truth}" for _, truth in truths for name in ("PSNR, dB,", "SSIM", "FLIP")] + [
-                  "the reference’s samples", ""]
+                  "the reference"]
     captions = [(frame_time_plot(results["rows"]), "Time of a frame, both axes logarithmic (Figure 2 of Jeong, Kim and Lee 2011)."),
-                (speedup_plot(results["rows"]), "Frame time at full detail over frame time with levels, at the same lens samples. "
+                (speedup_plot(results["rows"]), "Frame time at full detail over frame time with levels, at equal N: the same lens "
+                 f"samples, but another error. {speedup_headline(results)} The table has both for each row. "
                  "Size only: with a blur threshold of 0; blur only: with a size threshold of 0.")]
     figures = [f'<figure class="plot">{plot}<figcaption>{caption}</figcaption></figure>' for plot, caption in captions if plot]
-    return ["<h2>Speed-up</h2>", *figures, table(header, lines), facts(results)]
+    return ["<h2>Speed-up</h2>", *figures, table(header, lines),
+            "<p>Times as fast as full detail: at equal N, with the same number of lens samples; at equal error, with as many as "
+            "full detail needs to come as close to the reference (RMSE), its time between measured rows by a power law; —: that "
+            f"error lies beyond what was measured, or there is no reference. Times are medians of {results['runs']} runs, each "
+            "with its 10th and 90th percentile.</p>", facts(results)]
 
 
 def popping_section(results, path):
@@ -777,6 +882,103 @@ def stability_section(results):
             table(["method", "varied", "expected, px", "measured, px", "off by, px", "energy", "verdict"], honesty, 2), facts(results)]
 
 
+# Sorting by a click on a column's head; the value of a point under the pointer or the finger.
+SCRIPT = r"""
+for (const table of document.querySelectorAll('.scroll table')) {
+  const heads = table.tHead.rows[0].cells, body = table.tBodies[0];
+  const value = (row, i) => { const text = row.cells[i].textContent, n = parseFloat(text.replace(/^under /, ''));
+    return ['', '—', '∞', 'not reached'].includes(text) ? Infinity : isNaN(n) ? text : /^[^a-z]* s\b/.test(text) ? 1000 * n : n; };
+  [...heads].forEach((head, i) => {
+    const sort = () => {
+      const up = head.getAttribute('aria-sort') !== 'ascending';
+      for (const each of heads) each.removeAttribute('aria-sort');
+      head.setAttribute('aria-sort', up ? 'ascending' : 'descending');
+      const order = (a, b) => typeof a === 'number' && typeof b === 'number' ? (a === b ? 0 : a - b) : String(a).localeCompare(String(b));
+      body.append(...[...body.rows].sort((a, b) => (up ? 1 : -1) * order(value(a, i), value(b, i))));
+    };
+    head.tabIndex = 0;
+    head.addEventListener('click', sort);
+    head.addEventListener('keydown', event => { if (event.key === 'Enter') sort(); });
+  });
+}
+const tip = document.getElementById('tip');
+const show = event => {
+  const text = event.target.dataset && event.target.dataset.value;
+  tip.hidden = !text;
+  if (!text) return;
+  tip.textContent = text;
+  const box = event.target.getBoundingClientRect();
+  tip.style.left = Math.max(4, Math.min(box.left, innerWidth - tip.offsetWidth - 4)) + 'px';
+  tip.style.top = Math.max(4, box.top - tip.offsetHeight - 6) + 'px';
+};
+for (const kind of ['pointerover', 'focusin', 'pointerdown']) document.addEventListener(kind, show);
+addEventListener('scroll', () => tip.hidden = true, true);
+// On a phone a plot fits the screen, and a tap makes it large enough to read.
+for (const plot of document.querySelectorAll('figure.plot'))
+  plot.addEventListener('click', event => event.target.dataset.value || plot.classList.toggle('large'));
+"""
+
+# The results of benches and what else they write, by section.
+FILES = {"results": ["results.json", "results.csv", "runs.csv"], "speedup": ["speedup.json", "speedup.csv"],
+         "popping": ["popping.json", "popping.csv"], "scaling": ["scaling.json", "scaling.csv"],
+         "stability": ["stability.json", "stability.csv"]}
+
+
+def contents(parts):
+    """The parts with a name for each heading, and a list of links to them."""
+    links = []
+
+    def named(match):
+        name = re.sub(r"[^a-z]+", "-", match[1].lower()).strip("-")
+        links.append(f'<li><a href="#{name}">{match[1]}</a></li>')
+        return f'<h2 id="{name}">{match[1]}</h2>'
+    text = re.sub(r"<h2>(.*?)</h2>", named, "".join(parts))
+    return f'<nav aria-label="Contents"><ul>{"".join(links)}</ul></nav>', text
+
+
+def headline(folder, report):
+    """The one sentence that the page comes to."""
+    results = results_of(report, "speedup")
+    text = speedup_headline(results) if results else ""
+    if text:
+        return text
+    results = results_of(folder, "results")
+    competitors = (results or {}).get("timesToErrors", [])
+    times = [[time["milliseconds"] for time in one["times"]] for one in competitors]
+    for i in reversed(range(len(times[0]) if times else 0)):
+        reached = [(one[i], name["name"]) for one, name in zip(times, competitors) if one[i]]
+        if len(reached) > 1:
+            fastest, slowest = min(reached), max(reached)
+            error = competitors[0]["times"][i]["rmse"]
+            return (f"An RMSE of {error:g} takes {time_text(fastest[0])} by {html.escape(fastest[1])} and "
+                    f"{time_text(slowest[0])} by {html.escape(slowest[1])}.")
+    return ""
+
+
+def measured_with(folder, report):
+    """Program and commit of the first results, for the head of the page and the citation."""
+    for place, bench in ((folder, "results"), (report, "speedup"), (report, "popping"), (report, "scaling"), (report, "stability")):
+        if results := results_of(place, bench):
+            return results["program"], results["commit"] or "unknown commit"
+    return "defocus", "unknown commit"
+
+
+def downloads(folder, report):
+    names = [name for files in FILES.values() for name in files if (report / name).exists()]
+    if not names:
+        return ""
+    links = ", ".join(f'<a href="{name}">{name}</a>' for name in names)
+    return f"<p>Data beside this page: {links}.</p>"
+
+
+def citation(program, commit, year):
+    version = program.split()[-1]
+    entry = (f"@software{{defocus,\n  title = {{defocus: depth of field of a real lens}},\n"
+             f"  author = {{{{the defocus authors}}}},\n  version = {{{version}}},\n  year = {{{year}}},\n"
+             f"  note = {{commit {commit}}}\n}}")
+    return f"<h2>Citation</h2><pre>{html.escape(entry)}</pre>"
+
+
 def sections(folder, report):
     """Of all that there are results of."""
     parts = []
@@ -793,11 +995,17 @@ def sections(folder, report):
     return parts
 
 
-def page(parts):
+def page(parts, folder, report):
+    now = datetime.datetime.now(datetime.timezone.utc)
+    program, commit = measured_with(folder, report)
+    links, text = contents(parts + [citation(program, commit, now.year)])
+    sentence = headline(folder, report)
     return (f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
             f'content="width=device-width, initial-scale=1"><title>defocus bench</title><style>{style()}</style></head><body>'
-            f'<main><h1>defocus bench</h1><p class="lead">drawn {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} '
-            f"UTC</p>{''.join(parts)}</main></body></html>\n")
+            f'<main><h1>defocus bench</h1>{f"<p class=headline>{sentence}</p>" if sentence else ""}<p class="lead">'
+            f"{html.escape(program)}, commit {html.escape(commit)}; drawn {now:%Y-%m-%d %H:%M} UTC. Tables are sorted by a "
+            f"click on a column’s head; points of plots tell their values.</p>{links}{downloads(folder, report)}"
+            f'{text}</main><div id="tip" role="status" hidden></div><script>{SCRIPT}</script></body></html>\n')
 
 
 def write_whole(path, text):
@@ -819,7 +1027,7 @@ def main(arguments):
         sys.exit(f"report.py: the results in {folder} can't be read: {fault!r}")
     if not parts:
         sys.exit(f"report.py: there are no results in {folder}")
-    write_whole(report / "index.html", page(parts))
+    write_whole(report / "index.html", page(parts, folder, report))
 
 
 if __name__ == "__main__":

@@ -59,7 +59,7 @@ struct Request {
     std::map<std::string, double> nodeBlur;  // by node: scale of the blur of all below it, ≥ 0; 0 keeps it sharp
 
     // Samples and levels of detail.
-    RenderSettings settings;
+    RenderSettings settings = {.sampleCount = automaticSamples};
     StopSettings stop;                  // instead of a number of samples
     std::filesystem::path cacheFolder;  // of pyramids; empty: $XDG_CACHE_HOME/defocus or ~/.cache/defocus
     bool noCache = false;               // simplify anew and store nothing

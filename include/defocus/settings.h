@@ -8,6 +8,7 @@
 namespace defocus {
 
 inline constexpr std::uint32_t mostSamples = 65'536;  // lens samples of a frame
+inline constexpr std::uint32_t automaticSamples = 0;  // in place of a number: as many as the picture asks for
 inline constexpr int mostPixels = 16'384;             // of an image's width and of its height
 
 // Where the lens samples lie on the lens, in the pixel and in the exposure. All are infinite, with well spread
@@ -59,7 +60,7 @@ struct GivenThresholds {
 };
 
 struct RenderSettings {
-    std::uint32_t sampleCount = 64;  // lens samples, 1 … mostSamples
+    std::uint32_t sampleCount = 64;  // lens samples, 1 … mostSamples; of a request also automaticSamples
     Sequence sequence = Sequence::sobol;
     std::uint32_t seed = 0;         // picks another set of sample points
     std::uint32_t firstSample = 0;  // offset into the sequence (a reference takes its own)
@@ -68,7 +69,7 @@ struct RenderSettings {
     LodCause lodCause = LodCause::blurAndSize;
     bool lodCocAtCentre = false;  // c at the box's centre (the paper) instead of the smallest over the box
     LevelVertices levelVertices = LevelVertices::fitted;
-    GivenThresholds thresholds;
+    GivenThresholds thresholds = {};
     double cocTolerance = 0.5;  // px by which C may differ from its interpolation inside a triangle, > 0
     bool keepAll = false;       // leave nothing out: the image must be the same
 };

@@ -68,7 +68,7 @@ class Keywords(TypedDict, total=False):
     aperture_image: Optional[Path]
     node_blur: Optional[Union[Mapping[str, float], str]]
     preset: Optional[Literal["jeong2011"]]
-    samples: Optional[int]
+    samples: Optional[Union[int, Literal["auto"]]]
     target_error: Optional[float]
     time_limit: Optional[Union[float, str]]  # s
     sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]

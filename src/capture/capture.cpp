@@ -40,11 +40,11 @@ std::string encodingOf(const std::string& pattern, const WriteOptions& write, bo
     return fmt::format("{} {} {}", ending, static_cast<int>(write.toneMap), exposure);
 }
 
-bool isFinishedPart(const fs::path& path, const std::string& settings) {
+FrameState partState(const fs::path& path, const std::string& settings) {
     try {
-        return readPart(path).settings == settings;
+        return readPart(path).settings == settings ? FrameState::finished : FrameState::other;
     } catch (const Error&) {
-        return false;
+        return FrameState::missing;
     }
 }
 
@@ -107,7 +107,9 @@ DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, cons
         drawn.stats.samples = drawn.part.frameSamples;
     } else {
         FrameRun run(world, renderer);
-        run.start(frame.view, frame.settings, options.stop);
+        RenderSettings settings = frame.settings;
+        if (options.automatic) settings.sampleCount = automaticSamples;
+        run.start(frame.view, settings, options.stop);
         drawn.times.planMilliseconds = run.planMilliseconds();
         do {
             step(static_cast<double>(run.samples()) / run.sampleTotal());
@@ -145,19 +147,11 @@ void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& opt
 // ---- progress
 // --------------------------------------------------------------------------------------------------------
 
-std::string duration(double seconds) {
-    const auto whole = static_cast<long long>(seconds + 0.5);
-    if (whole < 60) return fmt::format("{} s", whole);
-    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
-    return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
-}
-
-// "frame 12, 3400 ms and 18.2 M triangles each, 12:30 min left"
-std::string stageText(int frame, const FilmFigures& figures, double milliseconds, int left) {
+// "frame 12, 3400 ms and 18.2 M triangles each"
+std::string stageText(int frame, const FilmFigures& figures, double milliseconds) {
     if (figures.rendered == 0) return fmt::format("frame {}", frame);
-    const double each = milliseconds / figures.rendered;
-    return fmt::format("frame {}, {:.0f} ms and {:.2f} M triangles each, {} left", frame, each,
-                       static_cast<double>(figures.triangles) * 1e-6 / figures.rendered, duration(each * left / 1000));
+    return fmt::format("frame {}, {:.0f} ms and {:.2f} M triangles each", frame, milliseconds / figures.rendered,
+                       static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
 }
 
 // ---- what is there
@@ -175,10 +169,13 @@ FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, cons
         film.settings.push_back(settingsHash(settings, frame));
         fs::path path = framePath(pattern, number);
         if (options.sampleRange) path = partPath(path, *options.sampleRange);
-        film.finished =
-            film.finished &&
-            (options.sampleRange ? isFinishedPart(path, film.settings.back())
-                                 : isFinishedFrame(path, frame.view.width, frame.view.height, film.settings.back()));
+        if (options.resume) {
+            const FrameState state = options.sampleRange
+                                         ? partState(path, film.settings.back())
+                                         : frameState(path, frame.view.width, frame.view.height, film.settings.back());
+            film.finished = film.finished && state == FrameState::finished;
+            if (state == FrameState::other && film.other.empty()) film.other = path;
+        }
         film.files.push_back(std::move(path));
     }
     return film;
@@ -220,10 +217,10 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
                        const std::function<bool()>& stop, const Progress& progress) {
     // What an earlier run left; its times are kept only where its frames are.
     std::vector<fs::path> files;
-    int left = 0;
+    int wanted = 0;
     for (const FilmFrame& film : frames) {
         files.insert(files.end(), film.files.begin(), film.files.end());
-        left += film.finished ? 0 : 1;
+        wanted += film.finished ? 0 : 1;
     }
     removeUnfinished(files);
     std::error_code ignored;
@@ -233,7 +230,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
     const Clock::time_point start = Clock::now();
     FilmFigures figures;
     FrameWriter writer(framesWaiting);
-    const auto total = static_cast<double>(std::max(left, 1));
+    const auto total = static_cast<double>(std::max(wanted, 1));
     for (const FilmFrame& film : frames) {
         if (film.finished) {
             ++figures.finishedBefore;
@@ -243,7 +240,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
             figures.stoppedBefore = film.frame;
             break;
         }
-        const std::string stage = stageText(film.frame, figures, millisecondsSince(start), left);
+        const std::string stage = stageText(film.frame, figures, millisecondsSince(start));
         const auto step = [&](double share) {
             report(progress, stage, static_cast<std::uint64_t>(1000 * (figures.rendered + share)),
                    static_cast<std::uint64_t>(1000 * total));
@@ -251,7 +248,6 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
         auto drawn = std::make_shared<DrawnFrame>(
             drawFrame(frameAt(shot, base, film.frame), world, renderer, options, metadata, step));
         ++figures.rendered;
-        --left;
         figures.renderMilliseconds += drawn->times.renderMilliseconds;
         figures.triangles += drawn->stats.trianglesDrawn;
         writer.add([drawn, &film, &options] { writeFrame(film, *drawn, options); });

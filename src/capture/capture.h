@@ -27,6 +27,8 @@ struct FilmFrame {
     std::vector<std::filesystem::path> files;  // one an output pattern
     WriteOptions write;                        // of PNG, JPEG and video
     bool finished = false;                     // there already, and as it should be
+    std::filesystem::path
+        other;  // a whole image that would be replaced, of other settings; empty: none (with `resume`)
 };
 
 struct FilmOptions {
@@ -35,6 +37,7 @@ struct FilmOptions {
     ToneMap toneMap = ToneMap::none;         // of PNG, JPEG and video, as is the exposure
     std::optional<double> exposure;          // EV; none: what each frame's lens makes
     bool metered = false;                    // the exposure is that of a meter, which is read later
+    bool automatic = false;                  // each frame gets as many samples as it asks for
     StopSettings stop;                       // of each frame; no time limit, which no two runs would keep alike
     FilmSettings settings;                   // all but the encoding
     std::filesystem::path timings;           // the sidecar

@@ -33,22 +33,23 @@ fs::path framePath(const std::string& pattern, int frame) {
     return path.parent_path() / name;
 }
 
-bool isFinishedFrame(const fs::path& path, int width, int height, const std::string& settings) {
+FrameState frameState(const fs::path& path, int width, int height, const std::string& settings) {
     std::error_code fault;
-    if (!fs::is_regular_file(path, fault)) return false;
+    if (!fs::is_regular_file(path, fault)) return FrameState::missing;
     try {
         Metadata metadata;
         const Image image = readImage(path, metadata);
-        if (image.width != width || image.height != height) return false;
+        if (image.width != width || image.height != height) return FrameState::other;
         // A JPEG holds one comment and nothing else.
         for (const char* name : {settingsAttribute, "comments"}) {
             const auto found = metadata.find(name);
             const auto* text = found == metadata.end() ? nullptr : std::get_if<std::string>(&found->second);
-            if (text != nullptr && *text == settings) return true;
+            if (text != nullptr && *text == settings) return FrameState::finished;
         }
-    } catch (const Error&) {  // damaged: to be done again
+        return FrameState::other;
+    } catch (const Error&) {
+        return FrameState::missing;
     }
-    return false;
 }
 
 void removeUnfinished(const std::vector<fs::path>& paths) {

@@ -15,8 +15,13 @@ std::filesystem::path framePath(const std::string& pattern, int frame);
 // The metadata that says of what a frame was made; equal for equal frames.
 inline constexpr const char* settingsAttribute = "defocus:settings";
 
-// Is `path` a whole image of this size whose metadata carries these settings? A missing, damaged or foreign file isn't.
-bool isFinishedFrame(const std::filesystem::path& path, int width, int height, const std::string& settings);
+// What is there under a frame's name.
+enum class FrameState {
+    missing,   // nothing, or a file that is damaged
+    finished,  // a whole image of the size and the settings that are wanted
+    other,     // a whole image, but not that
+};
+FrameState frameState(const std::filesystem::path& path, int width, int height, const std::string& settings);
 
 // Removes what a process that was killed left beside these files: temporary ones of their names. What another process
 // is writing just now stays.

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "capture/shot_json.h"
 #include "core/error.h"
 #include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
@@ -200,6 +201,8 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     };
     openShutter(base.shutter, result.settings, momentAt, result.shutter, result.view);
     return result;
+} catch (const MissingName& missing) {
+    failForName(shot, missing);
 } catch (const Error& error) {
     fail("{}: frame {}: {}", shot.file.string(), frame, error.what());
 }

@@ -16,6 +16,7 @@ public:
         : value_(&value), file_(std::move(file)), pointer_(std::move(pointer)) {}
 
     [[nodiscard]] const nlohmann::json& value() const { return *value_; }
+    [[nodiscard]] const std::string& pointer() const { return pointer_; }
 
     // "FILE: /pointer: message"
     [[noreturn]] void failWith(const std::string& message) const;

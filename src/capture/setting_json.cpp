@@ -47,6 +47,7 @@ std::string textOf(const Setting& setting, const JsonReader& reader) {
             if (!setting.choices.empty() && reader.value().is_string()) return reader.text();
             return fmt::format("{}", reader.number(setting.least, setting.most));
         case SettingKind::whole:
+            if (!setting.choices.empty() && reader.value().is_string()) return reader.text();
             return std::to_string(
                 reader.whole(static_cast<std::int64_t>(setting.least), static_cast<std::int64_t>(setting.most)));
         case SettingKind::truth:

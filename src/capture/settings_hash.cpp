@@ -95,6 +95,7 @@ std::string settingsHash(const FilmSettings& film, const SequenceFrame& frame) {
     addLens(hashed, frame.view.lens);
     Request request = film.request;
     request.settings = frame.settings;
+    if (isAutomatic(film.request)) request.settings.sampleCount = automaticSamples;
     addSettings(hashed, request);
     const LodThresholds thresholds =
         chosenThresholds(frame.settings.thresholds, frame.settings.metric, frame.settings.sampleCount);

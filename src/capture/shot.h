@@ -78,6 +78,8 @@ struct Shot {
     // Its fixed values, and the names of the settings (frame/settings.h) that it gives; time is that of frame 0.
     Request request;
     std::set<std::string, std::less<>> given;
+    // Where the names of nodes, cameras and clips that it gives stand in it, as JSON pointers.
+    std::map<std::string, std::string, std::less<>> placesOfNames;
 
     double frameRate = 24;  // 1/s
     FrameRange range{0, 0};

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "capture/json_reader.h"
 #include "capture/setting_json.h"
@@ -273,6 +274,20 @@ void readOutput(const JsonReader& reader, Shot& shot) {
     if (const auto video = reader.find("video")) shot.video = video->text();
 }
 
+// Every name of a node, a camera or a clip, with its first place.
+void collectNames(const JsonReader& reader, Shot& shot) {
+    if (!reader.value().is_structured()) return;
+    for (const auto& [key, member] : reader.members()) {
+        collectNames(member, shot);
+        static const std::set<std::string, std::less<>> naming = {"node",     "name",   "clip",
+                                                                  "position", "target", "centre"};
+        if (!reader.value().is_object() || !naming.contains(key)) continue;
+        const json& value = member.value();
+        if (value.is_string()) shot.placesOfNames.emplace(value.get<std::string>(), member.pointer());
+        if (value.is_number_integer()) shot.placesOfNames.emplace(value.dump(), member.pointer());
+    }
+}
+
 Shot shotOf(const json& document, const fs::path& file) {
     const JsonReader reader(document, file.string());
     reader.requireObject(
@@ -292,6 +307,7 @@ Shot shotOf(const json& document, const fs::path& file) {
     if (reader.has("exposure") && shot.lens.contains("exposureTime"))
         reader.at("exposure").failWith("the lens has an exposureTime too; give one of them");
     readOutput(reader, shot);
+    collectNames(reader, shot);
     return shot;
 }
 
@@ -362,6 +378,12 @@ Shot parseShot(std::string_view text, const fs::path& file, const std::vector<Sh
 Shot loadShot(const fs::path& path, const std::vector<ShotOverride>& overrides) {
     const std::vector<std::byte> bytes = readFile(path);
     return parseShot({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path, overrides);
+}
+
+void failForName(const Shot& shot, const MissingName& missing) {
+    const auto place = shot.placesOfNames.find(missing.name());
+    if (place == shot.placesOfNames.end()) throw missing;
+    fail("{}: {}: {}", shot.file.string(), place->second, missing.what());
 }
 
 FrameRange parseFrameRange(std::string_view text) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "capture/shot.h"
+#include "core/error.h"
 
 namespace defocus {
 
@@ -29,5 +30,9 @@ Shot parseShot(std::string_view text, const std::filesystem::path& file,
 
 // "0:240", or "12" for one frame. Throws Error saying what is allowed.
 FrameRange parseFrameRange(std::string_view text);
+
+// Throws Error for a name that the scene doesn't have: with its place in the shot, "shot.json: /focus/node: there is no
+// node …", where it stands there; as it is, where an option gave it.
+[[noreturn]] void failForName(const Shot& shot, const MissingName& missing);
 
 }  // namespace defocus

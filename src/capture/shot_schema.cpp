@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
 
 #include "capture/setting_json.h"
 
@@ -47,6 +50,8 @@ Json valueSchema(const Setting& setting) {
                 return {{"anyOf", {rangeJson("number", setting), {{"enum", setting.choices}}}}};
             return rangeJson("number", setting);
         case SettingKind::whole:
+            if (!setting.choices.empty())
+                return {{"anyOf", {rangeJson("integer", setting), {{"enum", setting.choices}}}}};
             return rangeJson("integer", setting);
         case SettingKind::truth:
             return {{"type", "boolean"}};
@@ -60,27 +65,86 @@ Json valueSchema(const Setting& setting) {
     return text;
 }
 
-// The value, fixed or with keys.
+// Values to begin with, of settings that have no default and no choices.
+const std::map<std::string_view, Json>& exampleValues() {
+    static const std::map<std::string_view, Json> table = {
+        {"scene", "scene.glb"},
+        {"environment", "studio"},
+        {"clip", "Walk"},
+        {"camera", "Camera"},
+        {"targetError", 0.003},
+        {"blurThreshold", 0.2},
+        {"sizeThreshold", 1},
+        {"lightThreshold", 0.1},
+        {"exposure", "auto"},
+        {"focalLength", 50},
+        {"fStop", 1.4},
+        {"focusDistance", 2.5},
+        {"horizontalAperture", 36},
+        {"dofEnabled", false},
+        {"blurScale", 2},
+        {"focusBreathing", true},
+        {"exposureTime", 0.02},
+        {"iso", 400},
+        {"bladeCount", 7},
+        {"bladeRotation", 15},
+        {"bladeCurvature", 0.5},
+        {"anamorphicRatio", 2},
+        {"obstruction", 0.3},
+        {"sphericalAberration", 0.5},
+        {"catEye", 0.5},
+        {"axialChromaticAberration", 0.2},
+        {"foregroundLimit", 20},
+        {"backgroundLimit", 40},
+        {"focusRangeFront", 0.5},
+        {"focusRangeBehind", 1},
+        {"focusTilt", 10},
+        {"focusSwing", 10},
+        {"fieldCurvature", 0.2},
+        {"radialBlurGain", 1},
+    };
+    return table;
+}
+
+// None where the choices say all.
+std::optional<Json> exampleOf(const Setting& setting) {
+    if (const auto found = exampleValues().find(setting.name); found != exampleValues().end()) return found->second;
+    if (!setting.choices.empty()) return Json(setting.choices.front());
+    return {};
+}
+
+// Of a setting whose values change from frame to frame.
 Json trackSchema(const Setting& setting) {
-    const Json value = valueSchema(setting);
+    Json value = {{"description", "The value at that frame"}};
+    value.update(valueSchema(setting));
+    if (const auto example = exampleOf(setting)) value["examples"] = Json::array({*example});
     const Json key = {{"type", "object"},
                       {"additionalProperties", false},
                       {"required", {"frame", "value"}},
                       {"properties", {{"frame", {{"$ref", "#/$defs/frame"}}}, {"value", value}}}};
-    const Json keys = {{"type", "object"},
-                       {"additionalProperties", false},
-                       {"required", Json::array({"keys"})},
-                       {"properties",
-                        {{"keys", {{"type", "array"}, {"minItems", 1}, {"items", key}}},
-                         {"interpolation", {{"$ref", "#/$defs/interpolation"}}}}}};
-    return {{"anyOf", {value, keys}}};
+    const Json keys = {
+        {"type", "object"},
+        {"additionalProperties", false},
+        {"required", Json::array({"keys"})},
+        {"properties",
+         {{"keys",
+           {{"description", "Values at frames; between two of them the value goes from one to the other"},
+            {"examples", Json::array({Json::array({{{"frame", 0}, {"value", value["examples"][0]}}})})},
+            {"type", "array"},
+            {"minItems", 1},
+            {"items", key}}},
+          {"interpolation", {{"$ref", "#/$defs/interpolation"}}}}}};
+    return {{"anyOf", {valueSchema(setting), keys}}};
 }
 
 Json schemaOf(const Setting& setting) {
     Json schema = Json::object();
     schema["description"] = setting.unit.empty() ? setting.help : fmt::format("{} ({})", setting.help, setting.unit);
     const std::optional<std::string> standard = setting.text(Request{});
-    if (standard) schema["default"] = settingJson(setting, *standard);
+    if (standard)
+        schema["default"] = settingJson(setting, *standard);
+    else if (const auto example = exampleOf(setting))
+        schema["examples"] = Json::array({*example});
     schema.update(setting.keyed ? trackSchema(setting) : valueSchema(setting));
     return schema;
 }

@@ -104,8 +104,9 @@ std::vector<ConvergenceRun> earlierRuns(const ConvergenceArguments& arguments, s
 // Results in their folder: as frames come in, everything is written anew, so that a killed run loses none of them.
 class ResultsFolder {
 public:
-    ResultsFolder(fs::path folder, const ReferenceImage& reference, ConvergenceSubject subject, std::uint64_t hash)
-        : folder_(std::move(folder)), reference_(reference), subject_(std::move(subject)), hash_(hash) {}
+    ResultsFolder(fs::path folder, const ReferenceImage& reference, ConvergenceSubject subject, std::uint64_t hash,
+                  int seeds)
+        : folder_(std::move(folder)), reference_(reference), subject_(std::move(subject)), hash_(hash), seeds_(seeds) {}
 
     // Goes on from the frames, and the commands, that an earlier run has left here.
     void resume(std::vector<ConvergenceRun> runs) {
@@ -143,13 +144,16 @@ public:
         writeFile(folder / "results.json", convergenceJson(all, reference_, subject_));
     }
 
-    [[nodiscard]] std::vector<ConvergenceRow> rows() const { return convergenceRows(runs_, reference_.remaining); }
+    [[nodiscard]] std::vector<ConvergenceRow> rows() const {
+        return convergenceRows(runs_, reference_.remaining, seeds_);
+    }
 
 private:
     fs::path folder_;
     const ReferenceImage& reference_;
     ConvergenceSubject subject_;
     std::uint64_t hash_;
+    int seeds_;
     std::vector<ConvergenceRun> runs_;
 };
 
@@ -174,7 +178,11 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.renderer.shaderFolder = global.shaderDir;
     const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer};
     const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
-    const std::uint64_t hash = subjectHash(referenced, benchSubject(*context, global), arguments.request);
+    // Runs of other seeds aren't to be mixed.
+    const std::array<std::uint64_t, 2> subjectAndSeeds = {
+        subjectHash(referenced, benchSubject(*context, global), arguments.request),
+        static_cast<std::uint64_t>(options.seeds)};
+    const std::uint64_t hash = hashBytes(std::as_bytes(std::span(subjectAndSeeds)));
     const std::vector<ConvergenceRun> done = earlierRuns(arguments, referenced, hash);
     const fs::path folder = resultsFolder(arguments);
     if (arguments.overwrite) writeFile(folder / "runs.csv", runsCsv({}, hash));
@@ -189,7 +197,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     subject.crops = tellingCrops(frame.world, frame.view, reference, fewest, options.renderer);
 
     // The frames.
-    ResultsFolder results(folder, reference, subject, hash);
+    ResultsFolder results(folder, reference, subject, hash, options.seeds);
     if (arguments.resume) results.resume(done);
     fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n", subject.bench.scene, subject.bench.width,
                subject.bench.height, options.runs, subject.bench.device);
@@ -248,7 +256,12 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
                     "The scene's own light, or a fixed one painted on its meshes, which ray tracers show alike; "
                     "unlit where this program has ray tracers")
         ->group(group);
+    options.runs = 5;
+    options.seeds = 5;
     addWhole(command, "--runs", options.runs, 1, 1000, "Frames of each; the median counts")->group(group);
+    addWhole(command, "--seeds", options.seeds, 1, 1000,
+             "Sets of sample points, which the runs take in turn: the error is their mean, with the least and the most")
+        ->group(group);
     addWhole(command, "--reference-samples", arguments.referenceSamples, 2, mostSamples,
              "Lens samples of the reference, which is kept beside the results and used again")
         ->group(group);

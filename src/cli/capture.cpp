@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -52,6 +53,7 @@ struct CaptureArguments {
     std::optional<SampleRange> sampleRange;
     std::vector<std::string> outputs;  // empty: the shot's
     bool resume = false;
+    bool overwrite = false;
     bool dryRun = false;
 };
 
@@ -106,6 +108,7 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     options.sampleRange = arguments.sampleRange;
     options.toneMap = arguments.request.toneMap;
     options.exposure = arguments.request.exposure;
+    options.automatic = isAutomatic(arguments.request);
     options.stop = arguments.request.stop;
     options.stop.timeLimit.reset();  // the run's: the same frame gets the same samples whenever it is rendered
     options.settings = settings;
@@ -118,7 +121,8 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
                const std::vector<FilmFrame>& film) {
     const StopSettings& stop = arguments.request.stop;
     const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
-                                                 : fmt::format("{} samples", base.settings.sampleCount);
+                                : isAutomatic(arguments.request) ? "as many samples as each frame asks for"
+                                                                 : fmt::format("{} samples", base.settings.sampleCount);
     fmt::print("{}, camera '{}', {}x{}, {}, {:g} frames a second\n", prepared.sceneName, prepared.cameraName,
                base.view.width, base.view.height, samples, arguments.shot.frameRate);
     fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
@@ -131,7 +135,9 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
         const Lens& lens = frame.view.lens;
         fmt::print("{:>7} {:>9.3f} {:>10.4g} {:>8.3g} {:>8.4g} {:>12}  {}{}\n", each.frame, frame.time,
                    lens.focusDistance, lens.fStop, lens.focalLength, plan.trianglesDrawn, each.files.front().string(),
-                   each.finished ? " (is there)" : "");
+                   each.finished        ? " (is there)"
+                   : each.other.empty() ? ""
+                                        : " (other settings)");
     }
 }
 
@@ -213,6 +219,22 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
 }
 
+// Work of hours may lie under these names.
+void refuseToReplace(const std::vector<FilmFrame>& film) {
+    const auto replaced = [](const FilmFrame& frame) { return !frame.other.empty(); };
+    const auto first = std::ranges::find_if(film, replaced);
+    if (first == film.end()) return;
+    const auto more = std::ranges::count_if(film, replaced) - 1;
+    fail("{}{} made with other settings: --overwrite renders anew, -o writes elsewhere", first->other.string(),
+         more > 0 ? fmt::format(" and {} more frame{} were", more, more > 1 ? "s" : "") : " was");
+}
+
+PreparedFrame placedFrame(const CaptureArguments& arguments, const Progress& progress) try {
+    return placeFrame(arguments.request, progress);
+} catch (const MissingName& missing) {
+    failForName(arguments.shot, missing);
+}
+
 void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
     // Faults first: options, outputs, scene, every frame's camera and lens, device; only then the long work.
     Shot& shot = arguments.shot;
@@ -222,13 +244,14 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     const MethodUse use = chosenMethod(arguments.request);
     if (arguments.request.stop.targetError) checkStop(arguments.request);
     Progress progress = terminalProgress(global);
-    PreparedFrame prepared = placeFrame(arguments.request, progress);
+    PreparedFrame prepared = placedFrame(arguments, progress);
     const SequenceBase base = sequenceBase(prepared, arguments.request);
     FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
     options.metered = metersExposure(arguments.request, *prepared.scene, prepared.view.lens);
     const std::vector<int> frames =
         shardFrames(arguments.range.value_or(shot.range), arguments.shard.index, arguments.shard.count);
     std::vector<FilmFrame> film = filmFrames(shot, base, frames, options, progress);
+    if (arguments.resume && !arguments.overwrite && !arguments.dryRun) refuseToReplace(film);
     const bool allThere = std::ranges::all_of(film, &FilmFrame::finished);
 
     // The frames.
@@ -328,7 +351,13 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
         .add_option("--video", arguments.shot.video, "Also make a film with ffmpeg: .mp4, .mov, .mkv, .webm or .gif")
         ->type_name("FILE")
         ->group(group);
-    command.add_flag("--resume", arguments.resume, "Keep frames that are finished and of the same settings")
+    CLI::Option* resume =
+        command.add_flag("--resume", arguments.resume, "Keep frames that are finished and of the same settings")
+            ->group(group);
+    command
+        .add_flag("--overwrite", arguments.overwrite,
+                  "With --resume: render frames anew that were made with other settings")
+        ->needs(resume)
         ->group(group);
     addParsed(command, "--shard", "I/N", "Render part I (0 to N-1) of the frames; N machines share a film",
               [&arguments](const std::string& text) { parseShard(text, arguments.shard); })
@@ -344,6 +373,8 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
 
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<CaptureArguments>();
+    // As many for each frame: a number that changes from frame to frame would be seen.
+    arguments->request.settings.sampleCount = RenderSettings{}.sampleCount;
     CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and film");
     addShot(*command, *arguments);
     addOutputs(*command, *arguments);

@@ -42,7 +42,10 @@ void addCompareCommand(CLI::App& program, const GlobalOptions& global);
 void addBenchCommand(CLI::App& program, const GlobalOptions& global);
 void addCacheCommand(CLI::App& program);
 void addSettingsCommand(CLI::App& program);
+void addCompletionsCommand(CLI::App& program);
+void addManCommand(CLI::App& program);
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global);
+void addNewShotCommand(CLI::App& program, const GlobalOptions& global);
 void addMergeCommand(CLI::App& program, const GlobalOptions& global);
 
 }  // namespace defocus

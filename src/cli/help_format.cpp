@@ -1,8 +1,13 @@
 #include "cli/help_format.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 #include <string_view>
+#include <vector>
+
+#include "cli/program_outline.h"
 
 namespace defocus {
 
@@ -45,7 +50,27 @@ std::string inColumns(const std::string& left, const std::string& text, std::siz
     return lines + '\n';
 }
 
+// Options with names, of one group; all of them, or those that most people use.
+std::vector<const CLI::Option*> optionsOf(const CLI::App& app, const std::string& group, bool all) {
+    return app.get_options([&](const CLI::Option* option) {
+        return option->nonpositional() && option->get_group() == group && (all || isEveryday(*option));
+    });
+}
+
 }  // namespace
+
+std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+    if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    std::string text = make_description(app) + make_usage(app, std::move(name)) + make_positionals(app);
+    std::size_t left = app->get_options([](const CLI::Option* option) { return option->nonpositional(); }).size();
+    for (const std::string& group : app->get_groups()) {
+        const std::vector<const CLI::Option*> options = optionsOf(*app, group, mode == CLI::AppFormatMode::All);
+        if (!options.empty()) text += make_group(group, false, options);
+        left -= options.size();
+    }
+    if (left > 0) text += fmt::format("\n{} more options are shown by --help-all.\n", left);
+    return text + make_subcommands(app, mode) + '\n' + make_footer(app);
+}
 
 std::string HelpFormat::make_option(const CLI::Option* option, bool isPositional) const {
     return inColumns(make_option_name(option, isPositional) + make_option_opts(option), make_option_desc(option),

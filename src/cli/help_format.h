@@ -1,5 +1,6 @@
 #pragma once
-// How --help looks: a column of options, and their descriptions wrapped beside it with the default at the end.
+// How --help looks: a column of options, and their descriptions wrapped beside it with the default at the end. --help
+// shows the options that most people use, and --help-all every option of the command, or of all commands.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -12,6 +13,7 @@ public:
         column_width(32);
         label("SUBCOMMAND", "COMMAND");
     }
+    std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
     std::string make_option(const CLI::Option* option, bool isPositional) const override;
     std::string make_option_name(const CLI::Option* option, bool isPositional) const override;
     std::string make_option_opts(const CLI::Option* option) const override;

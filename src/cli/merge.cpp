@@ -9,6 +9,7 @@
 
 #include "capture/partial.h"
 #include "cli/command.h"
+#include "cli/image_output.h"
 #include "cli/option_text.h"
 #include "core/file.h"
 #include "core/message.h"
@@ -34,17 +35,14 @@ double ownExposure(const Metadata& metadata) {
 }
 
 void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
-    for (const std::filesystem::path& path : arguments.outputs) {
-        checkImageExtension(path);
-        checkWritable(path);
-    }
+    checkImageOutputs(arguments.outputs);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const MergedFrame merged = mergeParts(arguments.parts);
     const WriteOptions write{arguments.toneMap, arguments.exposure.value_or(ownExposure(merged.metadata))};
     std::string names;
     for (const std::filesystem::path& path : arguments.outputs) {
-        writeImage(path, merged.image, merged.metadata, write);
-        names += (names.empty() ? "" : ", ") + path.string();
+        writeOutput(path, merged.image, merged.metadata, write);
+        names += (names.empty() ? "" : ", ") + shownOutput(path);
     }
     if (!global.quiet)
         printMessage("{}: {}x{}, {} parts\n", names, merged.image.width, merged.image.height, arguments.parts.size());
@@ -59,7 +57,9 @@ void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
     command->add_option("PART", arguments->parts, "The parts of one frame, in any order")
         ->required()
         ->type_name("FILE…");
-    command->add_option("-o,--output", arguments->outputs, "Image to write: .exr, .png or .jpg; several times")
+    command
+        ->add_option("-o,--output", arguments->outputs,
+                     fmt::format("Image to write: .exr, .png or .jpg; several times. {}", standardOutputHelp))
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->default_str("out.exr");

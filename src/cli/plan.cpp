@@ -12,6 +12,7 @@
 #include "frame/unused_settings.h"
 #include "plan/frame_plan.h"
 #include "plan/plan_text.h"
+#include "render/automatic_samples.h"
 
 namespace defocus {
 
@@ -24,7 +25,12 @@ struct PlanArguments {
 
 void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
-    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    if (isAutomatic(arguments.request)) {  // as a render begins, which may go on by what it sees
+        RenderSettings settings = frame.settings;
+        settings.sampleCount = samplesForBlur(plan);
+        plan = planFrame(frame.world, frame.view, settings);
+    }
     fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
     printFrameWarnings(frame, global);
     printWarnings(ignoredWarnings(*frame.scene), global);

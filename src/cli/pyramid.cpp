@@ -77,10 +77,11 @@ std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name
     std::vector<std::string> names;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         names.push_back(shownName(scene, m));
-        if (!name.empty() && names.back() != name) continue;
-        chosen.emplace_back().mesh = m;
     }
-    if (!chosen.empty() || name.empty()) return chosen;
+    const auto named = placeOfName(name, names);
+    for (std::size_t m = 0; m < names.size(); ++m)
+        if (name.empty() || (named && names[m] == names[*named])) chosen.emplace_back().mesh = m;
+    if (named || name.empty()) return chosen;
     const std::string nearest = nearestWord(name, names);
     if (!nearest.empty()) fail("there is no mesh '{}'; did you mean '{}'?", name, nearest);
     fail("there is no mesh '{}' among {}; defocus info lists them", name, names.size());

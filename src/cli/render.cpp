@@ -15,13 +15,16 @@
 #include "capture/partial.h"
 #include "capture/settings_hash.h"
 #include "cli/command.h"
+#include "cli/image_output.h"
 #include "cli/option_text.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
 #include "frame/exposure.h"
+#include "frame/picture_warnings.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
+#include "frame/program_facts.h"
 #include "frame/render_report.h"
 #include "frame/unused_settings.h"
 #include "gl/context.h"
@@ -47,9 +50,11 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
     const char* group = "Output";
     arguments.outputs = {"out.exr"};
     command
-        .add_option("-o,--output", arguments.outputs,
-                    "Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. Can be given "
-                    "several times")
+        .add_option(
+            "-o,--output", arguments.outputs,
+            fmt::format("Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. {}. "
+                        "Can be given several times",
+                        standardOutputHelp))
         ->allow_extra_args(false)
         ->type_name("FILE")
         ->default_str("out.exr")
@@ -64,8 +69,9 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
               "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
               [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
         ->group(group);
-    addParsed(command, "--stats", "FILE", "Write times, triangles and memory as JSON; - is standard output",
-              [&arguments](const std::string& text) { arguments.stats = text == "-" ? "/dev/stdout" : text; })
+    addParsed(command, "--stats", "FILE",
+              "Write times, triangles, memory and what was asked for as JSON; - is standard output",
+              [&arguments](const std::string& text) { arguments.stats = text; })
         ->group(group);
 }
 
@@ -89,15 +95,16 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
 }
 
 void checkOutputs(const RenderArguments& arguments) {
-    for (const std::filesystem::path& path : arguments.outputs) {
-        checkImageExtension(path);
-        checkWritable(path);
-    }
-    for (const std::filesystem::path& path : aovPaths(arguments)) checkWritable(path);
-    if (!arguments.stats.empty()) checkWritable(arguments.stats);
+    std::vector<std::filesystem::path> more = aovPaths(arguments);
+    if (!arguments.stats.empty()) more.push_back(arguments.stats);
+    checkImageOutputs(arguments.outputs, more);
+    if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
+        fail("--aov writes files beside the first output, which must be a file");
     if (!arguments.sampleRange) return;
     if (arguments.request.stop.given())
         throw UsageError("--sample-range needs a number of samples, which --target-error and --time-limit leave open");
+    if (arguments.request.settings.sampleCount == automaticSamples)
+        throw UsageError("--sample-range is a part of a number of samples: give --samples N too");
     checkSampleRange(*arguments.sampleRange, arguments.request.settings.sampleCount);
     if (arguments.outputs.size() != 1 || arguments.outputs.front().extension() != ".exr" || arguments.aovs.any())
         fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
@@ -105,7 +112,7 @@ void checkOutputs(const RenderArguments& arguments) {
 
 Image renderImage(FrameRun& run, Renderer& renderer, const RenderArguments& arguments, const PreparedFrame& frame,
                   const Progress& progress) {
-    run.start(frame.view, frame.settings, arguments.request.stop);
+    run.start(frame.view, runSettings(frame, arguments.request), arguments.request.stop);
     do {
         report(progress, "samples", run.samples(), run.sampleTotal());
     } while (run.advance());
@@ -150,7 +157,8 @@ void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Im
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report) {
     std::string names;
-    for (const std::filesystem::path& path : arguments.outputs) names += (names.empty() ? "" : ", ") + path.string();
+    for (const std::filesystem::path& path : arguments.outputs)
+        names += (names.empty() ? "" : ", ") + shownOutput(path);
     for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
     printMessage("{}: {}\n", names, summary(report));
 }
@@ -183,10 +191,10 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     printFrameWarnings(frame, global);
     printWarnings(ignoredWarnings(*frame.scene), global);
     printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
-    const auto warnOfPlan = [&](const FramePlan& plan) {
-        printWarnings(planWarnings(plan, method.usesLensSamples), global);
+    const auto warnOfPlan = [&](const FramePlan& plan, std::uint64_t samples = 0) {
+        printWarnings(planWarnings(plan, method.usesLensSamples, samples), global);
     };
-    const bool counted = !arguments.request.stop.given();
+    const bool counted = !arguments.request.stop.given() && !isAutomatic(arguments.request);
     if (counted) warnOfPlan(planFrame(frame.world, frame.view, frame.settings));
     progress = terminalProgress(global);
 
@@ -211,7 +219,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     }
     const RenderStats stats = arguments.sampleRange ? renderer->stats() : run.stats();
     progress = {};
-    if (!counted) warnOfPlan(plan);
+    if (!counted) warnOfPlan(plan, stats.samples);
 
     // Write.
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -219,17 +227,23 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     if (metersExposure(arguments.request, *frame.scene, frame.view.lens) && !context) context = createHeadlessContext();
     const double exposure =
         chosenExposure(arguments.request, frame.world, frame.view, frame.settings, global.shaderDir);
-    const RenderReport report{arguments.request, use.text(), frame, plan, stats, software, milliseconds, exposure};
+    const RenderReport report{
+        arguments.request, use.text(), frame, plan, stats, software, milliseconds, exposure, commandLine(global.words)};
     const Metadata metadata = renderMetadata(report);
+    const auto hasCurve = [](const std::filesystem::path& path) {
+        return !path.string().starts_with("exr:") && path.extension() != ".exr";
+    };
+    if (!arguments.sampleRange && std::ranges::any_of(arguments.outputs, hasCurve))
+        printWarnings(clippingWarnings(image, {arguments.request.toneMap, exposure}), global);
     if (arguments.sampleRange)
         writeSums(arguments, std::move(part), frame, global.shaderDir, metadata);
     else
         for (const std::filesystem::path& path : arguments.outputs)
-            writeImage(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});
+            writeOutput(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});
     if (arguments.aovs.surfaces()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
     if (arguments.aovs.work)
         writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
-    if (!arguments.stats.empty()) writeFile(arguments.stats, statsJson(report));
+    if (!arguments.stats.empty()) writeOutput(arguments.stats, statsJson(report));
     if (global.verbose) printChoices(context.get(), plan, report);
     if (!global.quiet) printSummary(arguments, report);
 }

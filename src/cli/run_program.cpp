@@ -82,11 +82,14 @@ std::string helpHint(const CLI::App& program) {
     return fmt::format("see defocus{} --help", names);
 }
 
+bool isOption(const std::string& word) {
+    return word.size() > 1 && word.front() == '-';
+}
+
 // A line for words that nothing expected: an option or command that isn't there, or one word too many.
 std::string unexpected(const CLI::App& program, const std::vector<std::string>& words) {
     const CLI::App& command = chosenCommand(program);
-    const auto isOption = [](const std::string& word) { return word.size() > 1 && word.front() == '-'; };
-    const auto option = std::find_if(words.begin(), words.end(), isOption);
+    const auto option = std::ranges::find_if(words, isOption);
     const std::string word = option != words.end() ? *option : words.front();
 
     std::vector<std::string> known = namesOf(command);
@@ -117,7 +120,8 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
     const bool unfinished = command.get_subcommands().empty() && !namesOf(command).empty();  // a command must follow
     const bool strange = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr || unfinished;
     const std::vector<std::string> words = program.remaining(true);
-    if (strange && !words.empty()) return unexpected(program, words);
+    // An option that isn't there is told before any other fault: its value may be what another option complains of.
+    if (!words.empty() && (strange || std::ranges::any_of(words, isOption))) return unexpected(program, words);
     if (const CLI::Option* option = repeatedOption(command))
         return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());
     if (unfinished && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
@@ -149,9 +153,12 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     program.fallthrough();
     program.require_subcommand(1);
     program.formatter(std::make_shared<HelpFormat>());
+    program.set_help_flag("-h,--help", "The options that most people use");
+    program.set_help_all_flag("--help-all", "All options, of a command or of all commands");
     addGlobalOptions(program, global);
     addRenderCommand(program, global);
     addCaptureCommand(program, global);
+    addNewShotCommand(program, global);
     addMergeCommand(program, global);
     addViewCommand(program, global);
     addPlanCommand(program, global);
@@ -161,9 +168,11 @@ void addCommands(CLI::App& program, GlobalOptions& global) {
     addBenchCommand(program, global);
     addCacheCommand(program);
     addSettingsCommand(program);
+    addCompletionsCommand(program);
+    addManCommand(program);
     program.parse_complete_callback([&program, &global] { refuseUnusedShaders(program, global); });
     program.footer(
-        "defocus COMMAND --help explains a command.\n\nExample:\n"
+        "defocus COMMAND --help explains a command, and --help-all tells all of it.\n\nExample:\n"
         "  defocus render scene.glb -o out.exr -o out.png --fstop 1.4 --focus-distance 2.5");
 }
 

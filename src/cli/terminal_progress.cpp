@@ -8,11 +8,14 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "cli/command.h"
+#include "cli/progress_line.h"
 #include "core/message.h"
+#include "core/number_text.h"
 
 namespace defocus {
 
@@ -34,27 +37,26 @@ public:
 
     void show(std::string_view stage, std::uint64_t done, std::uint64_t total) {
         const Clock::time_point now = Clock::now();
+        const double share = total > 0 ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0;
+        const std::optional<double> left =
+            timeLeft_.after(stage, share, std::chrono::duration<double>(now.time_since_epoch()).count());
         const bool ends = !terminal_ && stage == shown_ && done == total;  // what was said to be going on is done
         if (now < next_ && !ends) return;
         shown_ = stage;
         next_ = now + (terminal_ ? Clock::duration(redraw) : Clock::duration(plainLines));
-        const double share = total > 0 ? std::min(1.0, static_cast<double>(done) / static_cast<double>(total)) : 0;
         if (terminal_)
-            drawBar(stage, share);
+            drawBar(stage, share, left);
+        else if (left && share < 1)
+            printMessage("{}: {:.0f} %, {} left\n", stage, 100 * share, durationText(*left));
         else
             printMessage("{}: {:.0f} %\n", stage, 100 * share);
     }
 
 private:
-    void drawBar(std::string_view stage, double share) {
+    void drawBar(std::string_view stage, double share, std::optional<double> left) {
         winsize window{};
         const bool sized = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
-        const int columns = sized ? window.ws_col : 80;
-        const int width = std::clamp(columns - static_cast<int>(stage.size()) - 12, 0, 40);
-        const int filled = static_cast<int>(share * width);
-        const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
-                                std::string(static_cast<std::size_t>(width - filled), '-');
-        printMessage("\r\x1b[K{} [{}] {:3.0f} %", stage, bar, 100 * share);
+        printMessage("\r\x1b[K{}", progressLine(stage, share, left, sized ? window.ws_col : 80));
         drawn_ = true;
     }
 
@@ -66,6 +68,7 @@ private:
 
     bool terminal_;
     bool drawn_ = false;
+    TimeLeft timeLeft_;
     std::string shown_;  // the stage that was shown last
     Clock::time_point next_ = Clock::now() + firstShown;
 };

@@ -55,6 +55,9 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
         if (!options->screenshot.empty() && options->frames == 0) options->frames = 1;
         options->shaderFolder = global.shaderDir;
         options->quiet = global.quiet;
+        // The window adds blocks as long as it is looked at; this is for stills that it exports.
+        if (options->request.settings.sampleCount == automaticSamples)
+            options->request.settings.sampleCount = RenderSettings{}.sampleCount;
         runView(*options);
     });
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
 
 #include "defocus/error.h"
@@ -16,5 +17,15 @@ template <typename... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
     throw Error(fmt::format(format, std::forward<Args>(args)...));
 }
+
+// A name that a scene doesn't have, such as that of a node. What read the name from a file knows where it stands there.
+class MissingName : public Error {
+public:
+    MissingName(std::string name, const std::string& message) : Error(message), name_(std::move(name)) {}
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+private:
+    std::string name_;
+};
 
 }  // namespace defocus

@@ -1,5 +1,7 @@
 #include "core/number_text.h"
 
+#include <fmt/format.h>
+
 namespace defocus {
 
 std::string grouped(std::uint64_t number) {
@@ -7,6 +9,13 @@ std::string grouped(std::uint64_t number) {
     for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
         digits.insert(static_cast<std::size_t>(i), 1, ',');
     return digits;
+}
+
+std::string durationText(double seconds) {
+    const auto whole = static_cast<long long>(seconds + 0.5);
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+    return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
 }  // namespace defocus

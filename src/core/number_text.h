@@ -9,4 +9,7 @@ namespace defocus {
 // "1,800,000"
 std::string grouped(std::uint64_t number);
 
+// "42 s", "1:05 min", "2:30 h"
+std::string durationText(double seconds);
+
 }  // namespace defocus

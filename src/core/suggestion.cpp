@@ -24,21 +24,44 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     return distance[a.size()][b.size()];
 }
 
+std::string inSmallLetters(std::string_view text) {
+    std::string result(text);
+    for (char& letter : result)
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    return result;
+}
+
 }  // namespace
 
 std::string nearestWord(std::string_view word, const std::vector<std::string>& known) {
     constexpr std::size_t longestWord = 64;  // nobody mistypes more than this
     if (word.size() > longestWord) return {};
+    const std::string small = inSmallLetters(word);
     std::string nearest;
     std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : known) {
-        const std::size_t distance = editDistance(word, candidate);
+        const std::size_t distance = editDistance(small, inSmallLetters(candidate));
         if (distance < least) {
             least = distance;
             nearest = candidate;
         }
     }
     return nearest;
+}
+
+std::optional<std::size_t> placeOfName(std::string_view name, const std::vector<std::string>& known) {
+    const auto placeOf = [&](const auto& found) -> std::size_t {
+        return static_cast<std::size_t>(found - known.begin());
+    };
+    if (const auto same = std::ranges::find(known, name); same != known.end()) return placeOf(same);
+    const auto alike = [small = inSmallLetters(name)](const std::string& each) {
+        return inSmallLetters(each) == small;
+    };
+    const auto first = std::ranges::find_if(known, alike);
+    if (first == known.end()) return {};
+    const auto other = [&](const std::string& each) { return each != *first && alike(each); };
+    if (std::find_if(first + 1, known.end(), other) != known.end()) return {};
+    return placeOf(first);
 }
 
 }  // namespace defocus

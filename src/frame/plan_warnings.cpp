@@ -10,6 +10,7 @@
 #include "core/number_text.h"
 #include "defocus/settings.h"
 #include "lens/lens_fields.h"
+#include "render/automatic_samples.h"
 
 namespace defocus {
 
@@ -40,16 +41,8 @@ std::string nothingBlurred(const FramePlan& plan) {
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
-// Of the objects whose boxes lie before the camera as a whole: the others' boxes say too much.
-double largestBoundedBlur(const FramePlan& plan) {
-    double largest = 0;
-    for (const ObjectPlan& object : plan.objects)
-        if (object.nearestDepth > plan.view.nearPlane) largest = std::max(largest, object.coc.largest);
-    return largest;
-}
-
-std::string copiesShow(const FramePlan& plan, double blur) {
-    const auto count = static_cast<double>(plan.samples.size());
+std::string copiesShow(const FramePlan& plan, double blur, std::uint64_t samples) {
+    const auto count = static_cast<double>(samples);
     const double needed = std::numbers::pi / 4 * blur * blur / (goodGap * goodGap);
     const double scale = plan.view.lens.blurScale * goodGap / blur * std::sqrt(4 * count / std::numbers::pi);
     const std::string more = needed <= mostSamples
@@ -58,18 +51,19 @@ std::string copiesShow(const FramePlan& plan, double blur) {
                                  : std::string();
     return fmt::format(
         "up to {:.0f} px of blur from {} samples: points may show as copies; {}--blur-scale {:g} narrows it", blur,
-        grouped(plan.samples.size()), more, roundNumber(scale));
+        grouped(samples), more, roundNumber(scale));
 }
 
 }  // namespace
 
-std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill) {
+std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill, std::uint64_t samples) {
+    if (samples == 0) samples = plan.samples.size();
     std::vector<std::string> lines;
     if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
     if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
     const double blur = largestBoundedBlur(plan);
-    const double gap = blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(plan.samples.size())));
-    if (samplesFill && std::isfinite(blur) && gap > mostGap) lines.push_back(copiesShow(plan, blur));
+    const double gap = blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)));
+    if (samplesFill && std::isfinite(blur) && gap > mostGap) lines.push_back(copiesShow(plan, blur, samples));
     return lines;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Warns of what a person should know about a picture, from its plan alone.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace defocus {
 // - the lens is open, but nothing is blurred by half a pixel;
 // - `samplesFill` (each sample is an image of its own, as the accumulation's are), and an object's blur is so large for
 //   the number of samples that they show as copies: N points spread over a disk of c px lie about c·√(π/(4N)) px apart.
-std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill);
+// `samples`: of the whole frame, where the plan is that of its last block; 0: the plan's.
+std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill, std::uint64_t samples = 0);
 
 // Returns a line for each thing in the scene's file that isn't drawn, up to 20. For faults of the file see
 // damageWarnings (prepared_frame.h).

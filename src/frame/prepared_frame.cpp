@@ -187,6 +187,12 @@ PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     return frame;
 }
 
+RenderSettings runSettings(const PreparedFrame& frame, const Request& request) {
+    RenderSettings settings = frame.settings;
+    if (isAutomatic(request)) settings.sampleCount = automaticSamples;
+    return settings;
+}
+
 void setNodeBlur(const Request& request, Scene& scene) {
     for (const auto& [name, scale] : request.nodeBlur)
         scene.nodes[static_cast<std::size_t>(nodeNamed(scene, name))].cocScale = scale;
@@ -209,6 +215,7 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     frame.world.environment =
         environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
     frame.settings = request.settings;
+    if (frame.settings.sampleCount == automaticSamples) frame.settings.sampleCount = RenderSettings{}.sampleCount;
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
     // Levels of full detail are not worth storing.
     if (request.settings.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
@@ -63,6 +64,16 @@ void addSettings(Metadata& metadata, const Request& request) {
     }
 }
 
+// "2026-01-31T12:00:00Z"
+std::string dateNow() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[sizeof "2026-01-31T12:00:00Z"] = {};
+    const std::size_t length = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return {text, length};
+}
+
 std::string inMillions(std::uint64_t count) {
     const double value = static_cast<double>(count);
     return count < 1'000'000 ? fmt::format("{}", count) : fmt::format("{:.1f} M", value * 1e-6);
@@ -116,6 +127,9 @@ std::string statsJson(const RenderReport& report) {
     const RenderSettings& settings = report.plan.settings;
     nlohmann::ordered_json json = {
         {"version", programVersion()},
+        {"commit", programCommit()},
+        {"command", report.command},
+        {"date", dateNow()},
         {"scene", report.frame.sceneName},
         {"camera", report.frame.cameraName},
         {"time", report.options.time},
@@ -124,6 +138,7 @@ std::string statsJson(const RenderReport& report) {
         {"height", report.plan.view.height},
         {"method", report.method},
         {"samples", stats.samples},
+        {"largestBlur", report.plan.largestBlur},
         {"sequence", sequenceName(settings.sequence)},
         {"seed", settings.seed},
         {"lod", lodModeName(settings.lod)},
@@ -160,6 +175,10 @@ std::string statsJson(const RenderReport& report) {
         json["stopped"] = stopReasonText(stats.stopped);
         json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
     }
+    if (isAutomatic(report.options)) {
+        json["samplesAutomatic"] = true;
+        json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
+    }
     for (const MethodFigure& figure : stats.figures) json["methodFigures"][figure.name] = figure.value;
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -176,6 +195,8 @@ std::string summary(const RenderReport& report) {
     std::string samples = fmt::format("{} samples", stats.samples);
     if (report.options.stop.given())
         samples += fmt::format(" ({}; {})", errorText(stats), stopReasonText(stats.stopped));
+    else if (isAutomatic(report.options))
+        samples += stats.estimatedError ? fmt::format(" (automatic, {})", errorText(stats)) : " (automatic)";
     return fmt::format("{}x{}, {} in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height, samples,
                        stats.renderMilliseconds / 1000, triangles, stats.device);
 }

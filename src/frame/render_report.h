@@ -20,13 +20,15 @@ struct RenderReport {
     bool softwareDriver = false;
     double totalMilliseconds = 0;         // of the whole command so far
     std::optional<double> exposure = {};  // EV of its 8-bit images; none: the lens's
+    std::string command = {};             // the command line, as a shell would take it
 };
 
 // EXR's standard names where there are any: aperture (f-number), focus (m), nominalFocalLength (mm), worldToCamera,
 // worldToNDC, cameraLabel, software; the rest under "defocus:".
 Metadata renderMetadata(const RenderReport& report);
 
-// JSON; milliseconds and bytes as the keys say. peakBytes is the whole process's memory at its peak.
+// JSON; milliseconds and bytes as the keys say, the largest blur as a diameter in px (null where it has no bound), the
+// date in UTC. peakBytes is the whole process's memory at its peak.
 std::string statsJson(const RenderReport& report);
 
 // "error about 0.0047", "error not estimated"

@@ -19,6 +19,12 @@ MethodUse chosenMethod(const Request& request) try {
     throw UsageError(error.what());
 }
 
+bool isAutomatic(const Request& request) {
+    const bool exact = request.shutter.seconds > 0 && request.shutter.exactMotion;
+    return request.settings.sampleCount == automaticSamples && !request.stop.given() && !exact &&
+           chosenMethod(request).method->sumsBlocks;
+}
+
 void checkStop(const Request& request) {
     checkStop(request.stop, *chosenMethod(request).method, request.shutter);
 }

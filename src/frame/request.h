@@ -22,6 +22,10 @@ inline glm::ivec2 asVector(const Pixel& pixel) {
 // Returns the method with its settings. Throws UsageError for settings that it doesn't take.
 MethodUse chosenMethod(const Request& request);
 
+// Is the number of samples left to the picture? Methods that don't add blocks of samples, and motion that poses the
+// scene for each, take 64 instead.
+bool isAutomatic(const Request& request);
+
 // Calls checkStop (render/frame_run.h) for the request's method and shutter.
 void checkStop(const Request& request);
 

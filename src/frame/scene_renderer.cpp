@@ -192,7 +192,7 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
     request_ = std::move(asked);
     try {
         if (!renderer_) makeRenderer();
-        run_->start(frame_.view, frame_.settings, request_.stop);
+        run_->start(frame_.view, runSettings(frame_, request_), request_.stop);
     } catch (...) {
         dropRenderer();
         throw;

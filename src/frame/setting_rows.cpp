@@ -133,10 +133,17 @@ void setMethod(Request& request, const std::string& text) {
     request.method = parseMethodUse(text).text();
 }
 
+std::optional<std::string> samplesText(const Request& request) {
+    const std::uint32_t count = request.settings.sampleCount;
+    return count == automaticSamples ? "auto" : fmt::format("{}", count);
+}
+
 // A number of samples that is given is also the most that a target error or a time limit may take.
 void setSamples(Request& request, const std::string& text) {
-    request.settings.sampleCount = static_cast<std::uint32_t>(parseWhole(text, 1, mostSamples));
-    request.stop.sampleLimit = request.settings.sampleCount;
+    const bool automatic = text == "auto";
+    request.settings.sampleCount =
+        automatic ? automaticSamples : static_cast<std::uint32_t>(parseWhole(text, 1, mostSamples));
+    request.stop.sampleLimit = automatic ? StopSettings{}.sampleLimit : request.settings.sampleCount;
 }
 
 // ---- the lens -------------------------------------------------------------------------------------------------------
@@ -272,16 +279,17 @@ Rows sceneRows() {
                      "Straight lines that a vertex's way is cut into while the shutter is open (1 to 64), or 'exact' "
                      "for a pose of its own for each sample"),
                "/shutter/segments"),
-        inShot(path("environment", "--environment", "NAME|FILE", MEMBER(environment),
-                    "What lies behind the scene and lights it alone, beside the scene's own lights: studio, overcast, "
-                    "sunset, or an equirectangular image (.hdr or .exr)"),
+        inShot(path("environment", "--environment", "studio|overcast|sunset|FILE", MEMBER(environment),
+                    "What lies behind the scene and lights it alone, beside the scene's own lights: one of those built "
+                    "in, or "
+                    "an equirectangular image (.hdr or .exr)"),
                "/environment"),
         withUnit(inShot(number("environmentRotation", "--environment-rotation", "DEG", -360, 360,
                                MEMBER(environmentRotation), "Turns it counter-clockwise, seen from above"),
                         "/environmentRotation"),
                  "degrees"),
         inShot(
-            other("background", "--background", "WHAT", setBackground, backgroundText,
+            other("background", "--background", "environment|none|R,G,B", setBackground, backgroundText,
                   "'environment' (the default), 'none' for a transparent image, or R,G,B (linear) for one colour all "
                   "around"),
             "/background"),
@@ -380,13 +388,15 @@ Rows sampleRows() {
         modes.emplace_back(lodModeName(mode), mode);
     Setting samples =
         inShot(whole("samples", "--samples", 1, mostSamples, MEMBER(settings.sampleCount),
-                     fmt::format("Lens samples; with --target-error or --time-limit the most, else {}", mostSamples)),
+                     fmt::format("Lens samples; auto: 32 to 1024, by the largest blur, and where that is wide by the "
+                                 "picture's estimated error. With --target-error or --time-limit the most, else {}",
+                                 mostSamples)),
                "/samples");
+    samples.metavar = "N|auto";
+    samples.choices = {"auto"};
     samples.set = setSamples;
-    samples.clear = [](Request& request) {
-        request.settings.sampleCount = RenderSettings{}.sampleCount;
-        request.stop.sampleLimit = StopSettings{}.sampleLimit;
-    };
+    samples.text = samplesText;
+    samples.clear = [](Request& request) { setSamples(request, "auto"); };
     return {
         inShot(presetSetting(), "/preset"),
         samples,
@@ -526,6 +536,11 @@ Rows developerRows() {
 
 #undef MEMBER
 
+// Settings that most people use, of which --help alone tells.
+constexpr auto everyday =
+    std::to_array<std::string_view>({"scene", "time", "environment", "camera", "size", "focalLength", "fStop",
+                                     "focusDistance", "focusNode", "blurScale", "samples", "method", "exposure"});
+
 Rows allRows() {
     Rows rows;
     add(rows, SettingGroup::scene, sceneRows());
@@ -535,6 +550,7 @@ Rows allRows() {
     add(rows, SettingGroup::method, methodRows());
     add(rows, SettingGroup::display, displayRows());
     add(rows, SettingGroup::developer, developerRows());
+    for (Setting& setting : rows) setting.everyday = std::ranges::find(everyday, setting.name) != everyday.end();
     return rows;
 }
 

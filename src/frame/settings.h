@@ -35,6 +35,7 @@ struct Setting {
     bool keyed = false;      // a shot may give it keys
     bool repeated = false;   // may be given several times, each adding to the last
     bool lensField = false;  // a row of lens/lens_fields.h: cameras of files have values of their own
+    bool everyday = false;   // what most people use: --help shows it, and --help-all the rest too
     // Reads a value. Throws Error saying what is allowed.
     std::function<void(Request&, const std::string&)> set;
     // The value as set() reads it; none where it is left open.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/automatic_samples.h"
 #include "render/frame_uniforms.h"
 
 namespace defocus {
@@ -53,6 +54,12 @@ double LevelError::samplesFor(double error, double least) const {
 BlockSchedule::BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels)
     : settings_(settings), stop_(stop), levels_(levels), nextEstimate_(blockSamples), expected_(firstEstimate) {}
 
+BlockSchedule BlockSchedule::automatic(const RenderSettings& settings, std::uint32_t most) {
+    BlockSchedule schedule(settings, {.targetError = automaticError, .timeLimit = {}, .sampleLimit = most});
+    schedule.automatic_ = true;
+    return schedule;
+}
+
 std::uint32_t BlockSchedule::expectedSamples() const {
     if (stopped_) return samples_;
     const auto most = static_cast<double>(stop_.sampleLimit);
@@ -62,6 +69,7 @@ std::uint32_t BlockSchedule::expectedSamples() const {
 // The number of samples whose default thresholds the next block gets.
 double BlockSchedule::thresholdSamples() const {
     const double expected = expectedSamples();
+    if (automatic_) return expected;
     const std::optional<double> now = estimate_.error();
     std::optional<double> aim = stop_.targetError;
     if (now) aim = std::max(aim.value_or(0), *now * std::pow(estimate_.samples() / expected, lensSampleExponent));

@@ -38,6 +38,8 @@ public:
     // `settings` are the frame's; their number of samples isn't used. `levels`: none where they weren't measured or are
     // not drawn.
     BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels = {});
+    // Of a frame whose number of samples is automatic, up to `most`: with the levels that as many samples would have.
+    static BlockSchedule automatic(const RenderSettings& settings, std::uint32_t most);
 
     // Those of the block that comes next: its samples, as many as the limit leaves, and its thresholds.
     [[nodiscard]] RenderSettings nextBlock() const;
@@ -61,6 +63,7 @@ private:
     RenderSettings settings_;
     StopSettings stop_;
     std::optional<LevelError> levels_;
+    bool automatic_ = false;
     double levelErrorSum_ = 0;  // over the samples drawn
     ErrorEstimate estimate_;    // of the samples' error alone
     std::uint32_t samples_ = 0;

@@ -7,6 +7,8 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "render/automatic_samples.h"
+#include "render/frame_uniforms.h"
 
 namespace defocus {
 
@@ -34,7 +36,22 @@ void FrameRun::start(const View& view, const RenderSettings& settings, const Sto
         schedule_.emplace(settings, stop, measuredLevels(settings));
         return startBlock(true);
     }
+    if (settings.sampleCount == automaticSamples) return startAutomatic(settings);
     plan_ = planned(settings);
+    renderer_->start(plan_);
+}
+
+void FrameRun::startAutomatic(RenderSettings settings) {
+    settings.sampleCount = blockSamples;
+    plan_ = planned(settings);
+    const std::uint32_t samples = samplesForBlur(plan_);
+    if (samples > blockSamples) {
+        schedule_ = BlockSchedule::automatic(settings, samples);
+        plan_ = {};
+        return startBlock(true);
+    }
+    settings.sampleCount = samples;
+    if (samples != blockSamples) plan_ = planned(settings);
     renderer_->start(plan_);
 }
 

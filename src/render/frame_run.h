@@ -21,7 +21,8 @@ public:
     // Both must outlive it; `renderer` was made for `world`.
     FrameRun(const World& world, Renderer& renderer) : world_(&world), renderer_(&renderer) {}
 
-    // Begins a frame, forgetting the one before. checkStop must have passed.
+    // Begins a frame, forgetting the one before. checkStop must have passed. A number of samples that is automatic is
+    // for methods that sum blocks, and for motion of lines (see frame/request.h).
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
     // Draws one wave of samples; false once the frame is done.
     bool advance();
@@ -40,6 +41,7 @@ public:
 private:
     FramePlan planned(const RenderSettings& settings);
     std::optional<LevelError> measuredLevels(RenderSettings settings);
+    void startAutomatic(RenderSettings settings);
     void startBlock(bool first);
 
     const World* world_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/suggestion.h"
 
 namespace defocus {
 
@@ -72,17 +73,23 @@ std::vector<double> sampleValues(const AnimationChannel& channel, std::size_t co
 }
 
 int clipNamed(const Scene& scene, std::string_view nameOrNumber) {
-    for (std::size_t i = 0; i < scene.clips.size(); ++i)
-        if (!nameOrNumber.empty() && scene.clips[i].name == nameOrNumber) return static_cast<int>(i);
+    std::vector<std::string> names;
+    for (const AnimationClip& clip : scene.clips) names.push_back(clip.name);
+    const auto named = placeOfName(nameOrNumber, names);
+    if (named && !nameOrNumber.empty()) return static_cast<int>(*named);
     std::size_t number = 0;
     const char* end = nameOrNumber.data() + nameOrNumber.size();
     const auto [stop, fault] = std::from_chars(nameOrNumber.data(), end, number);
     if (fault == std::errc() && stop == end && number < scene.clips.size()) return static_cast<int>(number);
 
-    if (scene.clips.empty()) fail("there is no animation '{}': the scene has none", nameOrNumber);
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < scene.clips.size(); ++i) names.push_back(fmt::format("{} {}", i, scene.clips[i].name));
-    fail("there is no animation '{}'; the scene has: {}", nameOrNumber, fmt::join(names, ", "));
+    std::string help = ": the scene has none";
+    if (const std::string nearest = nearestWord(nameOrNumber, names); !nearest.empty()) {
+        help = fmt::format("; did you mean '{}'?", nearest);
+    } else if (!names.empty()) {
+        for (std::size_t i = 0; i < names.size(); ++i) names[i].insert(0, fmt::format("{} ", i));
+        help = fmt::format("; the scene has: {}", fmt::join(names, ", "));
+    }
+    throw MissingName(std::string(nameOrNumber), fmt::format("there is no animation '{}'{}", nameOrNumber, help));
 }
 
 double loopedTime(const AnimationClip& clip, double time) {

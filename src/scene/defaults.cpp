@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/suggestion.h"
 
 namespace defocus {
 
@@ -103,10 +104,23 @@ std::string labelOf(const CameraNode& place) {
     std::vector<std::string> names;
     names.reserve(places.size());
     for (const CameraNode& place : places) names.push_back(labelOf(place));
-    if (names.empty())
-        fail("there is no camera '{}': the scene has none (name no camera for one that frames the scene)", name);
-    fail("there is no camera '{}'; the scene has: {}, {} (frames the scene)", name, fmt::join(names, ", "),
-         framingName);
+    std::string help = ": the scene has none (name no camera for one that frames the scene)";
+    if (const std::string nearest = nearestWord(name, names); !nearest.empty())
+        help = fmt::format("; did you mean '{}'?", nearest);
+    else if (!names.empty())
+        help = fmt::format("; the scene has: {}, {} (frames the scene)", fmt::join(names, ", "), framingName);
+    throw MissingName(name, fmt::format("there is no camera '{}'{}", name, help));
+}
+
+// By the camera's own name or its node's; null where none has it.
+const CameraNode* cameraNamed(const std::vector<CameraNode>& places, const std::string& name) {
+    std::vector<std::string> names;
+    for (const CameraNode& place : places) {
+        names.push_back(place.camera->name);
+        names.push_back(place.node->name);
+    }
+    const auto place = placeOfName(name, names);
+    return place ? &places[*place / 2] : nullptr;
 }
 
 // ---- lights -------------------------------------------------------------------------------------
@@ -144,12 +158,13 @@ PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::strin
 
     // By name; without one, the first that can be used.
     const CameraNode* chosen = nullptr;
-    for (const CameraNode& place : places) {
-        const bool matches =
-            name.empty() ? !place.camera->orthographic : place.camera->name == name || place.node->name == name;
-        if (matches && chosen == nullptr) chosen = &place;
+    if (!name.empty()) {
+        chosen = cameraNamed(places, name);
+    } else if (!places.empty()) {
+        const auto usable =
+            std::ranges::find_if(places, [](const CameraNode& place) { return !place.camera->orthographic; });
+        chosen = usable == places.end() ? &places.front() : &*usable;
     }
-    if (chosen == nullptr && name.empty() && !places.empty()) chosen = &places.front();
     if (chosen != nullptr) {
         if (chosen->camera->orthographic)
             fail("camera '{}' cannot be used: {}; name another, or '{}' for one that frames the scene",

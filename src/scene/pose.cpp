@@ -244,20 +244,26 @@ Pose poseAt(const Scene& scene, double time, int clip) {
     return pose;
 }
 
-int nodeNamed(const Scene& scene, std::string_view name) {
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].name == name) return static_cast<int>(i);
+namespace {
 
-    std::vector<std::string> names;
-    for (const Node& node : scene.nodes)
-        if (!node.name.empty()) names.push_back(node.name);
-    if (names.empty()) fail("there is no node '{}': the scene's nodes have no names", name);
+std::string missingNode(std::string_view name, const std::vector<std::string>& names) {
+    if (names.empty()) return fmt::format("there is no node '{}': the scene's nodes have no names", name);
     if (const std::string nearest = nearestWord(name, names); !nearest.empty())
-        fail("there is no node '{}'; did you mean '{}'?", name, nearest);
+        return fmt::format("there is no node '{}'; did you mean '{}'?", name, nearest);
     const std::size_t listed = std::min(names.size(), namesListed);
-    fail("there is no node '{}'; the scene has: {}{}", name,
-         fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(listed), ", "),
-         listed < names.size() ? fmt::format(", … and {} more", names.size() - listed) : "");
+    return fmt::format("there is no node '{}'; the scene has: {}{}", name,
+                       fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(listed), ", "),
+                       listed < names.size() ? fmt::format(", … and {} more", names.size() - listed) : "");
+}
+
+}  // namespace
+
+int nodeNamed(const Scene& scene, std::string_view name) {
+    std::vector<std::string> names;
+    for (const Node& node : scene.nodes) names.push_back(node.name);
+    if (const auto place = placeOfName(name, names)) return static_cast<int>(*place);
+    std::erase(names, "");
+    throw MissingName(std::string(name), missingNode(name, names));
 }
 
 glm::dvec3 nodeCentre(const Scene& scene, const Pose& pose, int node) {

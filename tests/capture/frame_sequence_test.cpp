@@ -230,7 +230,7 @@ TEST_F(FrameSequence, faultsNameShotAndFrame) {
         static_cast<void>(frame(R"({"focus": {"node": "Nobody"}})", 7));
         FAIL();
     } catch (const Error& error) {
-        EXPECT_TRUE(std::string(error.what()).starts_with("x.json: frame 7: there is no node 'Nobody'"))
+        EXPECT_TRUE(std::string(error.what()).starts_with("x.json: /focus/node: there is no node 'Nobody'"))
             << error.what();
     }
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -26,6 +27,7 @@ public:
     explicit Schema(json root) : root_(std::move(root)) {}
 
     [[nodiscard]] bool accepts(const json& value) const { return accepts(root_, value); }
+    [[nodiscard]] bool takes(const json& part, const json& value) const { return accepts(part, value); }
     [[nodiscard]] const json& root() const { return root_; }
 
 private:
@@ -37,7 +39,8 @@ private:
 
     [[nodiscard]] bool holds(const json& schema, const std::string& keyword, const json& rule,
                              const json& value) const {
-        static const std::set<std::string> notes = {"$schema", "title", "description", "$defs", "default"};
+        static const std::set<std::string> notes = {"$schema", "$id",     "title",   "description",
+                                                    "$defs",   "default", "examples"};
         if (notes.contains(keyword)) return true;
         const auto taken = [&](const json& each) { return accepts(each, value); };
         if (keyword == "$ref") return taken(root_.at(json::json_pointer(rule.get<std::string>().substr(1))));
@@ -272,6 +275,51 @@ TEST(ShotSchema, holdsEachLensFieldWithItsRange) {
         const json least = truth ? json(false) : json(field.least);
         EXPECT_TRUE(schema.accepts({{"lens", {{field.name, least}}}})) << field.name;
     }
+}
+
+// ---- what an editor shows -------------------------------------------------------------------------------------------
+
+// `visit` gets each property anywhere in the schema with its place.
+void eachProperty(const json& schema, const std::string& place,
+                  const std::function<void(const std::string&, const json&)>& visit) {
+    if (schema.is_array())
+        for (std::size_t i = 0; i < schema.size(); ++i) eachProperty(schema[i], place + "/" + std::to_string(i), visit);
+    if (!schema.is_object()) return;
+    for (const auto& [keyword, rule] : schema.items()) {
+        const std::string below = place + "/" + keyword;
+        if (keyword == "properties" || keyword == "$defs") {
+            for (const auto& [name, property] : rule.items()) {
+                visit(below + "/" + name, property);
+                eachProperty(property, below + "/" + name, visit);
+            }
+        } else if (keyword != "default" && keyword != "examples" && keyword != "not") {
+            eachProperty(rule, below, visit);
+        }
+    }
+}
+
+TEST(ShotSchema, hasAName) {
+    EXPECT_EQ(publishedSchema().root().at("$id"), "urn:defocus:shot.schema.json");
+}
+
+TEST(ShotSchema, eachPropertySaysWhatItIsAndWhatItMayBe) {
+    const Schema schema = publishedSchema();
+    std::size_t properties = 0;
+    eachProperty(schema.root(), "", [&](const std::string& place, const json& property) {
+        // By itself or by what it refers to.
+        json told = property;
+        if (const auto reference = property.find("$ref"); reference != property.end()) {
+            told = schema.root().at(json::json_pointer(reference->get<std::string>().substr(1)));
+            told.update(property);
+        }
+        EXPECT_FALSE(told.value("description", "").empty()) << place;
+        std::vector<json> values = told.value("examples", std::vector<json>());
+        if (told.contains("default")) values.push_back(told.at("default"));
+        EXPECT_FALSE(values.empty()) << place;
+        for (const json& value : values) EXPECT_TRUE(schema.takes(property, value)) << place << ": " << value;
+        ++properties;
+    });
+    EXPECT_GT(properties, 100u);
 }
 
 }  // namespace

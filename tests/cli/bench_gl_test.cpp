@@ -146,9 +146,11 @@ TEST_F(BenchConvergence, diffOfARunWithItselfIsNothing) {
         << outcome.out;
 }
 
-// Nothing is fetched from elsewhere, and every picture has a text in its place.
+// Nothing is fetched from elsewhere, links lead into the page or to the data beside it, and every picture has a text in
+// its place.
 void expectWholePage(const std::string& page) {
-    const std::regex outside("(src|href)=\"(?!data:|#)|url\\((?!#)|@import|<script|<link");
+    const std::regex outside(
+        "src=\"(?!data:)|href=\"(?!data:|#|[a-z]+[.](json|csv)\")|url\\((?!#)|@import|<script(?!>)|<link");
     const std::regex picture("<img (?![^>]*alt=\"[^\"]+\")|<svg (?![^>]*role=\"img\")");
     std::smatch found;
     EXPECT_FALSE(std::regex_search(page, found, outside)) << found.str();
@@ -163,6 +165,9 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
     const std::string page = textOf(folder() / "page/index.html");
     expectWholePage(page);
     EXPECT_NE(page.find("accumulation, full detail"), std::string::npos);
+    for (const char* part : {"<nav ", "href=\"results.csv\"", "href=\"results.json\"", "@software{defocus", "aria-sort",
+                             "data-value=\"accumulation, full detail, "})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
     EXPECT_NE(page.find("defocus --quiet bench convergence quads.gltf"), std::string::npos);
 
     // Pictures to show beside.

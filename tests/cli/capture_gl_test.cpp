@@ -79,20 +79,37 @@ TEST_F(Capture, resumeKeepsFinishedFramesOnly) {
     EXPECT_FALSE(fs::exists(folder() / "frames/.0002.4711-0.exr"));
 }
 
-TEST_F(Capture, resumeRendersAnewWhatHasOtherSettings) {
+TEST_F(Capture, resumeReplacesFramesOfOtherSettingsOnlyWhenTold) {
     ASSERT_EQ(capture({"--range", "0:1", "-o", "a#.png", "-o", "b#.jpg"}).exitCode, 0);
-    const auto rendered = [&](const std::vector<std::string>& options) {
+    const auto resumed = [&](const std::vector<std::string>& options) {
         std::vector<std::string> words = {"capture", "shot.json", "--range", "0:1",   "--resume",
                                           "-o",      "a#.png",    "-o",      "b#.jpg"};
         words.insert(words.end(), options.begin(), options.end());
-        const std::string text = run(words).err;
+        return run(words);
+    };
+    const auto rendered = [&](const std::vector<std::string>& options) {
+        const std::string text = resumed(options).err;
         return text.find("rendered") == std::string::npos ? 0 : std::atoi(text.c_str() + text.find(": ") + 2);
     };
     EXPECT_EQ(rendered({}), 0) << "PNG and JPEG say of what they were made, too";
-    EXPECT_EQ(rendered({"--samples", "9"}), 2);
-    EXPECT_EQ(rendered({"--samples", "9"}), 0);
-    EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1"}), 2);
-    EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1", "--fstop", "2"}), 2);
+    const std::string first = bytesOf("a0.png");
+    const Outcome refused = resumed({"--samples", "9"});
+    expectOneLine(refused, 1);
+    EXPECT_NE(refused.err.find("a0.png and 1 more frame were made with other settings: --overwrite"), std::string::npos)
+        << refused.err;
+    EXPECT_TRUE(bytesOf("a0.png") == first);
+    EXPECT_EQ(rendered({"--samples", "9", "--overwrite"}), 2);
+    EXPECT_EQ(rendered({"--samples", "9", "--overwrite"}), 0);
+    EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1", "--overwrite"}), 2);
+    EXPECT_EQ(rendered({"--samples", "9", "--exposure", "1", "--fstop", "2", "--overwrite"}), 2);
+    expectOneLine(run({"capture", "shot.json", "--overwrite"}), 2);  // there is nothing to resume
+}
+
+// A picture of something else that has a frame's name is no frame to replace unasked.
+TEST_F(Capture, resumeKeepsForeignPictures) {
+    writeImage(folder() / "a0.png", Image(4, 4, 3));
+    expectOneLine(run({"capture", "shot.json", "--range", "0", "--resume", "-o", "a#.png"}), 1);
+    EXPECT_EQ(readImage(folder() / "a0.png").width, 4);
 }
 
 TEST_F(Capture, optionsReplaceWhatTheShotSays) {
@@ -173,7 +190,20 @@ TEST_F(Capture, faultsAreOneLine) {
     writeShot(wrong);
     const Outcome node = capture({});
     expectOneLine(node, 1);
-    EXPECT_NE(node.err.find("shot.json: frame 0: there is no node 'Nobody'"), std::string::npos) << node.err;
+    EXPECT_NE(node.err.find("shot.json: /focus/keys/1/node: there is no node 'Nobody'"), std::string::npos) << node.err;
+    for (const char* place : {"/camera/name", "/animation/clip", "/focus/node"}) {
+        json misnamed = shot();
+        if (std::string(place).starts_with("/focus")) misnamed.erase("focus");
+        misnamed[json::json_pointer(place)] = "Nobody";
+        writeShot(misnamed);
+        const Outcome outcome = capture({});
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find(std::string("shot.json: ") + place + ": there is no "), std::string::npos)
+            << outcome.err;
+    }
+    writeShot(shot());
+    EXPECT_NE(capture({"--clip", "Nobody"}).err.find("defocus: there is no animation 'Nobody'"), std::string::npos)
+        << "an option has no place in the shot";
     wrong["focus"] = 3;
     writeShot(wrong);
     const Outcome focus = capture({});

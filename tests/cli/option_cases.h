@@ -231,10 +231,10 @@ inline std::string nameOf(const CLI::Option& option) {
     return option.get_single_name();
 }
 
-// All options of a command but --help.
+// All options of a command but its help.
 inline std::vector<const CLI::Option*> optionsOffered(const std::string& command) {
     std::vector<const CLI::Option*> options = commandNamed(command).get_options();
-    std::erase_if(options, [](const CLI::Option* option) { return nameOf(*option) == "--help"; });
+    std::erase_if(options, [](const CLI::Option* option) { return nameOf(*option).starts_with("--help"); });
     return options;
 }
 

@@ -33,6 +33,8 @@ inline const std::map<std::string, Words>& usualLines() {
                                                    "1", "--runs", "1", "--shading", "lit", "--reference-samples", "4"}),
                                      written)},
         {"bench diff", {"one.json", "two.json"}},
+        {"new-shot", {"ball.glb", "-o", "made.json"}},
+        {"completions", {"bash"}},
         {"settings", {}},
     };
     return table;
@@ -92,6 +94,10 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"capture --output", {.words = {"-o", "film/#.exr"}}},
         {"capture --video", {.words = {"--video", "film.gif"}}},
         {"capture --resume", {.words = {"--resume"}, .before = {{"capture", "shot.json"}}}},
+        {"capture --overwrite",
+         {.words = {"--overwrite"},
+          .more = {"--resume", "--set", "/lens/fStop=0.7"},
+          .before = {{"capture", "shot.json"}}}},
         {"capture --shard", {.words = {"--shard", "1/2"}}},
         {"capture --sample-range", {.words = {"--sample-range", "0:64"}, .more = {"--samples", "128"}}},
         {"capture --dry-run", {.words = {"--dry-run"}}},
@@ -151,6 +157,7 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"bench convergence --threshold-factors", {.words = {"--threshold-factors", "3"}}},
         {"bench convergence --shading", {.words = {"--shading", "unlit"}}},
         {"bench convergence --runs", {.words = {"--runs", "2"}}},
+        {"bench convergence --seeds", {.words = {"--seeds", "1"}, .more = {"--runs", "2"}}},
         {"bench convergence --reference-samples", {.words = {"--reference-samples", "6"}}},
         {"bench convergence --output", {.words = {"-o", "other"}}},
         {"bench convergence --resume", {.words = {"--resume"}, .before = converged}},
@@ -159,6 +166,11 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
 
         {"bench diff OLD", {.words = {"three.json", "two.json"}}},
         {"bench diff NEW", {.words = {"one.json", "three.json"}}},
+
+        {"new-shot --output", {.words = {"-o", "other-made.json"}}},
+        {"new-shot --overwrite", {.words = {"--overwrite"}, .before = {usualLine("new-shot")}}},
+
+        {"completions SHELL", {.words = {"zsh"}}},
 
         {"settings --json", {.words = {"--json"}}},
         {"settings --markdown", {.words = {"--markdown"}}},

@@ -8,6 +8,7 @@
 #include "cli/gl_program.h"
 #include "cli/two_quads.h"
 #include "defocus/renderer.h"
+#include "frame/program_facts.h"
 #include "frame/settings.h"
 #include "image/image_io.h"
 
@@ -220,14 +221,74 @@ TEST_F(Render, aDashIsStandardOutput) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "-"));
 }
 
+// The same bytes as a file would have, but for the times in them.
+TEST_F(Render, aDashIsStandardOutputForImages) {
+    ASSERT_EQ(render({"-o", "a.png", "-o", "a.exr"}).exitCode, 0);
+    const auto pixels = [&](const char* name) { return readImage(folder() / name).pixels; };
+    for (const auto& [output, file] : {std::pair{"-", "a.png"}, std::pair{"png:-", "a.png"}, {"exr:-", "a.exr"}}) {
+        const Outcome outcome = render({"-o", output});
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_NE(outcome.err.find("standard output: 128x96"), std::string::npos) << outcome.err;
+        const std::string copy = std::string("copy") + fs::path(file).extension().string();
+        std::ofstream(folder() / copy, std::ios::binary) << outcome.out;
+        EXPECT_TRUE(pixels(copy.c_str()) == pixels(file)) << output;
+    }
+    EXPECT_FALSE(fs::exists(folder() / "-"));
+    expectOneLine(render({"-o", "-", "--stats", "-"}), 1);
+    expectOneLine(render({"-o", "gif:-"}), 1);
+    expectOneLine(render({"-o", "-", "--aov", "depth"}), 1);
+}
+
+// Without a number the picture decides: few where little is blurred, more where much is, and the same bits each time.
+TEST_F(Render, theNumberOfSamplesIsAutomatic) {
+    const auto rendered = [&](const std::string& name, std::vector<std::string> options) {
+        options.insert(options.begin(),
+                       {"render", "quads.gltf", "--size", "128x96", "--stats", "stats.json", "-o", name});
+        const Outcome outcome = run(options);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        const auto samples = json::parse(textOf(folder() / "stats.json")).at("samples").get<int>();
+        EXPECT_NE(outcome.err.find(fmt::format("{} samples (automatic", samples)), std::string::npos) << outcome.err;
+        return samples;
+    };
+    EXPECT_EQ(rendered("sharp.exr", {"--no-dof"}), 16) << "pinhole samples only smooth edges";
+    EXPECT_EQ(rendered("little.exr", {"--fstop", "4"}), 32);
+    const int many = rendered("much.exr", {"--fstop", "0.3", "--focus-distance", "1"});
+    EXPECT_GE(many, 128);
+    EXPECT_EQ(rendered("again.exr", {"--fstop", "0.3", "--focus-distance", "1", "--samples", "auto", "--wave", "5"}),
+              many);
+    EXPECT_TRUE(readImage(folder() / "much.exr").pixels == readImage(folder() / "again.exr").pixels);
+    Metadata metadata;
+    static_cast<void>(readImage(folder() / "much.exr", metadata));
+    EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), many);
+
+    // The library's default is the program's.
+    Request request;
+    request.scene = folder() / "quads.gltf";
+    request.width = 128;
+    request.height = 96;
+    request.lens.fStop = 0.3;
+    request.lens.focusDistance = 1;
+    EXPECT_TRUE(defocus::render(request).pixels == readImage(folder() / "much.exr").pixels);
+
+    // A part of a number needs the number.
+    const Outcome part = run({"render", "quads.gltf", "--sample-range", "0:64"});
+    expectOneLine(part, 2);
+    EXPECT_NE(part.err.find("--samples N"), std::string::npos) << part.err;
+}
+
 TEST_F(Render, statsHaveTheStatedKeys) {
     ASSERT_EQ(render({"--stats", "stats.json", "--lod", "off", "--wave", "3"}).exitCode, 0);
     const json stats = json::parse(textOf(folder() / "stats.json"));
     for (const char* key : {"renderMilliseconds", "setupMilliseconds", "gpuMilliseconds", "pyramidMilliseconds",
-                            "loadMilliseconds", "peakBytes", "gpuBytes"})
+                            "loadMilliseconds", "peakBytes", "gpuBytes", "largestBlur"})
         EXPECT_GE(stats.at(key).get<double>(), 0) << key;
-    for (const char* key : {"device", "driver", "gpuMillisecondsNote", "layerFormat"})
+    for (const char* key : {"device", "driver", "gpuMillisecondsNote", "layerFormat", "version"})
         EXPECT_NE(stats.at(key).get<std::string>(), "") << key;
+    EXPECT_TRUE(stats.at("command").get<std::string>().ends_with(
+        " render quads.gltf --size 128x96 --samples 4 --stats stats.json --lod off --wave 3"))
+        << stats.at("command");
+    EXPECT_EQ(stats.at("commit"), programCommit());
+    EXPECT_TRUE(std::regex_match(stats.at("date").get<std::string>(), std::regex("20\\d\\d-\\d\\d-\\d\\dT[0-9:]{8}Z")));
     EXPECT_EQ(stats.at("samples"), 4);
     EXPECT_EQ(stats.at("wave"), 3);
     EXPECT_EQ(stats.at("trianglesDrawn"), 2 * 2 * 4);  // two squares of two triangles, four samples

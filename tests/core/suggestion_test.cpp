@@ -20,6 +20,20 @@ TEST(NearestWord, prefersTheNearer) {
     EXPECT_EQ(nearestWord("--fsto", {"--fish", "--fstop"}), "--fstop");
 }
 
+TEST(NearestWord, ignoresCapitals) {
+    EXPECT_EQ(nearestWord("FIS 1", {"Fish 1", "Camera"}), "Fish 1");
+}
+
+TEST(PlaceOfName, takesTheNameItselfFirst) {
+    const std::vector<std::string> known = {"fox", "Fox", "Tree"};
+    EXPECT_EQ(placeOfName("Fox", known), 1u);
+    EXPECT_EQ(placeOfName("fox", known), 0u);
+    EXPECT_EQ(placeOfName("FOX", known), std::nullopt) << "either may be meant";
+    EXPECT_EQ(placeOfName("tree", known), 2u);
+    EXPECT_EQ(placeOfName("trees", known), std::nullopt);
+    EXPECT_EQ(placeOfName("FISH", {"Fish", "Fish"}), 0u) << "of one spelling the first";
+}
+
 TEST(NearestWord, isNotSlowedByEndlessWords) {
     EXPECT_EQ(nearestWord(std::string(1 << 20, 'x'), {"plan"}), "");
 }

@@ -49,7 +49,7 @@ TEST(SettingInfos, tellFormRangeAndOwners) {
     EXPECT_EQ(samples.kind, SettingKind::whole);
     EXPECT_EQ(samples.least, 1);
     EXPECT_EQ(samples.most, mostSamples);
-    EXPECT_EQ(samples.standard, "64");
+    EXPECT_EQ(samples.standard, "auto");
     EXPECT_TRUE(samples.methods.empty());
     const SettingInfo& focus = infoNamed(infos, "focusDistance");
     EXPECT_EQ(focus.keyword, "focus_distance");

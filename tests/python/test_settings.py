@@ -66,7 +66,7 @@ def test_a_setting_tells_range_and_unit():
     assert rows["focal_length"].unit == "mm"
     assert rows["focus_distance"].default is None
     assert rows["samples"].range == (1, 65536)
-    assert rows["samples"].default == "64"
+    assert rows["samples"].default == "auto"
     assert rows["tone_map"].choices == ("none", "aces", "agx", "neutral")
     assert rows["tone_map"].range is None
     assert rows["f_stop"].option == "--fstop"

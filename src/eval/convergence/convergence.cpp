@@ -169,12 +169,13 @@ ImageError errorOf(const Difference& difference) {
 class Measurement {
 public:
     Measurement(const World& world, const View& view, const ReferenceImage& reference, const RendererOptions& renderer,
-                double pyramidMilliseconds, std::span<const ConvergenceRun> done)
+                double pyramidMilliseconds, int seeds, std::span<const ConvergenceRun> done)
         : world_(world),
           view_(view),
           reference_(reference),
           renderer_(renderer),
           pyramidMilliseconds_(pyramidMilliseconds),
+          seeds_(seeds),
           runs_(done.begin(), done.end()) {}
 
     [[nodiscard]] bool has(const ConvergenceCase& wanted, int run) const {
@@ -182,7 +183,8 @@ public:
     }
 
     // Throws Error where the method can't draw it. `flipMap` stays empty unless this is the first frame of the case.
-    Frame measure(const ConvergenceCase& wanted, int number, Image& flipMap) {
+    Frame measure(ConvergenceCase wanted, int number, Image& flipMap) {
+        wanted.plan.seed += static_cast<std::uint32_t>(number % seeds_);
         Frame frame = frameOf(world_, view_, wanted, renderer_);
         ConvergenceRun& run = frame.run;
         run.run = number;
@@ -197,7 +199,9 @@ private:
     // The same image has the same error.
     void measureError(Frame& frame, const ConvergenceCase& wanted, Image& flipMap) {
         ConvergenceRun& run = frame.run;
-        const auto known = std::ranges::find_if(runs_, [&](const ConvergenceRun& r) { return sameCase(r, wanted); });
+        const auto ofCase = [&](const ConvergenceRun& r) { return sameCase(r, wanted); };
+        const auto known = std::ranges::find_if(
+            runs_, [&](const ConvergenceRun& r) { return ofCase(r) && r.run % seeds_ == run.run % seeds_; });
         if (known != runs_.end() && known->imageHash == run.imageHash) {
             run.error = known->error;
             run.bias = known->bias;
@@ -205,19 +209,20 @@ private:
         }
         if (frame.image.width != view_.width || frame.image.height != view_.height) return;  // a fault, and no error
         CompareOptions options;
-        if (known == runs_.end()) options.flipMap = &flipMap;
+        if (std::ranges::none_of(runs_, ofCase)) options.flipMap = &flipMap;
         run.error = errorOf(compareImages(reference_.image, frame.image, options));
         if (wanted.usesLevels()) run.bias = errorOf(compareImages(fullDetailFor(wanted), frame.image));
     }
 
     void keepFullDetail(const ConvergenceCase& wanted, const Image& image) {
         fullDetailSamples_ = wanted.samples;
+        fullDetailSeed_ = wanted.plan.seed;
         fullDetail_ = image;
     }
 
-    // At the same lens samples; usually what was drawn just before.
+    // At the same lens samples and seed; usually what was drawn just before.
     const Image& fullDetailFor(const ConvergenceCase& wanted) {
-        if (fullDetailSamples_ != wanted.samples) {
+        if (fullDetailSamples_ != wanted.samples || fullDetailSeed_ != wanted.plan.seed) {
             const ConvergenceCase full =
                 fullDetailCase(standardUse(methodNamed(baselineMethod)), wanted.samples, wanted.plan);
             keepFullDetail(full, frameOf(world_, view_, full, renderer_).image);
@@ -230,8 +235,10 @@ private:
     const ReferenceImage& reference_;
     const RendererOptions& renderer_;
     double pyramidMilliseconds_;
+    int seeds_;
     std::vector<ConvergenceRun> runs_;
     std::uint32_t fullDetailSamples_ = 0;
+    std::uint32_t fullDetailSeed_ = 0;
     Image fullDetail_;
 };
 
@@ -270,7 +277,7 @@ void measureConvergence(const World& world, const View& view, const ReferenceIma
     const std::vector<ConvergenceCase> cases = convergenceCases(options);
     const std::uint64_t total = cases.size() * static_cast<std::size_t>(options.runs);
     std::uint64_t count = 0;
-    Measurement measurement(world, view, reference, options.renderer, pyramidMilliseconds, done);
+    Measurement measurement(world, view, reference, options.renderer, pyramidMilliseconds, options.seeds, done);
     std::set<std::string> leftOut;  // methods with their settings
 
     for (int run = 0; run < options.runs; ++run)

@@ -33,7 +33,8 @@ struct ConvergenceOptions {
     std::vector<LodMetric> metrics = {LodMetric::measured};
     std::vector<double> thresholdFactors = {0.5, 1, 2};  // on defaultThresholds for the number of samples
     int runs = 3;                                        // of each case, ≥ 1
-    RendererOptions renderer;                            // its `settings` are not used
+    int seeds = 1;             // ≥ 1; run r draws with the plan's seed + r % seeds, so that errors have a spread, too
+    RendererOptions renderer;  // its `settings` are not used
 };
 
 // A case to measure: a method with one setting and one number of lens samples.

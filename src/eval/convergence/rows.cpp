@@ -16,16 +16,44 @@ bool sameRow(const ConvergenceRow& row, const ConvergenceRun& run) {
     return row.method == run.method && row.setting == run.setting && row.asked == run.asked;
 }
 
-std::string faultOf(const std::vector<const ConvergenceRun*>& runs) {
+std::string faultOf(const std::vector<const ConvergenceRun*>& runs, int seeds) {
     for (const ConvergenceRun* run : runs)
         if (!run->fault.empty()) return run->fault;
-    const auto [least, most] = std::ranges::minmax(runs, {}, [](const ConvergenceRun* run) { return run->error.mse; });
-    if (most->error.mse - least->error.mse > mostDifference * least->error.mse)
-        return fmt::format("not one image: MSE {:.3g} to {:.3g}", least->error.mse, most->error.mse);
+    for (const ConvergenceRun* run : runs) {
+        const auto other = std::ranges::find_if(
+            runs, [&](const ConvergenceRun* each) { return each->run % seeds == run->run % seeds; });
+        const auto [least, most] = std::minmax(run->error.mse, (*other)->error.mse);
+        if (most - least > mostDifference * least)
+            return fmt::format("not one image: MSE {:.3g} to {:.3g}", least, most);
+    }
     return {};
 }
 
-void complete(ConvergenceRow& row, std::span<const ConvergenceRun> all) {
+ImageError meanOf(const std::vector<ImageError>& errors) {
+    ImageError mean{.mse = 0, .ssim = 0, .flip = 0};
+    for (const ImageError& error : errors) {
+        mean.mse += error.mse / static_cast<double>(errors.size());
+        mean.ssim += error.ssim / static_cast<double>(errors.size());
+        mean.flip += error.flip / static_cast<double>(errors.size());
+    }
+    return mean;
+}
+
+// Means over the seeds, each with its first run.
+void addErrors(ConvergenceRow& row, const std::vector<const ConvergenceRun*>& runs, int seeds) {
+    std::set<int> seen;
+    std::vector<ImageError> biases;
+    for (const ConvergenceRun* run : runs) {
+        if (!seen.insert(run->run % seeds).second) continue;
+        row.ofSeeds.push_back(run->error);
+        if (run->bias) biases.push_back(*run->bias);
+    }
+    // Of one value the mean is the value, bit for bit.
+    row.error = row.ofSeeds.size() == 1 ? row.ofSeeds.front() : meanOf(row.ofSeeds);
+    if (!biases.empty()) row.bias = biases.size() == 1 ? biases.front() : meanOf(biases);
+}
+
+void complete(ConvergenceRow& row, std::span<const ConvergenceRun> all, int seeds) {
     std::vector<const ConvergenceRun*> runs;
     std::vector<double> milliseconds;
     std::vector<double> setup;
@@ -45,10 +73,9 @@ void complete(ConvergenceRow& row, std::span<const ConvergenceRun> all) {
     row.setupMilliseconds = spreadOf(setup);
     row.pyramidMilliseconds = first.pyramidMilliseconds;
     row.gpuMilliseconds = spreadOf(gpu).median;
-    row.error = first.error;
-    row.bias = first.bias;
+    addErrors(row, runs, seeds);
     row.triangles = first.triangles;
-    row.fault = faultOf(runs);
+    row.fault = faultOf(runs, seeds);
 }
 
 template <typename Chosen, typename ErrorOf>
@@ -89,7 +116,8 @@ std::vector<bool> paretoFront(std::span<const Trial> trials) {
     return front;
 }
 
-std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining) {
+std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining,
+                                            int seeds) {
     std::vector<ConvergenceRow> rows;
     for (const ConvergenceRun& run : runs) {
         if (std::ranges::any_of(rows, [&](const ConvergenceRow& row) { return sameRow(row, run); })) continue;
@@ -99,7 +127,7 @@ std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs
         rows.back().asked = run.asked;
     }
     for (ConvergenceRow& row : rows) {
-        complete(row, runs);
+        complete(row, runs, seeds);
         row.mseBelowReference = row.error.mse < remaining.rmse * remaining.rmse;
         row.flipBelowReference = row.error.flip < remaining.flip;
     }

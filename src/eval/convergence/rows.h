@@ -18,12 +18,13 @@ struct ConvergenceRow {
     std::uint32_t asked = 0;    // lens samples asked for; 0 if the method takes none
     std::uint32_t samples = 0;  // lens samples drawn
     int runs = 0;
-    Spread milliseconds;             // wall clock, of a frame
-    Spread setupMilliseconds;        // of the renderer; not part of `milliseconds`
-    double pyramidMilliseconds = 0;  // of building the pyramids; not part of `milliseconds`
-    double gpuMilliseconds = 0;      // median
-    ImageError error;                // against the reference
-    std::optional<ImageError> bias;  // only with levels: against full detail at the same lens samples
+    Spread milliseconds;              // wall clock, of a frame
+    Spread setupMilliseconds;         // of the renderer; not part of `milliseconds`
+    double pyramidMilliseconds = 0;   // of building the pyramids; not part of `milliseconds`
+    double gpuMilliseconds = 0;       // median
+    ImageError error;                 // against the reference; the mean over the seeds
+    std::optional<ImageError> bias;   // only with levels: against full detail at the same lens samples; the same mean
+    std::vector<ImageError> ofSeeds;  // the error of each seed that was drawn
     std::uint64_t triangles = 0;
     std::uint64_t peakBytes = 0;
     bool front = false;          // no other row of any method beats it: see paretoFront, with time and MSE
@@ -36,8 +37,9 @@ struct ConvergenceRow {
 };
 
 // Returns the rows in the order in which their cases first appear. `remaining` is the reference's estimate of its own
-// error.
-std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining = {});
+// error, `seeds` as in ConvergenceOptions.
+std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs, const Difference& remaining = {},
+                                            int seeds = 1);
 
 struct Trial {
     double cost = 0;

@@ -34,6 +34,17 @@ ordered_json errorJson(const ImageError& error) {
     return {{"mse", error.mse}, {"psnr", jsonNumber(error.psnr())}, {"ssim", error.ssim}, {"flip", error.flip}};
 }
 
+// From the least to the most of the seeds.
+ordered_json seedsJson(const std::vector<ImageError>& errors) {
+    const auto ends = [&](const auto& of) {
+        const auto [least, most] = std::ranges::minmax(errors, {}, of);
+        return ordered_json{{"low", of(least)}, {"high", of(most)}};
+    };
+    return {{"seeds", errors.size()},
+            {"rmse", ends([](const ImageError& error) { return std::sqrt(error.mse); })},
+            {"flip", ends([](const ImageError& error) { return error.flip; })}};
+}
+
 ordered_json rowJson(const ConvergenceRow& row) {
     ordered_json json = {{"method", row.method},
                          {"setting", row.setting},
@@ -45,6 +56,7 @@ ordered_json rowJson(const ConvergenceRow& row) {
                          {"pyramidMilliseconds", row.pyramidMilliseconds},
                          {"gpuMilliseconds", row.gpuMilliseconds}};
     json.update(errorJson(row.error));
+    if (row.ofSeeds.size() > 1) json["errorsOverSeeds"] = seedsJson(row.ofSeeds);
     json["bias"] = row.bias ? errorJson(*row.bias) : ordered_json(nullptr);
     json["triangles"] = row.triangles;
     json["peakBytes"] = row.peakBytes;

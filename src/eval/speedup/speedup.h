@@ -33,7 +33,7 @@ struct SpeedupOptions {
     std::vector<double> focusDistances;  // further focus distances, m, at `sweepSamples`
     std::uint32_t sweepSamples = 64;
     std::vector<MethodUse> methods;  // measured beside accumulation, each with the last form's settings
-    int runs = 3;                    // of each frame, ≥ 1
+    int runs = 5;                    // of each frame, ≥ 1
     // Lens samples of the converged reference for each lens (reference_image.h). If unset, it has eight times the
     // largest number of samples measured with the lens, which takes about two thirds of the time of three runs of all
     // modes. 0 makes no reference.

@@ -162,6 +162,19 @@ TEST(ConvergenceRows, sayWhichErrorsAreBelowTheReferencesOwn) {
     }
 }
 
+// Two seeds in turn: the error is their mean, each seed counts once, and only runs of one seed must be one image.
+TEST(ConvergenceRows, errorsAreMeansOverSeeds) {
+    const std::vector<ConvergenceRun> runs = {runOf("a", "x", 8, 0, 1, 0.25), runOf("a", "x", 8, 1, 1, 0.75),
+                                              runOf("a", "x", 8, 2, 1, 0.25)};
+    const ConvergenceRow row = convergenceRows(runs, {}, 2)[0];
+    EXPECT_EQ(row.fault, "");
+    EXPECT_EQ(row.ofSeeds.size(), 2u);
+    EXPECT_DOUBLE_EQ(row.error.mse, 0.5);
+    EXPECT_DOUBLE_EQ(row.error.flip, 0.25);
+    EXPECT_NE(convergenceRows(runs)[0].fault, "") << "of one seed they would be no one image";
+    EXPECT_NE(convergenceRows(std::vector{runs[0], runs[1], runOf("a", "x", 8, 2, 1, 0.3)}, {}, 2)[0].fault, "");
+}
+
 TEST(ConvergenceRows, runsThatDifferAreAFault) {
     EXPECT_NE(convergenceRows(std::vector{runOf("a", "x", 8, 0, 1, 0.5), runOf("a", "x", 8, 1, 1, 0.51)})[0].fault, "");
     EXPECT_EQ(convergenceRows(std::vector{runOf("a", "x", 8, 0, 1, 0.5), runOf("a", "x", 8, 1, 1, 0.504)})[0].fault,

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace defocus {
+
+// docs/shot.schema.json, as it was when the program was built.
+std::string_view shotSchemaText();
+
+}  // namespace defocus
