@@ -183,9 +183,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     printFrameWarnings(frame, global);
     printWarnings(ignoredWarnings(*frame.scene), global);
     printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
-    const auto warnOfPlan = [&](const FramePlan& plan) {
-        printWarnings(planWarnings(plan, method.usesLensSamples), global);
-    };
+    const auto warnOfPlan = [&](const FramePlan& plan) { printWarnings(planWarnings(plan, method), global); };
     const bool counted = !arguments.request.stop.given();
     if (counted) warnOfPlan(planFrame(frame.world, frame.view, frame.settings));
     progress = terminalProgress(global);

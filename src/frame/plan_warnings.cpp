@@ -63,13 +63,16 @@ std::string copiesShow(const FramePlan& plan, double blur) {
 
 }  // namespace
 
-std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill) {
+std::vector<std::string> planWarnings(const FramePlan& plan, const Method& method) {
     std::vector<std::string> lines;
+    if (plan.usesTransmission && !method.showsThrough)
+        lines.push_back(
+            fmt::format("method {}: materials that transmit are drawn opaque; choose accumulation", method.name));
     if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
     if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
     const double blur = largestBoundedBlur(plan);
     const double gap = blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(plan.samples.size())));
-    if (samplesFill && std::isfinite(blur) && gap > mostGap) lines.push_back(copiesShow(plan, blur));
+    if (method.usesLensSamples && std::isfinite(blur) && gap > mostGap) lines.push_back(copiesShow(plan, blur));
     return lines;
 }
 
