@@ -18,6 +18,9 @@ if(DEFOCUS_SANITIZE)
                                                      -fno-omit-frame-pointer)
     target_link_options(defocus_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(DEFOCUS_FUZZ)
+    target_compile_options(defocus_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # Whole builds read the headers that most sources include once. The first room makes them, the others share them: all
 # rooms are compiled with the same options. Builds of single sources do without, and so find an include that is missing.

@@ -140,6 +140,14 @@ constexpr float edgeWeight = 1e-4f;
 // fan that would take the square of its faces.
 constexpr std::size_t mostSpokes = 8192;
 
+// Whether the half-edge is one of three around a hole. OpenMesh allows a collapse along it where two corners of the
+// hole are joined by a second edge, but it would close the hole and leave a half-edge without a wedge, or a face with
+// two corners.
+bool isAtHoleOfThree(const SurfaceMesh& surface, HalfedgeHandle e) {
+    const HalfedgeHandle second = surface.next_halfedge_handle(e);
+    return surface.is_boundary(e) && surface.next_halfedge_handle(surface.next_halfedge_handle(second)) == e;
+}
+
 }  // namespace
 
 const std::string& ShapeModule::name() const {
@@ -174,6 +182,8 @@ bool ShapeModule::besideHub(HalfedgeHandle along) {
 bool ShapeModule::keepsTopology(HalfedgeHandle along) {
     SurfaceMesh& surface = mesh();
     if (!surface.is_collapse_ok(along)) return false;
+    if (isAtHoleOfThree(surface, along) || isAtHoleOfThree(surface, surface.opposite_halfedge_handle(along)))
+        return false;
     const VertexHandle from = surface.from_vertex_handle(along);
     const VertexHandle to = surface.to_vertex_handle(along);
     std::size_t edgesBetween = 0;

@@ -1,0 +1,41 @@
+// The target that DEFOCUS_FUZZ_TARGET names, under clang's libFuzzer. With DEFOCUS_FUZZ_SEEDS its seeds go to that
+// folder.
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <span>
+
+#include "core/error.h"
+#include "fuzz/targets.h"
+
+namespace {
+const defocus::FuzzTarget* target = nullptr;
+}
+
+extern "C" int LLVMFuzzerInitialize(int* /*count*/, char*** /*arguments*/) {
+    const char* const name = std::getenv("DEFOCUS_FUZZ_TARGET");
+    try {
+        target = &defocus::fuzzTargetNamed(name != nullptr ? name : "");
+    } catch (const defocus::Error& error) {
+        std::fprintf(stderr, "DEFOCUS_FUZZ_TARGET: %s\n", error.what());
+        std::exit(2);
+    }
+    if (const char* const folder = std::getenv("DEFOCUS_FUZZ_SEEDS")) {
+        std::filesystem::create_directories(folder);
+        std::size_t number = 0;
+        for (const auto& seed : target->seeds()) {
+            if (seed.size() > target->mostBytes) continue;
+            std::ofstream(std::filesystem::path(folder) / ("seed-" + std::to_string(number++)), std::ios::binary)
+                .write(reinterpret_cast<const char*>(seed.data()), static_cast<std::streamsize>(seed.size()));
+        }
+    }
+    return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size <= target->mostBytes) target->run(std::as_bytes(std::span(data, size)));
+    return 0;
+}
