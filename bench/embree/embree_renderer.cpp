@@ -354,6 +354,7 @@ void registerEmbree() {
                             .description = description,
                             .needsGl = false,
                             .shadesAsLit = false,
+                            .showsThrough = false,
                             .drawsMotion = false,
                             .settings = {},
                             .make = [sampling](const World& world, const RendererOptions&) {

@@ -1,6 +1,9 @@
 // Shades one lens sample of a surface into its layer.
 
 #include "include/frame.glsl"
+#ifdef TRANSMISSION
+#include "include/lens.glsl"
+#endif
 #include "include/layer_format.glsl"
 #include "include/environment.glsl"
 #include "include/shading.glsl"
@@ -49,6 +52,33 @@ float surfaceFootprint(vec3 normal) {
     return dot(right, right) + dot(up, up);
 }
 
+#ifdef TRANSMISSION
+layout(binding = 17) uniform sampler2DArray backdrop;   // this layer and the others, as they were before this object
+
+vec2 ndcThroughLens(vec3 viewPosition) {
+    vec4 clip = throughLens(pinholePosition(viewPosition), 1.0, vec4(surface.lens, 0.0, 0.0));
+    return clip.xy / clip.w;
+}
+
+// What this pixel shows at `offset` (m, along the world's axes) behind the surface. `roughness` 0 … 1 spreads it, as
+// KHR_materials_transmission's sample viewer does: 1 over the whole image. Mipmaps are made of squares; each lens sample shifts
+// them within a square, so that their sum has none.
+vec4 seenBehind(vec3 offset, float roughness) {
+#ifdef CHROMATIC
+    bandShift = surface.bandShift;
+#endif
+    ivec2 size = textureSize(backdrop, 0).xy;
+    vec2 at = gl_FragCoord.xy / vec2(size);
+    if (offset != vec3(0.0)) {
+        mat3 worldFromView = mat3(frame.worldFromView);
+        at += 0.5 * (ndcThroughLens((surface.position + offset) * worldFromView) - ndcThroughLens(surface.position * worldFromView));
+    }
+    float level = roughness * log2(float(size.x));
+    at += (exp2(level) - 1.0) * (fract(vec2(1.0, 17.0) * ditherOffset) - 0.5) / vec2(size);
+    return textureLod(backdrop, vec3(at, gl_Layer), level);
+}
+#endif
+
 #include "include/surface_shading.glsl"
 
 #ifdef SCREEN_DOOR
@@ -71,18 +101,24 @@ void main() {
     if (baseColor.a < material.emissiveCutoff.w) discard;
 #endif
     vec3 radiance = surfaceRadiance(baseColor.rgb);
+#ifdef TRANSMISSION
+    vec4 light = vec4(radiance, surfaceCoverage);
+#ifdef ALPHA_BLEND
+    light = mix(texelFetch(backdrop, ivec3(gl_FragCoord.xy, gl_Layer), 0), light, baseColor.a);
+#endif
+#elif defined(ALPHA_BLEND)
+    vec4 light = vec4(radiance * baseColor.a, baseColor.a);
+#else
+    vec4 light = vec4(radiance, 1.0);
+#endif
 
 #if defined(COC_SCALES) && defined(READS_COC_SCALE)
     cocScaleOut = vec4(surface.cocScale);
 #endif
 #ifdef LAYER_RGB9E5
-    layerOut = encodeLayer(vec4(radiance, 1.0), ditherOffset);
+    layerOut = encodeLayer(light, ditherOffset);
 #else
-#ifdef ALPHA_BLEND
-    layerOut = vec4(radiance * baseColor.a, baseColor.a);
-#else
-    layerOut = vec4(radiance, 1.0);
-#endif
+    layerOut = light;
 #ifdef LAYER_LARGEST
     layerOut.rgb = roundedToHalf(layerOut.rgb);
 #endif

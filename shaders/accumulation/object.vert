@@ -102,13 +102,21 @@ void main() {
     STAGE_OUT.normal = worldFromView * viewNormal;
     STAGE_OUT.toEye = worldFromView * (eye - viewPosition);
 #endif
-#if defined(LOCAL_LIGHTS)
+#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION)
     STAGE_OUT.position = worldFromView * viewPosition;
+#endif
+#ifdef TRANSMISSION
+    STAGE_OUT.lens = lensAndJitterIn.xy;
+#ifdef CHROMATIC
+    STAGE_OUT.bandShift = bandShiftIn;
+#else
+    STAGE_OUT.bandShift = 0.0;
+#endif
 #endif
 #ifdef TEXTURED
     STAGE_OUT.uv = vec4(uv0In, uv1In);
 #endif
-#ifdef NORMAL_TEXTURE
+#ifdef TANGENTS
     STAGE_OUT.tangent = vec4(mat3(frame.worldFromView) * viewTangent, tangentIn.w);
 #endif
 #if defined(COC_SCALES) && defined(READS_COC_SCALE)

@@ -22,5 +22,10 @@ layout(std140, binding = 2) uniform MaterialBlock {
     vec4 baseColor;
     vec4 emissiveCutoff;  // rgb: emissive radiance; w: alpha cutoff
     vec4 surface;         // metallic, roughness, normal scale, occlusion strength
-    vec4 uvRows[10];      // two rows of a 2×3 matrix a texture; w of the first row: the UV set
+    vec4 reflectance;     // of what isn't metal: rgb at normal incidence, before specularFactor (w)
+    vec4 transmission;    // share, thickness (object units), 1/ior, by how much roughness spreads what lies behind
+    vec4 absorption;      // rgb: per metre
+    vec4 coat;            // share, roughness, normal scale
+    vec4 sheen;           // rgb; w: roughness
+    vec4 uvRows[28];      // two rows of a 2×3 matrix a texture; w of the first row: the UV set
 } material;

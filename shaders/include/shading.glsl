@@ -18,9 +18,27 @@ struct SurfacePoint {
     float roughness;      // perceptual
     vec3 normal;          // unit, along the world's axes as all directions here
     vec3 toEye;           // unit
+#ifdef EMISSIVE
+    vec3 emission;
+#endif
     float footprint;      // Σ |∂n|² of the surface's own normal over a step of one pixel to the right and one up
 #ifdef COARSE_LEVEL
     float agreement;      // length |n| of the mean of the normals that `normal` stands for, in (0, 1]
+#endif
+#ifdef OWN_REFLECTANCE
+    float grazing;        // reflectance along the surface, F90; else it is 1
+#endif
+#ifdef TRANSMISSION
+    vec3 transmitted;     // radiance from behind of which the surface lets through what it doesn't reflect
+#endif
+#ifdef SHEEN
+    vec3 sheen;
+    float sheenRoughness; // perceptual
+#endif
+#ifdef CLEARCOAT
+    float coat;           // share of the surface that is coated
+    float coatRoughness;  // perceptual
+    vec3 coatNormal;      // unit
 #endif
 };
 
@@ -28,6 +46,12 @@ struct LightSums {
     vec3 diffuse;         // Σ E·(n·l)·(1 − g) / π
     vec3 specular;        // Σ E·(n·l)·D·V
     vec3 grazing;         // Σ E·(n·l)·D·V·g
+#ifdef OWN_REFLECTANCE
+    vec3 matt;            // Σ E·(n·l) / π
+#endif
+#ifdef SHEEN
+    vec3 sheen;           // Σ E·(n·l)·D·V of the sheen's own lobe
+#endif
 };
 
 #ifdef COARSE_LEVEL
@@ -93,6 +117,9 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float matt = nl;
 #endif
     sums.diffuse += illuminance * (matt * (1.0 - g));
+#ifdef OWN_REFLECTANCE
+    sums.matt += illuminance * matt;
+#endif
     vec3 received = illuminance * (nl * specular);
     sums.specular += received;
     sums.grazing += received * g;
@@ -130,8 +157,25 @@ vec3 specularAlbedo(SurfacePoint point, float nv) {
     vec4 r = point.roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
     float a = min(r.x * r.x, exp2(-9.28 * nv)) * r.x + r.y;
     vec2 fit = vec2(-1.04, 1.04) * a + r.zw;
+#ifdef OWN_REFLECTANCE
+    fit.y *= point.grazing;
+#endif
     return clamp(point.specular * fit.x + fit.y, 0.0, 1.0);
 }
+
+// What a surface that throws back `reflected` leaves to what lies beneath. Of coloured reflections the strongest channel counts, or
+// what is beneath would take on the opposite colour (KHR_materials_specular).
+vec3 remaining(vec3 reflected) {
+#ifdef OWN_REFLECTANCE
+    return vec3(1.0 - max(reflected.r, max(reflected.g, reflected.b)));
+#else
+    return 1.0 - reflected;
+#endif
+}
+
+#ifdef SHEEN
+#include "include/sheen.glsl"
+#endif
 
 // The environment's light on the point, `occlusion` of it. What the specular part throws back never reaches the diffuse one.
 vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusion) {
@@ -154,16 +198,29 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
     vec3 reflection = diffuse;
 #endif
     vec3 specular = specularAlbedo(point, nv);
-    return (point.diffuse * (1.0 - specular) * diffuse + specular * reflection) * (occlusion * ENVIRONMENT_LIGHTING);
+    vec3 light = point.diffuse * remaining(specular) * diffuse + specular * reflection;
+#ifdef SHEEN
+    float sheenShare = sheenAlbedo(nv, point.sheenRoughness);
+    light = light * sheenRemaining(point, sheenShare) + point.sheen * sheenShare * diffuse;
+#endif
+    return light * (occlusion * ENVIRONMENT_LIGHTING);
 #endif
 }
 
-// Radiance towards the eye, without emission. `position`, from the camera, matters to point and spot lights only.
-vec3 reflectedRadiance(SurfacePoint point, vec3 position, float occlusion) {
+// Radiance towards the eye from beneath a coat. `position`, from the camera, matters to point and spot lights only.
+vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be below 0: an interpolated normal can look away
     float spread = slopeSpread(point);
     Lobe lobe = lobeOf(point, spread);
-    LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
+    LightSums sums;
+    sums.diffuse = sums.specular = sums.grazing = vec3(0.0);
+#ifdef OWN_REFLECTANCE
+    sums.matt = vec3(0.0);
+#endif
+#ifdef SHEEN
+    sums.sheen = vec3(0.0);
+    float sheenToEye = sheenAlbedo(max(nv, 0.0), point.sheenRoughness);
+#endif
     for (int i = 0; i < LIGHT_COUNT; ++i) {
         vec3 toLight = -lighting.lights[i].directionType.xyz;
         vec3 illuminance = lighting.lights[i].colorScale.rgb;
@@ -171,9 +228,64 @@ vec3 reflectedRadiance(SurfacePoint point, vec3 position, float occlusion) {
         if (lighting.lights[i].directionType.w != 0.0)
             illuminance = localLight(lighting.lights[i], frame.lightPositions[i], position, toLight);
 #endif
+#ifdef SHEEN
+        float nl = max(dot(point.normal, toLight), 0.0);
+        sums.sheen += illuminance * (nl * sheenReflectance(point, nv, nl, toLight));
+        illuminance *= sheenRemaining(point, max(sheenToEye, sheenAlbedo(nl, point.sheenRoughness)));
+#endif
         addLight(sums, point, nv, lobe, toLight, illuminance);
     }
+#ifdef OWN_REFLECTANCE
+    // 1 − F = (1 − F90) + (F90 − F0)·(1 − g)
+    vec3 specular = point.specular * (sums.specular - sums.grazing) + point.grazing * sums.grazing;
+    float strongest = max(point.specular.r, max(point.specular.g, point.specular.b));
+    vec3 diffuse = point.diffuse * ((1.0 - point.grazing) * sums.matt + (point.grazing - strongest) * sums.diffuse);
+#else
     vec3 diffuse = point.diffuse * (1.0 - point.specular) * sums.diffuse;
     vec3 specular = point.specular * (sums.specular - sums.grazing) + sums.grazing;
-    return diffuse + specular + environmentLight(point, max(nv, 0.0), spread, occlusion);
+#endif
+    vec3 radiance = diffuse + specular + environmentLight(point, max(nv, 0.0), spread, occlusion);
+#ifdef TRANSMISSION
+    vec3 transmitted = point.transmitted * remaining(specularAlbedo(point, max(nv, 0.0)));
+#ifdef SHEEN
+    transmitted *= sheenRemaining(point, sheenToEye);
+#endif
+    radiance += transmitted;
+#endif
+#ifdef SHEEN
+    radiance += point.sheen * sums.sheen;
+#endif
+#ifdef EMISSIVE
+    radiance += point.emission;
+#endif
+    return radiance;
 }
+
+#ifdef CLEARCOAT
+// KHR_materials_clearcoat: a coat of refractive index 1.5 mirrors, and what it doesn't throw back comes from beneath.
+vec3 radianceOf(SurfacePoint point, vec3 position, float occlusion) {
+    SurfacePoint coat = point;
+    coat.diffuse = vec3(0.0);
+    coat.specular = vec3(0.04);
+    coat.roughness = point.coatRoughness;
+    coat.normal = point.coatNormal;
+#ifdef EMISSIVE
+    coat.emission = vec3(0.0);
+#endif
+#ifdef OWN_REFLECTANCE
+    coat.grazing = 1.0;
+#endif
+#ifdef TRANSMISSION
+    coat.transmitted = vec3(0.0);
+#endif
+#ifdef SHEEN
+    coat.sheen = vec3(0.0);
+#endif
+    vec3 share = point.coat * specularAlbedo(coat, max(dot(coat.normal, coat.toEye), 0.0));
+    return uncoatedRadiance(point, position, occlusion) * (1.0 - share) + point.coat * uncoatedRadiance(coat, position, occlusion);
+}
+#else
+vec3 radianceOf(SurfacePoint point, vec3 position, float occlusion) {
+    return uncoatedRadiance(point, position, occlusion);
+}
+#endif

@@ -2,6 +2,8 @@
 //   SURFACE_TEXTURE(map, slot)    a texture where uvOf(slot, …) says, filtered over the pixel
 //   SURFACE_SHOWS_FRONT           whether its front is seen
 //   surfaceFootprint(normal)      SurfacePoint::footprint of the interpolated normal, which was given its length
+// and, for TRANSMISSION,
+//   seenBehind(offset, roughness) what lies behind the surface at `offset` from it (m, world), premultiplied
 
 #ifdef BASE_COLOR_TEXTURE
 layout(binding = 0) uniform sampler2D baseColorTexture;
@@ -17,6 +19,33 @@ layout(binding = 3) uniform sampler2D occlusionTexture;
 #endif
 #ifdef EMISSIVE_TEXTURE
 layout(binding = 4) uniform sampler2D emissiveTexture;
+#endif
+#ifdef SPECULAR_TEXTURE
+layout(binding = 8) uniform sampler2D specularTexture;
+#endif
+#ifdef SPECULAR_COLOR_TEXTURE
+layout(binding = 9) uniform sampler2D specularColorTexture;
+#endif
+#ifdef TRANSMISSION_TEXTURE
+layout(binding = 10) uniform sampler2D transmissionTexture;
+#endif
+#ifdef THICKNESS_TEXTURE
+layout(binding = 11) uniform sampler2D thicknessTexture;
+#endif
+#ifdef CLEARCOAT_TEXTURE
+layout(binding = 12) uniform sampler2D clearcoatTexture;
+#endif
+#ifdef CLEARCOAT_ROUGHNESS_TEXTURE
+layout(binding = 13) uniform sampler2D clearcoatRoughnessTexture;
+#endif
+#ifdef CLEARCOAT_NORMAL_TEXTURE
+layout(binding = 14) uniform sampler2D clearcoatNormalTexture;
+#endif
+#ifdef SHEEN_COLOR_TEXTURE
+layout(binding = 15) uniform sampler2D sheenColorTexture;
+#endif
+#ifdef SHEEN_ROUGHNESS_TEXTURE
+layout(binding = 16) uniform sampler2D sheenRoughnessTexture;
 #endif
 
 #ifdef TEXTURED
@@ -34,23 +63,116 @@ vec2 uvOf(int slot, vec4 uvSets) {
 #endif
 
 #ifndef UNLIT
-vec3 shadingNormal(vec3 normal) {
-#ifdef NORMAL_TEXTURE
+#ifdef TANGENTS
+// `texel` of a normal texture, about the interpolated normal.
+vec3 bumpedNormal(vec3 normal, vec3 texel, float scale) {
     vec3 tangent = surface.tangent.xyz - normal * dot(normal, surface.tangent.xyz);
     float tangent2 = dot(tangent, tangent);
     if (tangent2 > 1e-12) {
         tangent *= inversesqrt(tangent2);
         vec3 bitangent = cross(normal, tangent) * surface.tangent.w;
-        vec3 local = SURFACE_TEXTURE(normalTexture, 2).xyz * 2.0 - 1.0;
-        local.xy *= material.surface.z;
+        vec3 local = texel * 2.0 - 1.0;
+        local.xy *= scale;
         normal = normalize(mat3(tangent, bitangent, normal) * local);
     }
+    return normal;
+}
 #endif
+
+vec3 towardsViewer(vec3 normal) {
 #ifdef DOUBLE_SIDED
     if (!SURFACE_SHOWS_FRONT) normal = -normal;
 #endif
     return normal;
 }
+
+vec3 shadingNormal(vec3 normal) {
+#ifdef NORMAL_TEXTURE
+    normal = bumpedNormal(normal, SURFACE_TEXTURE(normalTexture, 2).xyz, material.surface.z);
+#endif
+    return towardsViewer(normal);
+}
+
+#ifdef OWN_REFLECTANCE
+// KHR_materials_ior and KHR_materials_specular.
+void addReflectance(inout SurfacePoint point, vec3 baseColor, float metallic) {
+    float share = material.reflectance.w;
+    vec3 reflectance = material.reflectance.rgb;
+#ifdef SPECULAR_TEXTURE
+    share *= SURFACE_TEXTURE(specularTexture, 5).a;
+#endif
+#ifdef SPECULAR_COLOR_TEXTURE
+    reflectance *= SURFACE_TEXTURE(specularColorTexture, 6).rgb;
+#endif
+    point.specular = mix(min(reflectance, vec3(1.0)) * share, baseColor, metallic);
+    point.grazing = mix(share, 1.0, metallic);
+}
+#endif
+
+#ifdef CLEARCOAT
+void addCoat(inout SurfacePoint point, vec3 normal) {
+    point.coat = material.coat.x;
+    point.coatRoughness = material.coat.y;
+#ifdef CLEARCOAT_TEXTURE
+    point.coat *= SURFACE_TEXTURE(clearcoatTexture, 9).r;
+#endif
+#ifdef CLEARCOAT_ROUGHNESS_TEXTURE
+    point.coatRoughness *= SURFACE_TEXTURE(clearcoatRoughnessTexture, 10).g;
+#endif
+#ifdef CLEARCOAT_NORMAL_TEXTURE
+    normal = bumpedNormal(normal, SURFACE_TEXTURE(clearcoatNormalTexture, 11).xyz, material.coat.z);
+#endif
+    point.coatNormal = towardsViewer(normal);
+}
+#endif
+
+#ifdef SHEEN
+void addSheen(inout SurfacePoint point) {
+    point.sheen = material.sheen.rgb;
+    point.sheenRoughness = material.sheen.w;
+#ifdef SHEEN_COLOR_TEXTURE
+    point.sheen *= SURFACE_TEXTURE(sheenColorTexture, 12).rgb;
+#endif
+#ifdef SHEEN_ROUGHNESS_TEXTURE
+    point.sheenRoughness *= SURFACE_TEXTURE(sheenRoughnessTexture, 13).a;
+#endif
+}
+#endif
+
+#ifdef TRANSMISSION
+float surfaceCoverage = 1.0;   // what the surface hides of a transparent background
+
+// KHR_materials_transmission and KHR_materials_volume: a thin wall shows what lies straight behind it; a volume that of where the
+// refracted ray has gone as far as the volume is thick, which absorbs on the way (Beer and Lambert).
+void addTransmission(inout SurfacePoint point, vec3 baseColor, float metallic) {
+    float share = material.transmission.x;
+    float thickness = material.transmission.y;
+#ifdef TRANSMISSION_TEXTURE
+    share *= SURFACE_TEXTURE(transmissionTexture, 7).r;
+#endif
+#ifdef THICKNESS_TEXTURE
+    thickness *= SURFACE_TEXTURE(thicknessTexture, 8).g;
+#endif
+    float scale = pow(abs(determinant(mat3(object.viewFromObject))), 1.0 / 3.0);
+    vec3 way = scale * thickness * refract(-point.toEye, point.normal, material.transmission.z);
+    vec4 behind = seenBehind(way, point.roughness * material.transmission.w);
+    vec3 tint = baseColor * exp(-material.absorption.rgb * length(way));
+    share *= 1.0 - metallic;
+    point.diffuse *= 1.0 - share;
+    point.transmitted = share * tint * behind.rgb;
+    surfaceCoverage = 1.0 - share * (1.0 - behind.a) * max(tint.r, max(tint.g, tint.b));
+}
+#endif
+
+#ifdef EMISSIVE
+vec3 emittedRadiance() {
+    vec3 emissive = material.emissiveCutoff.rgb;
+#ifdef EMISSIVE_TEXTURE
+    emissive *= SURFACE_TEXTURE(emissiveTexture, 4).rgb;
+#endif
+    return emissive;
+}
+#endif
 
 vec3 shaded(vec3 baseColor) {
     float metallic = material.surface.x;
@@ -72,13 +194,28 @@ vec3 shaded(vec3 baseColor) {
     point.normal = shadingNormal(normal);
     point.toEye = normalize(surface.toEye);
     point.footprint = surfaceFootprint(normal);
+#ifdef EMISSIVE
+    point.emission = emittedRadiance();
+#endif
 #ifdef COARSE_LEVEL
     point.agreement = clamp(surface.agreement, 0.05, 1.0);   // a sliver may extrapolate
 #endif
+#ifdef OWN_REFLECTANCE
+    addReflectance(point, baseColor, metallic);
+#endif
+#ifdef CLEARCOAT
+    addCoat(point, normal);
+#endif
+#ifdef SHEEN
+    addSheen(point);
+#endif
+#ifdef TRANSMISSION
+    addTransmission(point, baseColor, metallic);
+#endif
 #ifdef LOCAL_LIGHTS
-    return reflectedRadiance(point, surface.position, occlusion);
+    return radianceOf(point, surface.position, occlusion);
 #else
-    return reflectedRadiance(point, vec3(0.0), occlusion);
+    return radianceOf(point, vec3(0.0), occlusion);
 #endif
 }
 #endif
@@ -95,13 +232,6 @@ vec3 surfaceRadiance(vec3 baseColor) {
     vec3 radiance = baseColor;
 #else
     vec3 radiance = shaded(baseColor);
-#ifdef EMISSIVE
-    vec3 emissive = material.emissiveCutoff.rgb;
-#ifdef EMISSIVE_TEXTURE
-    emissive *= SURFACE_TEXTURE(emissiveTexture, 4).rgb;
-#endif
-    radiance += emissive;
-#endif
 #endif
     // A texel or a sliver without a value is black, not a hole that no later sample could fill.
     return any(isnan(radiance)) ? vec3(0.0) : radiance;

@@ -11,13 +11,17 @@
 #endif
     vec3 toEye;           // to this sample's point on the lens
 #endif
-#if defined(LOCAL_LIGHTS)
+#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION)
     vec3 position;        // from the camera
+#endif
+#ifdef TRANSMISSION
+    flat vec2 lens;       // of the lens sample: (u, k·v)
+    flat float bandShift;
 #endif
 #ifdef TEXTURED
     vec4 uv;              // both UV sets
 #endif
-#ifdef NORMAL_TEXTURE
+#ifdef TANGENTS
     vec4 tangent;
 #endif
 #if defined(COC_SCALES) && defined(READS_COC_SCALE)

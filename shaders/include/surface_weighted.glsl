@@ -16,13 +16,17 @@ void writeSurface(vec3 weights) {
 #endif
     SURFACE_OUT.toEye = SURFACE_WEIGHTED(toEye);
 #endif
-#if defined(LOCAL_LIGHTS)
+#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION)
     SURFACE_OUT.position = SURFACE_WEIGHTED(position);
+#endif
+#ifdef TRANSMISSION
+    SURFACE_OUT.lens = SURFACE_CORNERS[0].lens;
+    SURFACE_OUT.bandShift = SURFACE_CORNERS[0].bandShift;
 #endif
 #ifdef TEXTURED
     SURFACE_OUT.uv = SURFACE_WEIGHTED(uv);
 #endif
-#ifdef NORMAL_TEXTURE
+#ifdef TANGENTS
     SURFACE_OUT.tangent = SURFACE_WEIGHTED(tangent);
 #endif
 #if defined(COC_SCALES) && defined(READS_COC_SCALE)

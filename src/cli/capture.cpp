@@ -165,7 +165,7 @@ void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepare
     prepared.world.pose = frame.pose;
     prepared.world.shutter = frame.shutter;
     const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
-    printWarnings(planWarnings(plan, method.usesLensSamples), global);
+    printWarnings(planWarnings(plan, method), global);
 }
 
 // All frames are exposed as the shot's first one is metered, whichever of them this run renders.

@@ -56,14 +56,18 @@ std::string copiesShow(const FramePlan& plan, double blur, std::uint64_t samples
 
 }  // namespace
 
-std::vector<std::string> planWarnings(const FramePlan& plan, bool samplesFill, std::uint64_t samples) {
+std::vector<std::string> planWarnings(const FramePlan& plan, const Method& method, std::uint64_t samples) {
     if (samples == 0) samples = plan.samples.size();
     std::vector<std::string> lines;
+    if (plan.usesTransmission && !method.showsThrough)
+        lines.push_back(
+            fmt::format("method {}: materials that transmit are drawn opaque; choose accumulation", method.name));
     if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
     if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
     const double blur = largestBoundedBlur(plan);
     const double gap = blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)));
-    if (samplesFill && std::isfinite(blur) && gap > mostGap) lines.push_back(copiesShow(plan, blur, samples));
+    if (method.usesLensSamples && std::isfinite(blur) && gap > mostGap)
+        lines.push_back(copiesShow(plan, blur, samples));
     return lines;
 }
 

@@ -243,7 +243,7 @@ std::vector<std::string> SceneRenderer::State::warnings() const {
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(ignoredWarnings(*frame_.scene));
     add(unusedSettings(request_, *frame_.scene, frame_.view.lens));
-    if (run_) add(planWarnings(run_->plan(), chosenMethod(request_).method->usesLensSamples));
+    if (run_) add(planWarnings(run_->plan(), *chosenMethod(request_).method));
     return lines;
 }
 

@@ -60,9 +60,11 @@ void addMaterials(Hasher& hasher, const Scene& scene) {
     hasher.add(scene.materials.size(), scene.textures.size(), scene.images.size());
     for (const Material& m : scene.materials) {
         hasher.add(m.baseColorFactor, m.metallicFactor, m.roughnessFactor, m.emissiveFactor, m.normalScale,
-                   m.occlusionStrength, m.alphaMode, m.alphaCutoff, m.doubleSided, m.unlit);
-        for (const TextureUse* use : {&m.baseColor, &m.metallicRoughness, &m.normal, &m.occlusion, &m.emissive})
-            addTextureUse(hasher, *use);
+                   m.occlusionStrength, m.alphaMode, m.alphaCutoff, m.doubleSided, m.unlit, m.ior, m.specularFactor,
+                   m.specularColorFactor, m.transmissionFactor, m.thicknessFactor, m.attenuationDistance,
+                   m.attenuationColor, m.clearcoatFactor, m.clearcoatRoughnessFactor, m.clearcoatNormalScale,
+                   m.sheenColorFactor, m.sheenRoughnessFactor);
+        for (const TextureUse* use : textureUses(m)) addTextureUse(hasher, *use);
     }
     for (const Texture& t : scene.textures)
         hasher.add(t.image, t.wrapS, t.wrapT, t.magnification, t.minification, t.mipmaps);

@@ -90,6 +90,11 @@ void GlTexture::copyLayer(std::uint32_t layer, const TexelRectangle& area, const
                        GL_TEXTURE_2D_ARRAY, 0, area.x, area.y, static_cast<GLint>(toLayer), area.width, area.height, 1);
 }
 
+void GlTexture::copyLayers(const GlTexture& to, std::uint32_t count) const {
+    glCopyImageSubData(name(), info_.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 0, 0, 0, 0, to.name(),
+                       GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, info_.width, info_.height, static_cast<GLsizei>(count));
+}
+
 std::size_t GlTexture::bytes() const {
     if (!handle_) return 0;
     std::size_t pixels = 0;

@@ -48,6 +48,9 @@ public:
     void clearLayer(std::uint32_t layer);
     // Copies a rectangle of layer `layer` to the same place of layer `toLayer` of a texture of the same format.
     void copyLayer(std::uint32_t layer, const TexelRectangle& area, const GlTexture& to, std::uint32_t toLayer) const;
+    // Copies layers [0, count), or the one image of a texture without layers, to those of `to`, an array of the same
+    // format and size.
+    void copyLayers(const GlTexture& to, std::uint32_t count) const;
     void attach(GLuint unit) const { glBindTextureUnit(unit, handle_.name()); }
 
     [[nodiscard]] GLuint name() const { return handle_.name(); }

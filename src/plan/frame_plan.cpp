@@ -51,11 +51,15 @@ bool hasBlending(const Scene& scene, const Mesh& mesh) {
     });
 }
 
+bool transmits(const Scene& scene, const Mesh& mesh) {
+    return std::any_of(mesh.primitives.begin(), mesh.primitives.end(),
+                       [&](const Primitive& primitive) { return materialOf(scene, primitive).transmits(); });
+}
+
 bool hasTextures(const Scene& scene, const Mesh& mesh) {
     return std::any_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& primitive) {
-        const Material& m = materialOf(scene, primitive);
-        return m.baseColor.used() || m.metallicRoughness.used() || m.normal.used() || m.occlusion.used() ||
-               m.emissive.used();
+        const auto uses = textureUses(materialOf(scene, primitive));
+        return std::any_of(uses.begin(), uses.end(), [](const TextureUse* use) { return use->used(); });
     });
 }
 
@@ -196,11 +200,15 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
     for (ObjectPlan& object : plan.objects) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
         object.blended = hasBlending(scene, mesh);
+        object.transmits = transmits(scene, mesh);
         plan.usesBlending |= object.blended;
+        plan.usesTransmission |= object.transmits;
         plan.usesTextures |= hasTextures(scene, mesh);
     }
     if (!plan.usesTextures) plan.leftOut.push_back({"texture path", "no drawn material has a texture"});
     if (!plan.usesBlending) plan.leftOut.push_back({"blend path", "no drawn material is alpha-blended"});
+    if (!plan.usesTransmission)
+        plan.leftOut.push_back({"transmission path", "no drawn material shows what lies behind it"});
     if (!plan.usesCocControls)
         plan.leftOut.push_back({"controls of the blur", "the lens and the objects have none: C(w) = a + b·w"});
     if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});

@@ -76,8 +76,9 @@ struct ObjectPlan {
     std::vector<VisibleLevel> visible;  // levels that are drawn in part; a level that isn't here is drawn whole
     double cocScale = 1;                // factor on the object's blur, ≥ 0
     Refinement refinement = Refinement::none;
-    bool mirrored = false;  // the transform flips the winding of triangles
-    bool blended = false;   // it has alpha-blended primitives
+    bool mirrored = false;   // the transform flips the winding of triangles
+    bool blended = false;    // it has alpha-blended primitives
+    bool transmits = false;  // it has primitives that show what lies behind them
 };
 
 struct LeftOut {
@@ -107,6 +108,7 @@ struct FramePlan {
     bool usesCocScales = false;    // some object or vertex scales its blur
     bool usesTextures = false;
     bool usesBlending = false;
+    bool usesTransmission = false;
     bool needsAlpha = false;  // the background is transparent, so the accumulation keeps coverage
     // Sums over all samples.
     std::uint64_t trianglesDrawn = 0;

@@ -40,6 +40,7 @@ json objectJson(const ObjectPlan& object, const ObjectRates& rates) {
                    {"projectedEdge", number(object.projectedEdge)},
                    {"lambda", object.lambda},
                    {"blended", object.blended},
+                   {"transmits", object.transmits},
                    {"moves", !object.motion.empty()},
                    {"draws", std::move(draws)},
                    {"rates", {{"lensShare", rates.lensShare}, {"reason", rates.reason}}}};

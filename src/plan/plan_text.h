@@ -9,8 +9,8 @@ namespace defocus {
 
 std::string planTable(const FramePlan& plan);
 // The keys are image, lens, samples, shutter, objects[], leftOut[] and triangles. An object has name, depth, coc,
-// projectedEdge, lambda, blended, moves and draws[], and boundaryShare if its first draw shares its last sample with
-// the second.
+// projectedEdge, lambda, blended, transmits, moves and draws[], and boundaryShare if its first draw shares its last
+// sample with the second.
 std::string planJson(const FramePlan& plan);
 
 }  // namespace defocus

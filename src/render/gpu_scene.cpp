@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/gtc/packing.hpp>
 
 #include "core/error.h"
@@ -46,6 +47,8 @@ GLenum minificationFilter(const Texture& texture) {
     if (!texture.mipmaps) return texture.minification == Filter::linear ? GL_LINEAR : GL_NEAREST;
     return texture.minification == Filter::linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
 }
+
+constexpr float leastAttenuation = 1e-6f;  // of a colour channel, whose logarithm is taken
 
 constexpr float rangeRounding = 1e-3f;  // in 1/255: so much of a step outwards is none
 
@@ -262,6 +265,29 @@ void GpuScene::prepareMaterial(int index) {
     slots.slots[2] = texture(m.normal, false);
     slots.slots[3] = texture(m.occlusion, false);
     slots.slots[4] = texture(m.emissive, true);
+    if (m.hasOwnReflectance()) {
+        slots.slots[5] = texture(m.specular, false);
+        slots.slots[6] = texture(m.specularColor, true);
+    }
+    if (m.transmits()) {
+        slots.slots[7] = texture(m.transmission, false);
+        slots.slots[8] = texture(m.thickness, false);
+    }
+    if (m.hasClearcoat()) {
+        slots.slots[9] = texture(m.clearcoat, false);
+        slots.slots[10] = texture(m.clearcoatRoughness, false);
+        slots.slots[11] = texture(m.clearcoatNormal, false);
+    }
+    if (m.hasSheen()) {
+        slots.slots[12] = texture(m.sheenColor, true);
+        slots.slots[13] = texture(m.sheenRoughness, false);
+    }
+}
+
+// Units 5, 6 and 7 are the environment's and the poses'.
+void GpuMaterialTextures::attach() const {
+    for (GLuint i = 0; i < materialTextureCount; ++i)
+        if (slots[i] != nullptr) slots[i]->attach(i < 5 ? i : i + 3);
 }
 
 void bindLevel(GpuMesh& mesh, std::size_t level) {
@@ -276,17 +302,25 @@ void bindLevel(GpuMesh& mesh, std::size_t level) {
     array.bind(colorLocation, mesh.colors, source.colorOffset, sizeof(glm::u16vec4));
 }
 
-std::array<const TextureUse*, 5> textureUses(const Material& material) {
-    return {&material.baseColor, &material.metallicRoughness, &material.normal, &material.occlusion,
-            &material.emissive};
-}
-
-GpuMaterial GpuScene::materialBlock(const Material& material) {
+GpuMaterial GpuScene::materialBlock(int index) const {
+    const Material& material = this->material(index);
     GpuMaterial block{};
     block.baseColor = material.baseColorFactor;
     block.emissiveCutoff = glm::vec4(material.emissiveFactor, material.alphaCutoff);
     block.surface = {material.metallicFactor, material.roughnessFactor, material.normalScale,
                      material.occlusionStrength};
+    // Normal incidence on a dielectric: ((n − 1)/(n + 1))²; an index of 0 stands for one without bound.
+    const float ior = material.ior;
+    const float normalIncidence = ior > 0 ? (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)) : 1.0f;
+    block.reflectance = glm::vec4(normalIncidence * material.specularColorFactor, material.specularFactor);
+    // The rougher and the denser, the wider what lies behind is spread; none at the index of air.
+    block.transmission = {material.transmissionFactor, material.thicknessFactor, ior > 0 ? 1 / ior : 0.0f,
+                          ior > 0 ? glm::clamp(2 * ior - 2, 0.0f, 1.0f) : 1.0f};
+    const double distance = material.attenuationDistance * world_->scene->metresPerUnit;
+    block.absorption =
+        glm::vec4(-glm::log(glm::max(material.attenuationColor, leastAttenuation)) / static_cast<float>(distance), 0);
+    block.coat = {material.clearcoatFactor, material.clearcoatRoughnessFactor, material.clearcoatNormalScale, 0};
+    block.sheen = glm::vec4(material.sheenColorFactor, material.sheenRoughnessFactor);
     const auto uses = textureUses(material);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         const glm::mat3& m = uses[i]->uvTransform;

@@ -74,12 +74,11 @@ glm::dvec3 meshOrigin(const Bounds& bounds);
 // Makes the vertex array read the level's vertices.
 void bindLevel(GpuMesh& mesh, std::size_t level);
 
-// A material's textures in the order of the shader's bindings.
-std::array<const TextureUse*, 5> textureUses(const Material& material);
-
-// The same on the GPU; null where there is none.
+// A material's textureUses on the GPU; null where there is none.
 struct GpuMaterialTextures {
-    const GlTexture* slots[5] = {};
+    const GlTexture* slots[materialTextureCount] = {};
+    // Where surface_shading.glsl reads them.
+    void attach() const;
 };
 
 // For each of `colors`, the range over all triangles that it is a corner of: of each channel, 256 times the most plus
@@ -92,7 +91,12 @@ struct GpuMaterial {
     glm::vec4 baseColor;
     glm::vec4 emissiveCutoff;
     glm::vec4 surface;
-    std::array<glm::vec4, 10> uvRows;
+    glm::vec4 reflectance;
+    glm::vec4 transmission;
+    glm::vec4 absorption;
+    glm::vec4 coat;
+    glm::vec4 sheen;
+    std::array<glm::vec4, 2 * materialTextureCount> uvRows;
 };
 
 class GpuScene {
@@ -108,7 +112,7 @@ public:
     [[nodiscard]] const Material& material(int index) const;
     [[nodiscard]] std::size_t bytes() const;
 
-    [[nodiscard]] static GpuMaterial materialBlock(const Material& material);
+    [[nodiscard]] GpuMaterial materialBlock(int material) const;
 
 private:
     void uploadDeformation(int mesh, std::size_t vertexCount, GpuMesh& target);

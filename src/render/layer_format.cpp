@@ -33,9 +33,10 @@ bool beyondHalfFloat(const World& world) {
 
 LayerFormat chosenLayerFormat(const World& world, const FramePlan& plan, LayerFormat asked) {
     if (asked == LayerFormat::automatic) return beyondHalfFloat(world) ? LayerFormat::rgba32f : LayerFormat::rgba16f;
-    if (asked == LayerFormat::rgb9e5 && (plan.usesBlending || plan.needsAlpha))
+    if (asked == LayerFormat::rgb9e5 && (plan.usesBlending || plan.usesTransmission || plan.needsAlpha))
         fail(
-            "layer format {}: it holds no alpha, which blended materials and a transparent background need; choose "
+            "layer format {}: it holds no alpha, which blended and transmitting materials and a transparent background "
+            "need; choose "
             "rgba16f",
             layerFormatName(asked));
     return asked;

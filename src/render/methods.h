@@ -45,6 +45,7 @@ struct Method {
     bool needsGl = true;          // a current GL context
     bool usesLensSamples = true;  // false: the plan's number of samples means nothing to it (post-process methods)
     bool shadesAsLit = true;      // false: only unlit, opaque surfaces look as with the other methods
+    bool showsThrough = true;     // false: what transmits is drawn opaque
     bool sumsBlocks = false;      // Renderer::continueWith adds to the sum: the number of samples may be left open
     bool drawsMotion = true;      // false: everything stands still while the shutter is open
     std::vector<MethodSetting> settings;

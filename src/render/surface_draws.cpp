@@ -53,9 +53,24 @@ std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, co
 }
 
 ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int materialIndex, std::uint32_t level,
-                             bool shaded) {
-    static constexpr const char* textureDefines[5] = {"BASE_COLOR_TEXTURE", "METALLIC_ROUGHNESS_TEXTURE",
-                                                      "NORMAL_TEXTURE", "OCCLUSION_TEXTURE", "EMISSIVE_TEXTURE"};
+                             SurfaceLook look) {
+    static constexpr const char* textureDefines[materialTextureCount] = {"BASE_COLOR_TEXTURE",
+                                                                         "METALLIC_ROUGHNESS_TEXTURE",
+                                                                         "NORMAL_TEXTURE",
+                                                                         "OCCLUSION_TEXTURE",
+                                                                         "EMISSIVE_TEXTURE",
+                                                                         "SPECULAR_TEXTURE",
+                                                                         "SPECULAR_COLOR_TEXTURE",
+                                                                         "TRANSMISSION_TEXTURE",
+                                                                         "THICKNESS_TEXTURE",
+                                                                         "CLEARCOAT_TEXTURE",
+                                                                         "CLEARCOAT_ROUGHNESS_TEXTURE",
+                                                                         "CLEARCOAT_NORMAL_TEXTURE",
+                                                                         "SHEEN_COLOR_TEXTURE",
+                                                                         "SHEEN_ROUGHNESS_TEXTURE"};
+    constexpr std::size_t normalSlots[] = {2, 11};
+    constexpr std::size_t transmissionSlots[] = {7, 8};
+    const bool shaded = look != SurfaceLook::flat;
     const Material& material = scene.material(materialIndex);
     ShaderDefines defines;
     const auto set = [&](bool condition, const char* name) {
@@ -64,12 +79,16 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
     const GpuMaterialTextures& textures = scene.textures(materialIndex);
     const bool masked = material.alphaMode == AlphaMode::mask;
+    const bool transmits = look == SurfaceLook::seenThrough && material.transmits();
     const auto uses = textureUses(material);
     bool textured = false;
     bool transformed = false;
+    bool bumped = false;
     for (std::size_t i = 0; i < uses.size(); ++i) {
-        const bool wanted = shaded || (i == 0 && masked);
-        const bool used = textures.slots[i] != nullptr && hasUv && wanted && (i != 2 || mesh.tangents);
+        const bool ofNormals = std::ranges::count(normalSlots, i) > 0;
+        const bool wanted = shaded ? transmits || std::ranges::count(transmissionSlots, i) == 0 : i == 0 && masked;
+        const bool used = textures.slots[i] != nullptr && hasUv && wanted && (!ofNormals || mesh.tangents);
+        bumped |= used && ofNormals;
         textured |= used;
         transformed |= used && (uses[i]->uvSet != 0 || uses[i]->uvTransform != glm::mat3(1.0f));
         set(used, textureDefines[i]);
@@ -80,6 +99,11 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     set(transformed, "UV_TRANSFORMS");
     set(!lit, "UNLIT");
     set(lit && material.emissiveFactor != glm::vec3(0), "EMISSIVE");
+    set(bumped, "TANGENTS");
+    set(transmits, "TRANSMISSION");
+    set(lit && material.hasOwnReflectance(), "OWN_REFLECTANCE");
+    set(lit && material.hasClearcoat(), "CLEARCOAT");
+    set(lit && material.hasSheen(), "SHEEN");
     set(lit && level > 0, "COARSE_LEVEL");
     set(lit && std::any_of(lights.begin(), lights.end(), local), "LOCAL_LIGHTS");
     set(static_cast<bool>(mesh.colors), "VERTEX_COLORS");

@@ -33,10 +33,15 @@ struct IndexRun {
 std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, const GpuMesh& mesh, std::uint32_t level,
                                 std::uint32_t primitive);
 
-// The features of a material on a mesh that shaders/include/surface_shading.glsl knows. `shaded`: false for neither
-// lights nor textures beyond the alpha test.
+enum class SurfaceLook {
+    flat,         // neither lights nor textures beyond the alpha test
+    lit,          // what transmits is opaque
+    seenThrough,  // as `lit`, and what transmits shows what lies behind
+};
+
+// The features of a material on a mesh that shaders/include/surface_shading.glsl knows.
 ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int material, std::uint32_t level,
-                             bool shaded);
+                             SurfaceLook look);
 
 // One text for each set of defines.
 std::string keyOf(const ShaderDefines& defines);

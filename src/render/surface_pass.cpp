@@ -4,6 +4,13 @@
 
 namespace defocus {
 
+namespace {
+
+constexpr std::size_t mostBackdrops = 8;  // a frame: each is a copy of all layers
+constexpr GLuint backdropUnit = 17;       // of shaders/accumulation/object.frag
+
+}  // namespace
+
 void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame) {
     frame_ = &frame;
     objectBlocks_ = objectBlocks(plan, *scene_, poses_);
@@ -21,14 +28,15 @@ void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame) {
 
 void SurfacePass::uploadMaterials() {
     std::vector<GpuMaterial> blocks(materialSlots_.size());
-    for (const auto& [material, slot] : materialSlots_)
-        blocks[slot] = GpuScene::materialBlock(scene_->material(material));
+    for (const auto& [material, slot] : materialSlots_) blocks[slot] = scene_->materialBlock(material);
     materialBlocks_ = UniformBlocks<GpuMaterial>(blocks);
 }
 
 void SurfacePass::addDraws(const FramePlan& plan) {
     opaque_.clear();
-    blended_.clear();
+    translucent_.clear();
+    transmittingObjects_ = 0;
+    blursBackdrop_ = false;
     materialSlots_.clear();
     commandBytes_ = 0;
     for (std::size_t index = 0; index < plan.objects.size(); ++index) {
@@ -50,7 +58,12 @@ void SurfacePass::addDraws(const FramePlan& plan) {
             addLevel(draw, object, object.fine, ScreenDoor::fineShare);
         }
     }
-    std::reverse(blended_.begin(), blended_.end());  // the plan's objects come nearest first
+    std::reverse(translucent_.begin(), translucent_.end());  // the plan's objects come nearest first
+    for (const ObjectPlan& object : plan.objects) transmittingObjects_ += object.transmits ? 1 : 0;
+    for (const Draw& item : translucent_) {
+        const Material& material = scene_->material(item.material);
+        blursBackdrop_ |= material.transmits() && material.roughnessFactor > 0;
+    }
     commands_ = commandBytes_ > 0 ? Buffer(commandBytes_) : Buffer();
 }
 
@@ -65,7 +78,8 @@ void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const Lev
         indexCount += run.count;
     }
     if (indexCount == 0) return;
-    auto& list = scene_->material(draw.material).alphaMode == AlphaMode::blend ? blended_ : opaque_;
+    const Material& material = scene_->material(draw.material);
+    auto& list = material.alphaMode == AlphaMode::blend || material.transmits() ? translucent_ : opaque_;
     const auto add = [&](std::uint32_t first, std::uint32_t end, ScreenDoor screenDoor) {
         if (first >= end) return;
         Draw& added = list.emplace_back(draw);
@@ -102,7 +116,8 @@ const Program& SurfacePass::program(const Draw& draw) {
     const bool refined = draw.refinement != Refinement::none;
     const bool vertexShaderLayers = info_.vertexShaderLayers && !refined;
     ShaderDefines defines = passDefines(vertexShaderLayers);
-    const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level, info_.shaded);
+    const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level,
+                                                 info_.shaded ? SurfaceLook::seenThrough : SurfaceLook::flat);
     defines.insert(defines.end(), surface.begin(), surface.end());
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "1");
@@ -156,9 +171,7 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     materialBlocks_.bind(2, materialSlots_.at(item.material));
     if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
     if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
-    const GpuMaterialTextures& textures = scene_->textures(item.material);
-    for (GLuint i = 0; i < 5; ++i)
-        if (textures.slots[i] != nullptr) textures.slots[i]->attach(i);
+    scene_->textures(item.material).attach();
     bindSamples(mesh);
     bindLevel(mesh, item.level);
     if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && info_.shaded && item.level > 0) {
@@ -200,24 +213,27 @@ void SurfacePass::drawRuns(const Draw& item, GLenum mode, std::uint32_t first, s
     glMultiDrawElementsIndirect(mode, GL_UNSIGNED_INT, offset, static_cast<GLsizei>(commands.size()), 0);
 }
 
-void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count) {
+void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
+                            GLenum depthTest) {
     bindFrame();
     glDisable(GL_BLEND);
-    glDepthFunc(GL_GREATER);
+    glDepthFunc(depthTest);
     glDepthMask(GL_TRUE);
     drawFronts(items, first, count);
 }
 
-// Both sides of what is double-sided.
 void SurfacePass::drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count) {
-    for (const Draw& item : items) {
-        if (scene_->material(item.material).doubleSided)
-            glDisable(GL_CULL_FACE);
-        else
-            glEnable(GL_CULL_FACE);
-        glCullFace(GL_BACK);
-        draw(item, first, count);
-    }
+    for (const Draw& item : items) drawFront(item, first, count);
+}
+
+// Both sides of what is double-sided.
+void SurfacePass::drawFront(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    if (scene_->material(item.material).doubleSided)
+        glDisable(GL_CULL_FACE);
+    else
+        glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+    draw(item, first, count);
 }
 
 void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
@@ -226,7 +242,7 @@ void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
 
 void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
     drawSolid(opaque_, first, count);
-    drawSolid(blended_, first, count);
+    drawSolid(translucent_, first, count);
 }
 
 void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {
@@ -235,33 +251,51 @@ void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE);
     drawFronts(opaque_, first, count);
-    drawFronts(blended_, first, count);
+    drawFronts(translucent_, first, count);
     glDisable(GL_BLEND);
 }
 
-void SurfacePass::drawBlended(std::uint32_t first, std::uint32_t count) {
-    if (blended_.empty()) return;
+void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors) {
+    if (translucent_.empty()) return;
     bindFrame();
     glDepthFunc(GL_GREATER);
-    glDepthMask(GL_FALSE);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glEnable(GL_CULL_FACE);
-    for (const Draw& item : blended_) {
-        if (scene_->material(item.material).doubleSided) {  // the far side first
-            glCullFace(GL_FRONT);
-            draw(item, first, count);
+    std::size_t left = transmittingObjects_;
+    std::optional<std::uint32_t> shown;  // the transmitting object that the backdrop is for
+    for (const Draw& item : translucent_) {
+        if (!scene_->material(item.material).transmits()) {
+            drawBlended(item, first, count);
+            continue;
         }
-        glCullFace(GL_BACK);
-        draw(item, first, count);
+        if (shown != item.object) {
+            if (!shown || left <= mostBackdrops) backdrop_.take(colors, count, blursBackdrop_);
+            shown = item.object;
+            --left;
+        }
+        glDisable(GL_BLEND);
+        glDepthMask(GL_TRUE);
+        backdrop_.attach(backdropUnit);
+        drawFront(item, first, count);
     }
     glDisable(GL_BLEND);
 }
 
-void SurfacePass::drawBlendedDepth(std::uint32_t first, std::uint32_t count) {
-    if (blended_.empty()) return;
+void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_CULL_FACE);
+    if (scene_->material(item.material).doubleSided) {  // the far side first
+        glCullFace(GL_FRONT);
+        draw(item, first, count);
+    }
+    glCullFace(GL_BACK);
+    draw(item, first, count);
+}
+
+void SurfacePass::drawTranslucentDepth(std::uint32_t first, std::uint32_t count) {
+    if (translucent_.empty()) return;
     glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    drawSolid(blended_, first, count);
+    drawSolid(translucent_, first, count, GL_GEQUAL);  // what transmits has left its depth already
     glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
@@ -282,7 +316,7 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
 }
 
 std::size_t SurfacePass::bytes() const {
-    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes() + commands_.bytes();
+    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes() + commands_.bytes() + backdrop_.bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
     return total;
 }

@@ -5,10 +5,12 @@
 // indirect draw of all its runs of indices.
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "gl/pacer.h"
 #include "gl/program.h"
+#include "render/backdrop.h"
 #include "render/surface_draws.h"
 
 namespace defocus {
@@ -29,12 +31,14 @@ public:
     void prepare(const FramePlan& plan, const FrameUniforms& frame);
     // Draws samples [first, first + count) of the opaque and alpha-tested surfaces, front to back.
     void drawOpaque(std::uint32_t first, std::uint32_t count);
-    // The same for alpha-blended surfaces, back to front (blending onto premultiplied colours).
-    void drawBlended(std::uint32_t first, std::uint32_t count);
-    [[nodiscard]] bool hasBlended() const { return !blended_.empty(); }
-    // Only the depth of the alpha-blended surfaces, and what the shader writes beside the colour.
-    void drawBlendedDepth(std::uint32_t first, std::uint32_t count);
-    // All surfaces, blended ones too, as if they were opaque.
+    // The same for alpha-blended and transmitting surfaces, object by object and back to front. `colors` is what is
+    // drawn into, the environment included: a transmitting surface shows a copy of what it holds before its object is
+    // drawn. Of many such objects, only the nearest see each other.
+    void drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors);
+    [[nodiscard]] bool hasTranslucent() const { return !translucent_.empty(); }
+    // Only the depth of the alpha-blended and transmitting surfaces, and what the shader writes beside the colour.
+    void drawTranslucentDepth(std::uint32_t first, std::uint32_t count);
+    // All surfaces, translucent ones too, as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
     // All of them, each fragment added to what is there: nothing hides anything.
     void drawTouched(std::uint32_t first, std::uint32_t count);
@@ -83,8 +87,11 @@ private:
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
     void bindFrame();
     void bindSamples(GpuMesh& mesh);
-    void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
+    void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
+                   GLenum depthTest = GL_GREATER);
     void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
+    void drawFront(const Draw& item, std::uint32_t first, std::uint32_t count);
+    void drawBlended(const Draw& item, std::uint32_t first, std::uint32_t count);
     void draw(const Draw& item, std::uint32_t first, std::uint32_t count);
     void drawRuns(const Draw& item, GLenum mode, std::uint32_t first, std::uint32_t count);
 
@@ -103,7 +110,10 @@ private:
     std::vector<GpuPoses> poses_;  // as many as objects
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
-    std::vector<Draw> blended_;
+    std::vector<Draw> translucent_;  // alpha-blended or transmitting, the farthest first
+    std::size_t transmittingObjects_ = 0;
+    bool blursBackdrop_ = false;  // some transmitting surface is rough
+    Backdrop backdrop_;
 };
 
 }  // namespace defocus

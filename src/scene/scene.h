@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -62,7 +63,55 @@ struct Material {
     float alphaCutoff = 0.5f;  // AlphaMode::mask
     bool doubleSided = false;
     bool unlit = false;  // KHR_materials_unlit
+
+    // KHR_materials_ior and KHR_materials_specular, of what isn't metal.
+    float ior = 1.5f;  // ≥ 1; 0: it mirrors everything
+    float specularFactor = 1.0f;
+    glm::vec3 specularColorFactor{1.0f};
+    TextureUse specular;       // linear; A
+    TextureUse specularColor;  // sRGB
+
+    // KHR_materials_transmission and KHR_materials_volume.
+    float transmissionFactor = 0.0f;
+    TextureUse transmission;       // linear; R
+    float thicknessFactor = 0.0f;  // object units along the refracted ray; 0: a thin wall, which doesn't refract
+    TextureUse thickness;          // linear; G
+    float attenuationDistance = std::numeric_limits<float>::infinity();  // scene units, to `attenuationColor`
+    glm::vec3 attenuationColor{1.0f};
+
+    // KHR_materials_clearcoat.
+    float clearcoatFactor = 0.0f;
+    float clearcoatRoughnessFactor = 0.0f;
+    float clearcoatNormalScale = 1.0f;
+    TextureUse clearcoat;           // linear; R
+    TextureUse clearcoatRoughness;  // linear; G
+    TextureUse clearcoatNormal;     // as `normal`; without one the coat is as smooth as the mesh
+
+    // KHR_materials_sheen.
+    glm::vec3 sheenColorFactor{0.0f};
+    float sheenRoughnessFactor = 0.0f;
+    TextureUse sheenColor;      // sRGB
+    TextureUse sheenRoughness;  // linear; A
+
+    // Shows what lies behind it.
+    [[nodiscard]] bool transmits() const { return !unlit && transmissionFactor > 0; }
+    // What isn't metal reflects otherwise than glTF's 4 %.
+    [[nodiscard]] bool hasOwnReflectance() const {
+        return !unlit && (ior != 1.5f || specularFactor != 1 || specularColorFactor != glm::vec3(1) ||
+                          specular.used() || specularColor.used());
+    }
+    [[nodiscard]] bool hasClearcoat() const { return !unlit && clearcoatFactor > 0; }
+    [[nodiscard]] bool hasSheen() const { return !unlit && sheenColorFactor != glm::vec3(0); }
 };
+
+inline constexpr std::size_t materialTextureCount = 14;
+
+// All textures of a material; the shaders (surface_shading.glsl) know them by these places.
+inline std::array<const TextureUse*, materialTextureCount> textureUses(const Material& m) {
+    return {&m.baseColor,          &m.metallicRoughness, &m.normal,       &m.occlusion,     &m.emissive,
+            &m.specular,           &m.specularColor,     &m.transmission, &m.thickness,     &m.clearcoat,
+            &m.clearcoatRoughness, &m.clearcoatNormal,   &m.sheenColor,   &m.sheenRoughness};
+}
 
 // ---- lights and surroundings --------------------------------------------------------------------
 

@@ -63,9 +63,7 @@ TEST(Info, jsonOfARealFile) {
     EXPECT_EQ(json["objects"], 4);
     EXPECT_EQ(json["materials"].size(), 3u);
     EXPECT_EQ(json["extensions"], nlohmann::json({"KHR_materials_transmission", "KHR_materials_volume"}));
-    ASSERT_EQ(json["ignored"].size(), 2u);
-    EXPECT_EQ(json["ignored"][0]["what"], "extension KHR_materials_transmission");
-    EXPECT_NE(json["ignored"][0]["reason"], "");
+    EXPECT_TRUE(json["ignored"].empty());
 }
 
 // A square, one of its triangles once more, one without area, and a fin on its diagonal.

@@ -28,7 +28,7 @@ std::unique_ptr<SmallWorld> quadsAt(const std::vector<double>& depths) {
 std::vector<std::string> warningsOf(const SmallWorld& small, std::uint32_t samples = 64) {
     RenderSettings settings;
     settings.sampleCount = samples;
-    return planWarnings(planFrame(small.world, small.view, settings), true);
+    return planWarnings(planFrame(small.world, small.view, settings), methodNamed("accumulation"));
 }
 
 double numberAfter(const std::string& text, const std::string& words) {
@@ -109,6 +109,24 @@ TEST(PlanWarnings, anObjectAroundTheCameraSaysNothingOfItsBlur) {
           glm::rotate(glm::scale(glm::dmat4(1), glm::dvec3(100)), 0.5 * std::numbers::pi, glm::dvec3(1, 0, 0)));
     EXPECT_TRUE(std::isinf(planFrame(small->world, small->view, {}).largestBlur));
     EXPECT_TRUE(warningsOf(*small).empty());
+}
+
+TEST(PlanWarnings, methodsThatDrawGlassOpaqueSaySo) {
+    const auto small = quadsAt({4, 8});
+    RenderSettings settings;
+    const auto linesOf = [&](const char* method) {
+        return planWarnings(planFrame(small->world, small->view, settings), methodNamed(method));
+    };
+    EXPECT_TRUE(linesOf("stochastic").empty());
+    small->scene.materials[0].unlit = false;
+    small->scene.materials[0].transmissionFactor = 1;
+    EXPECT_TRUE(linesOf("accumulation").empty());
+    EXPECT_TRUE(linesOf("multirate").empty());
+    for (const char* method : {"stochastic", "line"}) {
+        const std::vector<std::string> lines = linesOf(method);
+        ASSERT_EQ(lines.size(), 1u);
+        EXPECT_NE(lines[0].find("drawn opaque"), std::string::npos) << lines[0];
+    }
 }
 
 TEST(PlanWarnings, whatIsIgnoredIsNamedAndDamageIsNot) {

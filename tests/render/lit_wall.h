@@ -85,6 +85,8 @@ struct GltfSurface {
     glm::dvec3 baseColor{1.0};
     double metallic = 0;
     double roughness = 1;
+    glm::dvec3 dielectric{0.04};  // reflectance at normal incidence of what isn't metal
+    double grazing = 1;           // and along the surface
 };
 
 // f(l, v)·(n·l)₊ by the appendix's equations: Lambert, Schlick's Fresnel and GGX; the masking and shadowing by Hammon's
@@ -96,13 +98,17 @@ inline glm::dvec3 reflectedShare(const GltfSurface& surface, const glm::dvec3& n
     const glm::dvec3 h = glm::normalize(l + v);
     const double nh = glm::dot(n, h), vh = glm::dot(v, h);
     const double alpha = surface.roughness * surface.roughness;
-    const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), surface.baseColor, surface.metallic);
-    const glm::dvec3 fresnel = f0 + (1.0 - f0) * std::pow(1 - vh, 5);
+    const glm::dvec3 f0 = glm::mix(surface.dielectric, surface.baseColor, surface.metallic);
+    const double f90 = glm::mix(surface.grazing, 1.0, surface.metallic);
+    const glm::dvec3 fresnel = f0 + (f90 - f0) * std::pow(1 - vh, 5);
     const double spread = nh * nh * (alpha * alpha - 1) + 1;
     const double distribution = alpha * alpha / (std::numbers::pi * spread * spread);
     const double visibility = 0.5 / glm::mix(2 * nl * nv, nl + nv, alpha);
     const glm::dvec3 diffuse = surface.baseColor * (1 - surface.metallic) / std::numbers::pi;
-    return nl * ((1.0 - fresnel) * diffuse + fresnel * (distribution * visibility));
+    // KHR_materials_specular: a coloured reflection leaves what its strongest channel leaves.
+    const bool colored = surface.dielectric != glm::dvec3(surface.dielectric.r);
+    const glm::dvec3 reflected = colored ? glm::dvec3(std::max({fresnel.r, fresnel.g, fresnel.b})) : fresnel;
+    return nl * ((1.0 - reflected) * diffuse + fresnel * (distribution * visibility));
 }
 
 // Light on a point: illuminance across its own direction, and the unit direction towards it (KHR_lights_punctual).

@@ -1,7 +1,7 @@
 #pragma once
 // Holds what the surfaces of a scene's meshes look like, for the pictures that levels are judged by (picture.h). These
-// are glTF's metallic-roughness materials. The pictures leave out normal maps, occlusion maps and transparency, of full
-// detail and of levels alike.
+// are glTF's metallic-roughness materials. The pictures leave out normal maps, occlusion maps, transparency, coats and
+// sheen, of full detail and of levels alike.
 
 #include <cstddef>
 #include <cstdint>

@@ -20,7 +20,8 @@ namespace {
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
                          LayerFormat format) {
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
-                                     static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format);
+                                     static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format) *
+                                     (plan.usesTransmission ? 2 : 1);  // with the backdrop
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
@@ -39,7 +40,7 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        for (GpuTimer* timer : {&opaqueTimer_, &skyTimer_, &blendedTimer_, &sumTimer_}) timer->reset();
+        for (GpuTimer* timer : {&opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_}) timer->reset();
         prepareDraws();
     }
 
@@ -82,7 +83,7 @@ public:
         stats.layerFormat = layerFormatName(sum_->info().format);
         stats.passes = {{"opaque", opaqueTimer_.milliseconds()}};
         if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
-        if (surfaces_->hasBlended()) stats.passes.push_back({"blended", blendedTimer_.milliseconds()});
+        if (surfaces_->hasTranslucent()) stats.passes.push_back({"translucent", translucentTimer_.milliseconds()});
         stats.passes.push_back({"sum", sumTimer_.milliseconds()});
         return stats;
     }
@@ -116,9 +117,10 @@ private:
         sum_->reset();
     }
 
-    // Simpler skies are composed when layers are added.
+    // Simpler skies are composed when layers are added, unless something shows them through itself.
     [[nodiscard]] bool drawsSky() const {
-        return scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha;
+        const EnvironmentType type = scene_.world().environment.type;
+        return !plan_.needsAlpha && (type == EnvironmentType::map || plan_.usesTransmission);
     }
 
     static void timed(GpuTimer& timer, const auto& pass) {
@@ -133,7 +135,8 @@ private:
             surfaces_->drawOpaque(first, count);
         });
         if (drawsSky()) timed(skyTimer_, [&] { surfaces_->drawSky(first, count); });
-        if (surfaces_->hasBlended()) timed(blendedTimer_, [&] { surfaces_->drawBlended(first, count); });
+        if (surfaces_->hasTranslucent())
+            timed(translucentTimer_, [&] { surfaces_->drawTranslucent(first, count, sum_->layerColors()); });
         timed(sumTimer_, [&] { sum_->endWave(frame_, first, count); });
         for (const ObjectPlan& object : plan_.objects)
             for (const LevelDraw& draw : {object.coarse, object.fine}) {
@@ -152,7 +155,7 @@ private:
     std::optional<LayerSum> sum_;
     std::optional<SurfacePass> surfaces_;
     mutable FrameClock clock_;
-    mutable GpuTimer opaqueTimer_, skyTimer_, blendedTimer_, sumTimer_;
+    mutable GpuTimer opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
     RenderStats stats_;
 };
 

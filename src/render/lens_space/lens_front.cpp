@@ -152,7 +152,7 @@ void LensFront::addLevel(std::uint32_t objectIndex, const LevelDraw& level, std:
 }
 
 std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
-    ShaderDefines defines = surfaceDefines(*scene_, scene_->mesh(mesh), material, level, true);
+    ShaderDefines defines = surfaceDefines(*scene_, scene_->mesh(mesh), material, level, SurfaceLook::lit);
     const std::string key = keyOf(defines) + std::to_string(material);
     const auto [entry, isNew] = groupNumbers_.try_emplace(key, static_cast<std::uint32_t>(groups_.size()) + 1);
     if (isNew) groups_.push_back({std::move(defines), material});

@@ -40,7 +40,7 @@ void RecordShading::prepare(const FramePlan& plan, const LensFront& front, const
     std::vector<GpuMaterial> materials;
     for (const ShadedGroup& group : front.groups()) {
         groupPrograms_.push_back(&program(defines, group.defines));
-        materials.push_back(GpuScene::materialBlock(scene_->material(group.material)));
+        materials.push_back(scene_->materialBlock(group.material));
     }
     materials_ = UniformBlocks<GpuMaterial>(materials);
     groups_ = Buffer(groupPrograms_.size() * groupBytes);
@@ -86,9 +86,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         glUniform1ui(2, static_cast<GLuint>(i));
         glUniform1f(3, lensRadius_);
         if (i > 0) {
-            const GpuMaterialTextures& textures = scene_->textures(front.groups()[i - 1].material);
-            for (GLuint unit = 0; unit < 5; ++unit)
-                if (textures.slots[unit] != nullptr) textures.slots[unit]->attach(unit);
+            scene_->textures(front.groups()[i - 1].material).attach();
             materials_.bind(2, i - 1);
         }
         glDispatchComputeIndirect(static_cast<GLintptr>(i * dispatchBytes));

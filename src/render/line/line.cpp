@@ -245,6 +245,7 @@ Method lineMethod() {
     };
     return {.name = "line",
             .description = "lens space: lines through the lens for each pixel (Tzeng et al. 2012)",
+            .showsThrough = false,
             .drawsMotion = false,
             .settings = settings,
             .make = [settings](const World& world, const RendererOptions& options) {

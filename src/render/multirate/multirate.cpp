@@ -21,7 +21,8 @@ static_assert(rateBlock == blockSamples);
 std::uint32_t chosenSampleLayers(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
                                  LayerFormat format) {
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
-                                     static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format);
+                                     static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format) *
+                                     (plan.usesTransmission ? 2 : 1);  // with the backdrop
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * 2 / 3;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
@@ -65,7 +66,8 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        for (GpuTimer* timer : {&groupTimer_, &opaqueTimer_, &skyTimer_, &blendedTimer_, &sumTimer_}) timer->reset();
+        for (GpuTimer* timer : {&groupTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
+            timer->reset();
         prepareFrame();
     }
 
@@ -109,7 +111,8 @@ public:
         stats.layerFormat = layerFormatName(sum_->info().format);
         stats.passes = {{"groups", groupTimer_.milliseconds()}, {"opaque", opaqueTimer_.milliseconds()}};
         if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
-        if (samples_.surfaces->hasBlended()) stats.passes.push_back({"blended", blendedTimer_.milliseconds()});
+        if (samples_.surfaces->hasTranslucent())
+            stats.passes.push_back({"translucent", translucentTimer_.milliseconds()});
         stats.passes.push_back({"sum", sumTimer_.milliseconds()});
         return stats;
     }
@@ -161,9 +164,10 @@ private:
         sum_->reset();
     }
 
-    // Simpler skies are composed when layers are added.
+    // Simpler skies are composed when layers are added, unless something shows them through itself.
     [[nodiscard]] bool drawsSky() const {
-        return scene_.world().environment.type == EnvironmentType::map && !plan_.needsAlpha;
+        const EnvironmentType type = scene_.world().environment.type;
+        return !plan_.needsAlpha && (type == EnvironmentType::map || plan_.usesTransmission);
     }
 
     static void timed(GpuTimer& timer, const auto& pass) {
@@ -200,8 +204,8 @@ private:
             samples_.surfaces->drawOpaque(first, count);
         });
         if (drawsSky()) timed(skyTimer_, [&] { samples_.surfaces->drawSky(first, count); });
-        if (samples_.surfaces->hasBlended())
-            timed(blendedTimer_, [&] { samples_.surfaces->drawBlended(first, count); });
+        if (samples_.surfaces->hasTranslucent())
+            timed(translucentTimer_, [&] { samples_.surfaces->drawTranslucent(first, count, sum_->layerColors()); });
         timed(sumTimer_, [&] { sum_->endWave(samples_.frame, first, count); });
         stats_.trianglesDrawn += trianglesDrawn(samples_.plan, first, count);
     }
@@ -222,7 +226,7 @@ private:
     std::optional<LayerSum> sum_;
     std::optional<GroupLayers> groupLayers_;
     mutable FrameClock clock_;
-    mutable GpuTimer groupTimer_, opaqueTimer_, skyTimer_, blendedTimer_, sumTimer_;
+    mutable GpuTimer groupTimer_, opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
     RenderStats stats_;
 };
 

@@ -19,7 +19,7 @@ ShaderDefines definesOf(LayerFormat format) {
     return defines;
 }
 
-// Of every surface but the sky and what is blended: those leave the scale as it is.
+// Of every surface but the sky and what is translucent: those leave the scale as it is.
 void writeCocScales(bool on) {
     const GLboolean mask = on ? GL_TRUE : GL_FALSE;
     glColorMaski(1, mask, mask, mask, mask);
@@ -83,9 +83,9 @@ void PinholePass::draw(std::uint32_t index) {
     surfaces_.drawOpaque(index, 1);
     if (cocScale_) writeCocScales(false);
     surfaces_.drawSky(index, 1);
-    surfaces_.drawBlended(index, 1);
+    surfaces_.drawTranslucent(index, 1, color_);
     if (cocScale_) writeCocScales(true);
-    surfaces_.drawBlendedDepth(index, 1);
+    surfaces_.drawTranslucentDepth(index, 1);
 }
 
 }  // namespace defocus

@@ -83,6 +83,7 @@ private:
 Method stochasticMethod() {
     return {.name = "stochastic",
             .description = "lens space: points of its own for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
+            .showsThrough = false,
             .settings = {},
             .make = [](const World& world, const RendererOptions& options) {
                 return makeLensSpaceRenderer(world, options, std::make_unique<StochasticKernel>(options.shaderFolder));

@@ -1,5 +1,6 @@
 // glTF 2.0 specification, 3.8 (textures) and 3.9 (materials); KHR_texture_transform, KHR_materials_emissive_strength,
-// KHR_materials_unlit, KHR_materials_pbrSpecularGlossiness.
+// KHR_materials_unlit, KHR_materials_pbrSpecularGlossiness, and the layers KHR_materials_ior, _specular, _transmission,
+// _volume, _clearcoat and _sheen.
 #include "scene/gltf/material.h"
 
 #include <algorithm>
@@ -113,6 +114,62 @@ void readSpecularGlossiness(Source& source, const nlohmann::json& json, Material
     material.baseColor = textureUse(source, json, "diffuseTexture");
 }
 
+glm::vec3 colorOf(const nlohmann::json& json, const char* name, const glm::vec3& otherwise) {
+    return json.contains(name) ? glm::max(glm::vec3(colorOf(json, name)), 0.0f) : otherwise;
+}
+
+float shareOf(const nlohmann::json& json, const char* name, double otherwise) {
+    return std::clamp(numberOf(json, name, otherwise), 0.0f, 1.0f);
+}
+
+void readReflectance(Source& source, const nlohmann::json& json, Material& material) {
+    if (const nlohmann::json* ior = findExtension(json, "KHR_materials_ior")) {
+        const float index = numberOf(*ior, "ior", 1.5);
+        material.ior = index > 0 ? std::max(index, 1.0f) : 0.0f;
+    }
+    const nlohmann::json* specular = findExtension(json, "KHR_materials_specular");
+    if (specular == nullptr) return;
+    material.specularFactor = shareOf(*specular, "specularFactor", 1);
+    material.specularColorFactor = colorOf(*specular, "specularColorFactor", glm::vec3(1));
+    material.specular = textureUse(source, *specular, "specularTexture");
+    material.specularColor = textureUse(source, *specular, "specularColorTexture");
+}
+
+void readTransmission(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* transmission = findExtension(json, "KHR_materials_transmission");
+    if (transmission == nullptr) return;
+    material.transmissionFactor = shareOf(*transmission, "transmissionFactor", 0);
+    material.transmission = textureUse(source, *transmission, "transmissionTexture");
+    const nlohmann::json* volume = findExtension(json, "KHR_materials_volume");
+    if (volume == nullptr) return;
+    material.thicknessFactor = std::max(numberOf(*volume, "thicknessFactor", 0), 0.0f);
+    material.thickness = textureUse(source, *volume, "thicknessTexture");
+    material.attenuationColor = glm::min(colorOf(*volume, "attenuationColor", glm::vec3(1)), 1.0f);
+    const float distance = numberOf(*volume, "attenuationDistance", 0);
+    if (distance > 0) material.attenuationDistance = distance;
+}
+
+void readClearcoat(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* clearcoat = findExtension(json, "KHR_materials_clearcoat");
+    if (clearcoat == nullptr) return;
+    material.clearcoatFactor = shareOf(*clearcoat, "clearcoatFactor", 0);
+    material.clearcoatRoughnessFactor = shareOf(*clearcoat, "clearcoatRoughnessFactor", 0);
+    material.clearcoat = textureUse(source, *clearcoat, "clearcoatTexture");
+    material.clearcoatRoughness = textureUse(source, *clearcoat, "clearcoatRoughnessTexture");
+    material.clearcoatNormal = textureUse(source, *clearcoat, "clearcoatNormalTexture");
+    if (clearcoat->contains("clearcoatNormalTexture"))
+        material.clearcoatNormalScale = numberOf((*clearcoat)["clearcoatNormalTexture"], "scale", 1);
+}
+
+void readSheen(Source& source, const nlohmann::json& json, Material& material) {
+    const nlohmann::json* sheen = findExtension(json, "KHR_materials_sheen");
+    if (sheen == nullptr) return;
+    material.sheenColorFactor = glm::min(colorOf(*sheen, "sheenColorFactor", glm::vec3(0)), 1.0f);
+    material.sheenRoughnessFactor = shareOf(*sheen, "sheenRoughnessFactor", 0);
+    material.sheenColor = textureUse(source, *sheen, "sheenColorTexture");
+    material.sheenRoughness = textureUse(source, *sheen, "sheenRoughnessTexture");
+}
+
 AlphaMode alphaModeOf(const Source& source, const std::string& name, const std::string& label) {
     if (name == "OPAQUE") return AlphaMode::opaque;
     if (name == "MASK") return AlphaMode::mask;
@@ -149,6 +206,10 @@ Material readMaterial(Source& source, std::size_t index) {
     material.alphaCutoff = numberOf(json, "alphaCutoff", 0.5);
     material.doubleSided = json.value("doubleSided", false);
     material.unlit = findExtension(json, "KHR_materials_unlit") != nullptr;
+    readReflectance(source, json, material);
+    readTransmission(source, json, material);
+    readClearcoat(source, json, material);
+    readSheen(source, json, material);
     return material;
 }
 

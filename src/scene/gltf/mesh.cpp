@@ -105,9 +105,12 @@ std::vector<Group> groupPrimitives(Source& source, const tinygltf::Mesh& mesh, c
 
 // The texture coordinates of a normal map among the primitives, or −1 when none has a normal map.
 int normalMapUvSet(const std::vector<Primitive>& primitives, const std::vector<Material>& materials) {
-    for (const Primitive& primitive : primitives)
-        if (primitive.material >= 0 && materials[static_cast<std::size_t>(primitive.material)].normal.used())
-            return materials[static_cast<std::size_t>(primitive.material)].normal.uvSet;
+    for (const Primitive& primitive : primitives) {
+        if (primitive.material < 0) continue;
+        const Material& material = materials[static_cast<std::size_t>(primitive.material)];
+        for (const TextureUse* use : {&material.normal, &material.clearcoatNormal})
+            if (use->used()) return use->uvSet;
+    }
     return -1;
 }
 

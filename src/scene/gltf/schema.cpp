@@ -128,9 +128,35 @@ constexpr Property specularGlossinessProperties[] = {numbers("diffuseFactor", 4)
                                                      {"glossinessFactor", Kind::number},
                                                      object("specularGlossinessTexture", textureInfoProperties)};
 constexpr Property unlitProperties[] = {nameProperty};
-constexpr Property materialExtensions[] = {object("KHR_materials_emissive_strength", emissiveStrengthProperties),
+constexpr Property iorProperties[] = {{"ior", Kind::number}};
+constexpr Property specularProperties[] = {{"specularFactor", Kind::number},
+                                           object("specularTexture", textureInfoProperties),
+                                           numbers("specularColorFactor", 3),
+                                           object("specularColorTexture", textureInfoProperties)};
+constexpr Property transmissionProperties[] = {{"transmissionFactor", Kind::number},
+                                               object("transmissionTexture", textureInfoProperties)};
+constexpr Property volumeProperties[] = {{"thicknessFactor", Kind::number},
+                                         object("thicknessTexture", textureInfoProperties),
+                                         {"attenuationDistance", Kind::number},
+                                         numbers("attenuationColor", 3)};
+constexpr Property clearcoatProperties[] = {{"clearcoatFactor", Kind::number},
+                                            object("clearcoatTexture", textureInfoProperties),
+                                            {"clearcoatRoughnessFactor", Kind::number},
+                                            object("clearcoatRoughnessTexture", textureInfoProperties),
+                                            object("clearcoatNormalTexture", textureInfoProperties)};
+constexpr Property sheenProperties[] = {numbers("sheenColorFactor", 3),
+                                        object("sheenColorTexture", textureInfoProperties),
+                                        {"sheenRoughnessFactor", Kind::number},
+                                        object("sheenRoughnessTexture", textureInfoProperties)};
+constexpr Property materialExtensions[] = {object("KHR_materials_clearcoat", clearcoatProperties),
+                                           object("KHR_materials_emissive_strength", emissiveStrengthProperties),
+                                           object("KHR_materials_ior", iorProperties),
                                            object("KHR_materials_pbrSpecularGlossiness", specularGlossinessProperties),
-                                           object("KHR_materials_unlit", unlitProperties)};
+                                           object("KHR_materials_sheen", sheenProperties),
+                                           object("KHR_materials_specular", specularProperties),
+                                           object("KHR_materials_transmission", transmissionProperties),
+                                           object("KHR_materials_unlit", unlitProperties),
+                                           object("KHR_materials_volume", volumeProperties)};
 constexpr Property materialProperties[] = {nameProperty,
                                            object("pbrMetallicRoughness", metallicRoughnessProperties),
                                            object("normalTexture", textureInfoProperties),

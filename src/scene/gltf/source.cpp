@@ -15,25 +15,22 @@ namespace defocus::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> supportedExtensions = {
-    "EXT_camera_physical",
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "KHR_animation_pointer",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
+constexpr std::array<std::string_view, 17> supportedExtensions = {
+    "EXT_camera_physical",        "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",
+    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",        "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_volume",       "KHR_mesh_quantization",
     "KHR_texture_transform",
 };
 
 // What a person sees instead, for extensions that are often met.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> fallbackLooks = {{
-    {"KHR_materials_transmission", "not supported; drawn without transmission"},
-    {"KHR_materials_volume", "not supported; drawn without volume absorption"},
-    {"KHR_materials_clearcoat", "not supported; drawn without clear coat"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> fallbackLooks = {{
+    {"KHR_materials_iridescence", "not supported; drawn without iridescence"},
+    {"KHR_materials_anisotropy", "not supported; highlights are round"},
     {"KHR_materials_variants", "not supported; drawn in the default variant"},
     {"KHR_texture_basisu", "not supported; the texture's plain image is used where it has one"},
     {"EXT_texture_webp", "not supported; the texture's plain image is used where it has one"},

@@ -269,6 +269,49 @@ TEST(GltfMaterial, factorsAndModes) {
     EXPECT_TRUE(material.unlit);
 }
 
+TEST(GltfMaterial, layersOfTheExtensions) {
+    GltfBuilder builder;
+    const auto material = [](const nlohmann::json& extensions) -> nlohmann::json {
+        return {{"extensions", extensions}};
+    };
+    builder.json["extensionsRequired"] = {"KHR_materials_clearcoat",    "KHR_materials_ior",
+                                          "KHR_materials_sheen",        "KHR_materials_specular",
+                                          "KHR_materials_transmission", "KHR_materials_volume"};
+    builder.json["materials"] = {
+        material({{"KHR_materials_ior", {{"ior", 1.33}}},
+                  {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {2, 0.5, 0.25}}}}}),
+        material({{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
+                  {"KHR_materials_volume",
+                   {{"thicknessFactor", 2}, {"attenuationDistance", 3}, {"attenuationColor", {1, 0.5, 0.25}}}}}),
+        material({{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}}},
+                  {"KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.25, 1}}, {"sheenRoughnessFactor", 0.75}}}}),
+        material({{"KHR_materials_ior", {{"ior", 0}}}, {"KHR_materials_volume", {{"thicknessFactor", 1}}}}),
+        material({{"KHR_materials_transmission", nlohmann::json::object()},
+                  {"KHR_materials_clearcoat", nlohmann::json::object()},
+                  {"KHR_materials_sheen", nlohmann::json::object()},
+                  {"KHR_materials_specular", nlohmann::json::object()},
+                  {"KHR_materials_ior", nlohmann::json::object()}})};
+    const Scene scene = builder.load();
+    EXPECT_TRUE(scene.ignored.empty());
+    const std::vector<Material>& m = scene.materials;
+    EXPECT_EQ(m.at(0).ior, 1.33f);
+    EXPECT_EQ(m[0].specularFactor, 0.5f);
+    EXPECT_EQ(m[0].specularColorFactor, glm::vec3(2, 0.5f, 0.25f)) << "may be above 1";
+    EXPECT_TRUE(m[0].hasOwnReflectance());
+    EXPECT_EQ(m.at(1).transmissionFactor, 0.75f);
+    EXPECT_EQ(m[1].thicknessFactor, 2.0f);
+    EXPECT_EQ(m[1].attenuationDistance, 3.0f);
+    EXPECT_EQ(m[1].attenuationColor, glm::vec3(1, 0.5f, 0.25f));
+    EXPECT_EQ(m.at(2).clearcoatFactor, 0.5f);
+    EXPECT_EQ(m[2].clearcoatRoughnessFactor, 0.25f);
+    EXPECT_EQ(m[2].sheenColorFactor, glm::vec3(0.5f, 0.25f, 1));
+    EXPECT_EQ(m[2].sheenRoughnessFactor, 0.75f);
+    EXPECT_EQ(m.at(3).ior, 0.0f);
+    EXPECT_FALSE(m[3].transmits()) << "a volume without transmission";
+    const Material& plain = m.at(4);
+    EXPECT_FALSE(plain.transmits() || plain.hasClearcoat() || plain.hasSheen() || plain.hasOwnReflectance());
+}
+
 // Where both colours are greys there is a metallic-roughness material that reflects the same:
 // s = 0.04·(1 − m) + b·m and d·(1 − s) = (1 − 0.04)·b·(1 − m).
 TEST(GltfMaterial, specularGlossinessKeepsBothReflections) {

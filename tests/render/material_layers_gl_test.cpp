@@ -1,0 +1,199 @@
+// KHR_materials_ior, _specular, _clearcoat and _sheen: what a wall shows against their equations in double, and energy
+// in a white furnace.
+
+#include <gtest/gtest.h>
+
+#include "render/lit_wall.h"
+
+namespace defocus {
+namespace {
+
+using MaterialLayers = LitWall;
+
+Material material(const glm::vec3& base, float roughness) {
+    Material result;
+    result.baseColorFactor = glm::vec4(base, 1);
+    result.metallicFactor = 0;
+    result.roughnessFactor = roughness;
+    return result;
+}
+
+// Nothing of its own: black, and without reflections.
+Material nothing() {
+    Material result = material(glm::vec3(0), 1);
+    result.specularFactor = 0;
+    return result;
+}
+
+double reflectanceOf(double ior) {
+    return std::pow((ior - 1) / (ior + 1), 2);
+}
+
+// A furnace of light 1 around a wall whose normal has about this cosine to the view's axis.
+Image furnace(const Material& material, double cosine) {
+    auto small = litWall(material);
+    const glm::dmat4 turned = glm::rotate(small->world.pose.objects[0].worldFromObject, std::acos(cosine), {0, 1, 0});
+    small->world.pose.objects[0].worldFromObject = glm::scale(turned, glm::dvec3(1000));
+    small->world.environment.zenith = glm::vec3(1);
+    return wallImage(*small);
+}
+
+// By how much the pixels of a channel differ from `expected` at most.
+double farthestFrom(const Image& image, double expected) {
+    double most = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(image.at(x, y)[c] - expected));
+    return most;
+}
+
+void expectWall(const Material& material, const GltfSurface& surface, double share = 1) {
+    const auto small = litWall(material);
+    small->world.lights = {sunFrom(fromWall(*small, {0.4, -0.2, -1}), 3), sunFrom(fromWall(*small, {-2, 0.5, -1}), 5)};
+    const Image image = wallImage(*small);
+    for (const WallPoint& point : wallPoints(*small))
+        expectLitRadiance(image, point, share * litRadiance(surface, point, point.normal, small->world.lights),
+                          surface.roughness);
+}
+
+TEST_F(MaterialLayers, theIndexOfRefractionSetsTheReflectance) {
+    for (const double ior : {1.0, 1.33, 1.8, 2.42}) {
+        Material glossy = material({0.1f, 0.2f, 0.4f}, 0.4f);
+        glossy.ior = static_cast<float>(ior);
+        const GltfSurface surface{{0.1f, 0.2f, 0.4f}, 0, 0.4f, glm::dvec3(reflectanceOf(ior))};
+        expectWall(glossy, surface);
+    }
+    Material mirror = material(glm::vec3(1), 0.4f);
+    mirror.ior = 0;
+    expectWall(mirror, {glm::dvec3(1), 0, 0.4f, glm::dvec3(1)});
+}
+
+TEST_F(MaterialLayers, specularScalesAndColoursTheReflectance) {
+    Material weak = material({0.5f, 0.2f, 0.4f}, 0.3f);
+    weak.specularFactor = 0.25f;
+    expectWall(weak, {{0.5f, 0.2f, 0.4f}, 0, 0.3f, glm::dvec3(0.01), 0.25});
+    Material colored = material({0.5f, 0.2f, 0.4f}, 0.3f);
+    colored.specularColorFactor = {0.2f, 0.9f, 0.5f};
+    colored.ior = 2;
+    expectWall(colored, {{0.5f, 0.2f, 0.4f}, 0, 0.3f, reflectanceOf(2) * glm::dvec3(0.2f, 0.9f, 0.5f)});
+    colored.metallicFactor = 1;  // a metal has neither
+    expectWall(colored, {{0.5f, 0.2f, 0.4f}, 1, 0.3f});
+}
+
+TEST_F(MaterialLayers, aCoatReflectsAsTheStandardsDielectricOfItsOwnRoughness) {
+    Material coated = nothing();
+    coated.clearcoatFactor = 0.5f;
+    coated.clearcoatRoughnessFactor = 0.3f;
+    expectWall(coated, {glm::dvec3(0), 0, 0.3f}, 0.5);
+}
+
+// ((1.5 − 1)/(1.5 + 1))² = 0.04 of the light never reaches the base, and the furnace's other light does.
+TEST_F(MaterialLayers, aSmoothCoatThrowsBackFourPercentFromStraightAhead) {
+    Material coated = nothing();
+    coated.clearcoatFactor = 1;
+    const Image image = furnace(coated, 1);
+    EXPECT_NEAR(image.at(image.width / 2, image.height / 2)[0], 0.04, 0.01);
+    Material glowing = coated;
+    glowing.emissiveFactor = glm::vec3(1);
+    EXPECT_LT(farthestFrom(furnace(glowing, 1), 1), 1e-5) << "what the coat keeps from the glow it adds of the furnace";
+}
+
+constexpr float layerRoughnesses[] = {0, 0.1f, 0.3f, 0.6f, 1};
+constexpr double viewCosines[] = {1, 0.8, 0.5, 0.2};
+
+TEST_F(MaterialLayers, whiteLayersOnWhiteThrowBackAllOfTheLight) {
+    for (const float roughness : layerRoughnesses)
+        for (const double cosine : viewCosines) {
+            Material white = material(glm::vec3(1), roughness);
+            white.ior = 1.9f;
+            white.specularFactor = 0.7f;
+            EXPECT_LT(farthestFrom(furnace(white, cosine), 1), 1e-5) << roughness << ' ' << cosine;
+            white.clearcoatFactor = 0.8f;
+            white.clearcoatRoughnessFactor = 1 - roughness;
+            EXPECT_LT(farthestFrom(furnace(white, cosine), 1), 1e-5) << roughness << ' ' << cosine;
+            white.sheenColorFactor = glm::vec3(1);
+            white.sheenRoughnessFactor = roughness;
+            EXPECT_LT(farthestFrom(furnace(white, cosine), 1), 1e-5) << roughness << ' ' << cosine;
+        }
+}
+
+// ---- sheen --------------------------------------------------------------------------------------
+
+// Estevez and Kulla 2017, as KHR_materials_sheen prints it.
+double sheenLambda(double cosine, double alpha) {
+    const auto l = [&](double x) {
+        const double t = (1 - alpha) * (1 - alpha);
+        const auto between = [&](double rough, double smooth) { return rough + (smooth - rough) * t; };
+        const double a = between(21.5473, 25.3245), b = between(3.82987, 3.32435), c = between(0.19823, 0.16801);
+        const double d = between(-1.97760, -1.27393), e = between(-4.32054, -4.85967);
+        return a / (1 + b * std::pow(x, c)) + d * x + e;
+    };
+    return cosine < 0.5 ? std::exp(l(cosine)) : std::exp(2 * l(0.5) - l(1 - cosine));
+}
+
+double sheenOf(double nl, double nv, double nh, double roughness) {
+    const double alpha = roughness * roughness;
+    const double sine = std::sqrt(std::max(1 - nh * nh, 0.0));
+    const double distribution = (2 + 1 / alpha) * std::pow(sine, 1 / alpha) / (2 * std::numbers::pi);
+    const double visibility = 1 / ((1 + sheenLambda(nv, alpha) + sheenLambda(nl, alpha)) * 4 * nv * nl);
+    return distribution * std::min(visibility, 1.0);
+}
+
+// ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in √(n·l) and the azimuth.
+double sheenAlbedo(double nv, double roughness) {
+    constexpr int rings = 300, sectors = 300;
+    const double sv = std::sqrt(1 - nv * nv);
+    double sum = 0;
+    for (int i = 0; i < rings; ++i) {
+        const double root = (i + 0.5) / rings;
+        const double nl = root * root;
+        const double sl = std::sqrt(1 - nl * nl);
+        for (int j = 0; j < sectors; ++j) {
+            const double azimuth = std::numbers::pi * (j + 0.5) / sectors;
+            const glm::dvec3 h(sv + sl * std::cos(azimuth), sl * std::sin(azimuth), nv + nl);
+            sum += sheenOf(nl, nv, h.z / glm::length(h), roughness) * nl * 2 * root;
+        }
+    }
+    return sum * 2 * std::numbers::pi / rings / sectors;
+}
+
+TEST_F(MaterialLayers, sheenThrowsBackItsIntegralOfAFurnacesLight) {
+    for (const double roughness : {0.15, 0.3, 0.5, 0.75, 1.0})
+        for (const double cosine : {1.0, 0.7, 0.4}) {
+            Material velvet = nothing();
+            velvet.sheenColorFactor = glm::vec3(1);
+            velvet.sheenRoughnessFactor = static_cast<float>(roughness);
+            const Image image = furnace(velvet, cosine);
+            // Between the two pixels in the middle the view goes along the axis.
+            const double seen =
+                0.25 * (image.at(15, 11)[0] + image.at(16, 11)[0] + image.at(15, 12)[0] + image.at(16, 12)[0]);
+            EXPECT_NEAR(seen, sheenAlbedo(cosine, roughness), 0.012) << roughness << ' ' << cosine;
+        }
+}
+
+TEST_F(MaterialLayers, sheenUnderALightIsTheStandardsAndTakesFromTheBase) {
+    for (const double roughness : {0.2, 0.5, 0.9}) {
+        Material cloth = nothing();
+        cloth.baseColorFactor = {0.5f, 0.25f, 0.5f, 1};
+        cloth.sheenColorFactor = {0.25f, 0.5f, 0.125f};
+        cloth.sheenRoughnessFactor = static_cast<float>(roughness);
+        const auto small = litWall(cloth);
+        small->world.lights = {sunFrom(fromWall(*small, {1.5, -0.4, -1}), 4)};
+        const Image image = wallImage(*small);
+        const std::vector<WallPoint> points = wallPoints(*small);
+        for (std::size_t i = 0; i < points.size(); i += 101) {  // the integrals are slow
+            const WallPoint& point = points[i];
+            const glm::dvec3 l = -glm::normalize(small->world.lights[0].direction);
+            const double nl = glm::dot(point.normal, l), nv = glm::dot(point.normal, point.toEye);
+            const double nh = glm::dot(point.normal, glm::normalize(l + point.toEye));
+            const double left = 1 - 0.5 * std::max(sheenAlbedo(nv, roughness), sheenAlbedo(nl, roughness));
+            const glm::dvec3 expected = 4 * nl *
+                                        (glm::dvec3(cloth.baseColorFactor) * (left / std::numbers::pi) +
+                                         glm::dvec3(cloth.sheenColorFactor) * sheenOf(nl, nv, nh, roughness));
+            ASSERT_NO_FATAL_FAILURE(expectRadiance(image, point, expected, 0.01 * expected));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace defocus

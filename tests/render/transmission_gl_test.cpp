@@ -1,0 +1,223 @@
+// KHR_materials_transmission and _volume: energy, absorption and refraction against closed forms, through the
+// accumulation of lens samples.
+
+#include <gtest/gtest.h>
+
+#include "image/metrics.h"
+#include "render/lit_wall.h"
+
+namespace defocus {
+namespace {
+
+using Transmission = LitWall;
+
+Material glass(float roughness = 0) {
+    Material result;
+    result.metallicFactor = 0;
+    result.roughnessFactor = roughness;
+    result.transmissionFactor = 1;
+    return result;
+}
+
+// It reflects nothing.
+Material clear(const glm::vec3& tint = glm::vec3(1)) {
+    Material result = glass();
+    result.baseColorFactor = glm::vec4(tint, 1);
+    result.specularFactor = 0;
+    return result;
+}
+
+void light(SmallWorld& small) {
+    small.world.environment.zenith = glm::vec3(1);
+}
+
+double farthestFrom(const Image& image, const glm::dvec3& expected) {
+    double most = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(image.at(x, y)[c] - expected[c]));
+    return most;
+}
+
+TEST_F(Transmission, whatWhiteGlassDoesNotReflectItLetsThrough) {
+    for (const float roughness : {0.0f, 0.3f, 1.0f})
+        for (const float thickness : {0.0f, 0.2f})
+            for (const float share : {0.3f, 1.0f}) {
+                Material material = glass(roughness);
+                material.thicknessFactor = thickness;
+                material.transmissionFactor = share;
+                const auto small = litWall(material);
+                light(*small);
+                EXPECT_LT(farthestFrom(wallImage(*small), glm::dvec3(1)), 1e-5) << roughness << ' ' << thickness;
+            }
+}
+
+// Beer and Lambert: c^(d/D). The thickness grows with the object, the distance is the scene's.
+TEST_F(Transmission, aSlabAbsorbsByItsThickness) {
+    const glm::dvec3 color(0.5, 0.25, 1);
+    for (const double thickness : {0.1, 0.4})
+        for (const double scale : {1.0, 3.0})
+            for (const double metresPerUnit : {1.0, 0.01}) {
+                Material material = clear();
+                material.thicknessFactor = static_cast<float>(thickness);
+                material.attenuationColor = color;
+                material.attenuationDistance = static_cast<float>(0.5 / metresPerUnit);
+                const auto small = litWall(material);
+                light(*small);
+                small->scene.metresPerUnit = metresPerUnit;
+                glm::dmat4& placed = small->world.pose.objects[0].worldFromObject;
+                placed = glm::scale(placed, glm::dvec3(scale));
+                const glm::dvec3 expected = glm::pow(color, glm::dvec3(thickness * scale / 0.5));
+                EXPECT_LT(farthestFrom(wallImage(*small), expected), 1e-5) << thickness << ' ' << scale;
+            }
+}
+
+// A copy of the wall's quad, `depth` m before the camera, of another material.
+void addWall(SmallWorld& small, double depth, const Material& material, double scale = 1) {
+    small.scene.materials.push_back(material);
+    Mesh mesh = quad(static_cast<int>(small.scene.materials.size()) - 1);
+    mesh.vertices.colors = {
+        {0, 0.25f, 1, 1}, {1, 0.25f, 1, 1}, {1, 0.75f, 1, 1}, {0, 0.75f, 1, 1}};  // red grows along x
+    small.scene.meshes.push_back(std::move(mesh));
+    place(small, static_cast<int>(small.scene.meshes.size()) - 1,
+          glm::scale(glm::translate(small.view.worldFromCamera, glm::dvec3(0, 0, -depth)), glm::dvec3(scale)));
+    finish(small);
+}
+
+// The pixel shows what is seen where the refracted ray leaves the volume.
+TEST_F(Transmission, aVolumeShowsWhereItsRefractedRayLeaves) {
+    Material material = clear();
+    material.ior = 1.5f;
+    material.thicknessFactor = 0.5f;
+    const auto small = litWall(material);
+    const glm::dmat4 placed = glm::rotate(small->world.pose.objects[0].worldFromObject, 0.5, glm::dvec3(0, 1, 0));
+    small->world.pose.objects[0].worldFromObject = placed;
+    addWall(*small, 4, unlitMaterial(glm::vec4(1)), 2);
+    const Image image = wallImage(*small);
+    const glm::dmat4 cameraFromWorld = glm::inverse(small->view.worldFromCamera);
+    const glm::dvec3 normal(placed[2]);
+    int compared = 0;
+    for (const WallPoint& point : wallPoints(*small)) {
+        // Where the view's ray meets the tilted pane, which passes through the middle of the untilted one.
+        const glm::dvec3 eye(small->view.worldFromCamera[3]);
+        const double along = glm::dot(glm::dvec3(placed[3]) - eye, normal) / glm::dot(-point.toEye, normal);
+        const glm::dvec3 entry = eye - point.toEye * along;
+        const glm::dvec3 on = glm::dvec3(glm::inverse(placed) * glm::dvec4(entry, 1));
+        if (std::max(std::abs(on.x), std::abs(on.y)) > 0.95) continue;
+        const glm::dvec3 exit = entry + 0.5 * glm::refract(-point.toEye, normal, 1 / 1.5);
+        const glm::dvec3 seen(cameraFromWorld * glm::dvec4(exit, 1));
+        const double right = 4 * seen.x / -seen.z;  // on the wall behind, m
+        const double edge = 4 * 0.36 * (1 - 2.0 / image.width);
+        if (std::abs(right) > edge || std::abs(seen.y / seen.z) > 0.36 * 0.75 * 0.9) continue;
+        ASSERT_NEAR(image.at(point.x, point.y)[0], (right / 2 + 1) / 2, 2e-4) << point.x << ' ' << point.y;
+        ++compared;
+    }
+    EXPECT_GT(compared, 200);
+}
+
+// Also where a pane hides another and an alpha-blended surface stands between them, in whichever order the file has
+// them.
+TEST_F(Transmission, panesAndBlendedSurfacesBehindEachOtherAreAllSeen) {
+    for (const bool nearestFirst : {false, true}) {
+        const auto small = litWall(clear({1, 0.5f, 1}));
+        light(*small);
+        Material blended = unlitMaterial({0, 0, 0, 0.5f});
+        blended.alphaMode = AlphaMode::blend;
+        if (nearestFirst) addWall(*small, 1.5, clear({0.25f, 1, 1}), 2);
+        addWall(*small, 1.75, blended, 2);
+        if (!nearestFirst) addWall(*small, 1.5, clear({0.25f, 1, 1}), 2);
+        for (Mesh& mesh : small->scene.meshes) mesh.vertices.colors.clear();
+        finish(*small);
+        EXPECT_LT(farthestFrom(wallImage(*small), {0.125, 0.25, 0.5}), 1e-5) << nearestFirst;
+    }
+}
+
+// More of them than backdrops are copied.
+TEST_F(Transmission, behindManyPanesTheBackgroundIsStillSeen) {
+    const auto small = litWall(clear(glm::vec3(0.9f)));
+    light(*small);
+    for (int i = 1; i < 12; ++i) addWall(*small, 2 - 0.1 * i, clear(glm::vec3(0.9f)), 1);
+    for (Mesh& mesh : small->scene.meshes) mesh.vertices.colors.clear();
+    finish(*small);
+    EXPECT_LT(farthestFrom(wallImage(*small), glm::dvec3(std::pow(0.9, 9))), 1e-5)
+        << "the eight nearest, and one of the others";
+}
+
+Image drawnBy(const char* method, const SmallWorld& small, std::uint32_t samples) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::off;
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    return imageOf(*methodNamed(method).make(small.world, options), planFrame(small.world, small.view, settings));
+}
+
+// Through the lens: each sample shows its own background, and so does the pane. It stands before all spheres.
+TEST_F(Transmission, aPaneThatDoesNothingLeavesTheBlurAsItIs) {
+    for (const char* method : {"accumulation", "multirate"}) {
+        const auto without = fiveSpheres();
+        const auto with = fiveSpheres();
+        addWall(*with, 0.6, clear(), 2);
+        with->scene.meshes.back().vertices.colors.clear();
+        finish(*with);
+        const Image expected = drawnBy(method, *without, 64);
+        const Image image = drawnBy(method, *with, 64);
+        double most = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < 3; ++c)
+                    most = std::max<double>(most, std::abs(image.at(x, y)[c] - expected.at(x, y)[c]));
+        EXPECT_LT(most, 2e-5) << method;
+    }
+}
+
+TEST_F(Transmission, theBackgroundsCoverageIsKept) {
+    for (const float tint : {1.0f, 0.5f}) {
+        const auto small = litWall(clear(glm::vec3(tint)));
+        light(*small);
+        small->world.environment.visible = false;
+        const Image image = wallImage(*small);
+        EXPECT_NEAR(image.at(16, 12)[3], 1 - tint, 1e-5);
+        EXPECT_NEAR(image.at(16, 12)[0], 0, 1e-5);
+    }
+}
+
+struct Spread {
+    double mean = 0;
+    double deviation = 0;
+};
+
+Spread redOf(const Image& image) {
+    double sum = 0, squares = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            sum += image.at(x, y)[0];
+            squares += static_cast<double>(image.at(x, y)[0]) * image.at(x, y)[0];
+        }
+    const double count = image.width * image.height;
+    return {sum / count, std::sqrt(squares / count - sum * sum / count / count)};
+}
+
+// Red runs from one side to the other behind the pane: the rougher it is the less of that is left, and none of the
+// light is lost.
+TEST_F(Transmission, roughnessSpreadsWhatLiesBehindAndKeepsItsLight) {
+    double before = 1;
+    Spread smooth;
+    for (const float roughness : {0.0f, 0.2f, 0.4f, 0.8f}) {
+        Material material = clear();
+        material.roughnessFactor = roughness;
+        const auto small = litWall(material);
+        addWall(*small, 4, unlitMaterial(glm::vec4(1)), 2);
+        small->view.width = 64;
+        small->view.height = 64;
+        const Spread red = redOf(drawnBy("accumulation", *small, 64));
+        if (roughness == 0) smooth = red;
+        EXPECT_LT(red.deviation, before) << roughness;
+        EXPECT_NEAR(red.mean, smooth.mean, 0.02 * smooth.mean) << roughness;
+        before = red.deviation;
+    }
+    EXPECT_LT(before, 0.75 * smooth.deviation);
+}
+
+}  // namespace
+}  // namespace defocus
