@@ -15,6 +15,9 @@ layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[MOST_RAYS]; };   // of each ray over the variants: least u, k·v, most
 
 layout(location = 2) uniform uint firstTile;   // of those that the entries hold
+// The part of each tile's list that is held against the rays. Mesa's software driver ends the loops of a thread after 65,535 rounds in
+// all, so that long lists take several dispatches, each of which goes on where the one before ended.
+layout(location = 3) uniform uvec2 part;
 
 const uint threads = uint(TILE * TILE);
 #ifdef MOVING
@@ -59,10 +62,19 @@ void main() {
     vec2 tileLeast = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
     vec2 tileMost = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
 
-    float nearest = 3e38;
-    uint triangle = noTriangle;
     uint end = tileEnds[tile];
     uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
+    if (part.x > 0u && part.x >= end - first) return;
+    end = min(end, first + part.y);
+    first += part.x;
+    bool inside = all(lessThan(pixel, uvec2(imageSize)));
+    uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
+    float nearest = 3e38;
+    uint triangle = noTriangle;
+    if (part.x > 0u && inside && records[index].triangle != noTriangle) {
+        nearest = records[index].place;
+        triangle = records[index].triangle;
+    }
     for (uint base = first; base < end; base += threads) {
         if (gl_LocalInvocationIndex == 0u) keptCount = 0u;
         barrier();
@@ -103,7 +115,5 @@ void main() {
         }
         barrier();
     }
-    if (any(greaterThanEqual(pixel, uvec2(imageSize)))) return;
-    uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
-    records[index] = Record(triangle, index, 0.0, 1.0);
+    if (inside) records[index] = Record(triangle, index, nearest, 1.0);
 }

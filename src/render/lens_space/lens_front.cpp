@@ -4,12 +4,16 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "render/lens_space/record_buffer.h"
 
 namespace defocus {
 
 namespace {
 
 constexpr std::size_t clipBytes = 4 * sizeof(float);
+// Mesa's software driver ends the loops of a thread after 65,535 rounds in all.
+constexpr std::uint32_t mostTilesAtOnce = 50'000;   // of a triangle, which a thread walks over
+constexpr std::uint32_t mostSortedAtOnce = 65'536;  // triangles of a tile, which takes 136 · 256 rounds of a thread
 constexpr std::size_t attributeBytes = 20 * sizeof(float);  // of shaders/lens_space/vertex.vert
 
 // Where a level ends and the next begins, a boundary sample may be shared by both. A ray sees one of them.
@@ -22,19 +26,6 @@ std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coars
 std::uint32_t beginOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const bool shared = boundarySample(object).has_value();
     return !coarse && shared && object.boundaryShare >= 0.5 ? level.firstSample + 1 : level.firstSample;
-}
-
-std::uint64_t largestBuffer() {
-    GLint64 most = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    return static_cast<std::uint64_t>(most);
-}
-
-// A buffer that shaders read whole.
-Buffer storage(std::uint64_t bytes, const char* what) {
-    if (bytes > largestBuffer())
-        fail("{} take {} bytes; this driver's shaders read at most {} of one buffer", what, bytes, largestBuffer());
-    return Buffer(bytes);
 }
 
 void checkDrawable(const FramePlan& plan, const World& world, const std::string& method) {
@@ -81,7 +72,7 @@ LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool ordered, std:
     : scene_(&scene),
       tileSize_(tileSize),
       ordered_(ordered),
-      entryBytes_(std::min(entryBytes, largestBuffer())),
+      entryBytes_(std::min(entryBytes, largestStorage())),
       shaderFolder_(std::move(shaderFolder)),
       unused_({.format = TextureFormat::rgba8}),
       unusedTarget_({&unused_}) {
@@ -243,11 +234,7 @@ void LensFront::countTiles() {
     countProgram_.use();
     bindTriangles();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileCounts_.name());
-    glUniform2i(0, plan_.view.width, plan_.view.height);
-    glUniform1ui(1, triangleCount_);
-    glUniform1ui(2, 0);
-    glUniform1ui(3, tiles);
-    dispatchOver(triangleCount_);
+    binInto(0, tiles);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glGetNamedBufferSubData(tileCounts_.name(), 0, static_cast<GLsizeiptr>(tileCounts_.bytes()), counts.data());
 
@@ -293,18 +280,36 @@ void LensFront::fill(const TileBand& band) {
     fillProgram_.use();
     bindTriangles();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileCounts_.name());
+    binInto(band.first, band.end);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    if (ordered_) sort(band);
+}
+
+void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
     glUniform2i(0, plan_.view.width, plan_.view.height);
     glUniform1ui(1, triangleCount_);
-    glUniform1ui(2, band.first);
-    glUniform1ui(3, band.end);
-    dispatchOver(triangleCount_);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    if (!ordered_) return;
+    for (std::uint32_t first = firstTile; first < endTile; first += mostTilesAtOnce) {
+        glUniform1ui(2, first);
+        glUniform1ui(3, std::min(endTile - first, mostTilesAtOnce) + first);
+        dispatchOver(triangleCount_);
+    }
+}
+
+void LensFront::sort(const TileBand& band) {
     sortProgram_.use();
     bindTriangles();
     glUniform1ui(0, band.first);
-    glDispatchCompute(band.end - band.first, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    const auto dispatch = [&](std::uint32_t block, std::uint32_t step) {
+        glUniform2ui(1, block, step);
+        glDispatchCompute(band.end - band.first, 1, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    };
+    if (statistics_.largestTile <= mostSortedAtOnce) {
+        dispatch(0, 0);
+        return;
+    }
+    for (std::uint32_t block = 2; block / 2 < statistics_.largestTile; block *= 2)
+        for (std::uint32_t step = block / 2; step > 0; step /= 2) dispatch(block, step);
 }
 
 void LensFront::bindTriangles() const {

@@ -91,6 +91,8 @@ private:
                       float fraction);
     const Program& vertexProgram(const Vertices& vertices, bool attributes);
     void countTiles();
+    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // with the program and the buffers that are bound
+    void sort(const TileBand& band);
 
     GpuScene* scene_;
     std::uint32_t tileSize_;

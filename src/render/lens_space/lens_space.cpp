@@ -6,6 +6,7 @@
 #include "gl/read_back.h"
 #include "render/frame_clock.h"
 #include "render/lens_space/ray_sum.h"
+#include "render/lens_space/record_buffer.h"
 #include "render/lens_space/record_shading.h"
 
 namespace defocus {
@@ -109,9 +110,7 @@ private:
     [[nodiscard]] std::uint32_t wavesRays() const {
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
-        GLint64 largestBuffer = 0;
-        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largestBuffer);
-        const std::uint64_t bytes = std::min(options_.waveBytes, static_cast<std::uint64_t>(largestBuffer));
+        const std::uint64_t bytes = std::min(options_.waveBytes, largestStorage());
         const std::uint64_t most = std::max<std::uint64_t>(bytes / (pixels * kernel_->rayBytes()), 1);
         return static_cast<std::uint32_t>(std::min<std::uint64_t>({wave_ > 0 ? wave_ : most, most, blockSamples}));
     }
