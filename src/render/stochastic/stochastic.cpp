@@ -7,7 +7,7 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t pointTile = 16;                               // px
+constexpr std::uint32_t pointTile = 8;                               // px
 constexpr std::uint32_t mostEntries = 40'000;                         // of a tile's list that a dispatch walks over
 constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // of a wave
 
