@@ -14,7 +14,8 @@ constexpr std::size_t clipBytes = 4 * sizeof(float);
 // Mesa's software driver ends the loops of a thread after 65,535 rounds in all.
 constexpr std::uint32_t mostTilesAtOnce = 50'000;   // of a triangle, which a thread walks over
 constexpr std::uint32_t mostSortedAtOnce = 65'536;  // triangles of a tile, which takes 136 · 256 rounds of a thread
-constexpr std::size_t attributeBytes = 20 * sizeof(float);  // of shaders/lens_space/vertex.vert
+constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // of shaders/lens_space/shade_vertices.comp
+constexpr std::size_t attributeBytes = 20 * sizeof(float);   // of shaders/lens_space/vertex.vert
 
 // Where a level ends and the next begins, a boundary sample may be shared by both. A ray sees one of them.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
@@ -67,17 +68,20 @@ void dispatchOver(std::uint64_t count) {
     glDispatchCompute(static_cast<GLuint>(std::min(needed, most)), static_cast<GLuint>((needed + most - 1) / most), 1);
 }
 
-LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool ordered, std::uint64_t entryBytes,
-                     std::filesystem::path shaderFolder)
+LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool ordered, bool lightsVertices,
+                     std::uint64_t entryBytes, std::filesystem::path shaderFolder)
     : scene_(&scene),
       tileSize_(tileSize),
       ordered_(ordered),
+      lightsVertices_(lightsVertices),
       entryBytes_(std::min(entryBytes, largestStorage())),
       shaderFolder_(std::move(shaderFolder)),
       unused_({.format = TextureFormat::rgba8}),
       unusedTarget_({&unused_}) {
     if (ordered_) sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
-    trianglesProgram_ = Program({{"lens_space/triangles.comp"}, {}, shaderFolder_});
+    ShaderDefines defines;
+    if (lightsVertices_) defines.emplace_back("FIRST_TRIANGLES", "1");
+    trianglesProgram_ = Program({{"lens_space/triangles.comp"}, defines, shaderFolder_});
 }
 
 void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method) {
@@ -106,6 +110,10 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     clips_ = storage(std::uint64_t{vertexCount_} * clipBytes, "the frame's vertices");
     clipsAtEnd_ = moving ? Buffer(clips_.bytes()) : Buffer();
     attributes_ = storage(std::uint64_t{vertexCount_} * attributeBytes, "the attributes of the frame's vertices");
+    if (lightsVertices_) {
+        firstTriangles_ = Buffer(std::size_t{vertexCount_} * sizeof(std::uint32_t));
+        vertexLight_ = storage(std::uint64_t{vertexCount_} * vertexLightBytes, "the light of the frame's vertices");
+    }
     triangles_ = storage(std::uint64_t{triangleCount_} * 4 * sizeof(std::uint32_t), "the frame's triangles");
     makeTriangles();
 
@@ -153,6 +161,11 @@ std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
 void LensFront::makeTriangles() {
     trianglesProgram_.use();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, triangles_.name());
+    if (lightsVertices_) {
+        const GLuint none = ~0u;
+        glClearNamedBufferData(firstTriangles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
+    }
     std::uint32_t first = 0;
     for (const Run& run : runs_) {
         const ObjectPlan& object = plan_.objects[run.object];
@@ -325,10 +338,22 @@ void LensFront::bindAttributes() const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, attributes_.name());
 }
 
+void LensFront::bindVertexLight() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, vertexLight_.name());
+}
+
+void LensFront::bindVertices() const {
+    bindTriangles();
+    bindAttributes();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, draws_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, vertexLight_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, firstTriangles_.name());
+}
+
 std::size_t LensFront::bytes() const {
     std::size_t total = objects_.bytes();
-    for (const Buffer* buffer :
-         {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &tileCounts_, &tileEnds_, &entries_})
+    for (const Buffer* buffer : {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &firstTriangles_,
+                                 &vertexLight_, &tileCounts_, &tileEnds_, &entries_})
         total += buffer->bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
     return total;

@@ -24,14 +24,14 @@ public:
         clock_.beginSetup();
         plan_ = plan;
         if (!front_) {
-            front_.emplace(scene_, kernel_->tileSize(), kernel_->ordersTiles(), options_.waveBytes,
-                           options_.shaderFolder);
+            front_.emplace(scene_, kernel_->tileSize(), kernel_->ordersTiles(), kernel_->lightsVertices(),
+                           options_.waveBytes, options_.shaderFolder);
             shading_.emplace(scene_, options_.shaderFolder);
         }
         scene_.prepare(plan_);
         frame_.upload(scene_.world(), plan_, 1);
         front_->prepare(plan_, frame_, kernel_->name());
-        const RaySets sets = kernel_->raySets(plan_);
+        const RaySets sets = kernel_->raySets(plan_, front_->parts());
         rays_ = Buffer::of(std::span<const GpuRay>(sets.table));
         ShaderDefines rayDefines = kernel_->rayDefines();
         rayDefines.emplace_back("VARIANTS", std::to_string(sets.variants) + "u");
@@ -52,7 +52,11 @@ public:
         RayWave wave = nextWave(first, total);
         clock_.beginWave();
         const std::uint32_t part = partOf(first, total);
-        if (part_ != part) front_->pose(part);
+        frame_.bind(first);
+        if (part_ != part) {
+            front_->pose(part);
+            shading_->shadeVertices(*front_);
+        }
         part_ = part;
         frame_.bind(first);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, rays_.name());
@@ -145,6 +149,13 @@ private:
 };
 
 }  // namespace
+
+MethodSetting shadingSetting() {
+    return {.name = "shading",
+            .standard = "surfaces",
+            .description = "Surfaces are shaded where rays meet them, or at their vertices, as published",
+            .choices = {"surfaces", "vertices"}};
+}
 
 std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,
                                                 std::unique_ptr<VisibilityKernel> kernel) {

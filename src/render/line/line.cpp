@@ -51,6 +51,7 @@ public:
     explicit LineKernel(const RendererOptions& options)
         : shaderFolder_(options.shaderFolder),
           exact_(options.settings.at("resolve") == "exact"),
+          lightsVertices_(options.settings.at("shading") == "vertices"),
           turned_(options.settings.at("wheel") == "turned"),
           segments_(static_cast<std::uint32_t>(numberOf(options.settings, "segments"))),
           shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {
@@ -61,7 +62,10 @@ public:
     [[nodiscard]] std::string name() const override { return "line"; }
     [[nodiscard]] std::uint32_t tileSize() const override { return lineTile; }
     [[nodiscard]] bool ordersTiles() const override { return true; }
-    [[nodiscard]] RaySets raySets(const FramePlan& plan) const override { return lineSets(plan, turned_).sets; }
+    [[nodiscard]] bool lightsVertices() const override { return lightsVertices_; }
+    [[nodiscard]] RaySets raySets(const FramePlan& plan, std::uint32_t /*parts*/) const override {
+        return lineSets(plan, turned_).sets;
+    }
     [[nodiscard]] ShaderDefines rayDefines() const override { return {{"LINES", "1"}}; }
     [[nodiscard]] std::uint64_t rayBytes() const override { return 2 * expectedRecords * recordBytes; }
 
@@ -249,6 +253,7 @@ private:
 
     std::filesystem::path shaderFolder_;
     bool exact_;
+    bool lightsVertices_;
     bool turned_;
     std::uint32_t segments_;
     float shadingStep_;
@@ -287,6 +292,7 @@ Method lineMethod() {
          .choices = {},
          .least = 0,
          .most = 64},
+        shadingSetting(),
         {.name = "wheel",
          .standard = "turned",
          .description = "Lines that each pixel turns differently, or the same for all, as published",

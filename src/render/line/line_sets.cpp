@@ -97,7 +97,7 @@ LineSets lineSets(const FramePlan& plan, bool turned) {
     for (std::uint32_t line = 0; line < count; ++line) {
         float longest = 0;
         for (std::uint32_t variant = 0; variant < sets.variants; ++variant) {
-            const double turn = radicalInverse(2, variant) + 0.5 / sets.variants;
+            const double turn = (variant + 0.5) / sets.variants;
             const double angle = angleOfShare(sums, (order[line] + turn) / count);
             const double ahead = apertureRim(aperture, angle);
             const double behind = apertureRim(aperture, angle + std::numbers::pi);

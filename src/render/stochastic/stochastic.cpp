@@ -7,17 +7,21 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t pointTile = 8;                               // px
+constexpr std::uint32_t pointTile = 8;                                // px
 constexpr std::uint32_t mostEntries = 40'000;                         // of a tile's list that a dispatch walks over
 constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // of a wave
 
 class StochasticKernel final : public VisibilityKernel {
 public:
-    explicit StochasticKernel(std::filesystem::path shaderFolder) : shaderFolder_(std::move(shaderFolder)) {}
+    explicit StochasticKernel(const RendererOptions& options)
+        : shaderFolder_(options.shaderFolder), lightsVertices_(options.settings.at("shading") == "vertices") {}
 
     [[nodiscard]] std::string name() const override { return "stochastic"; }
     [[nodiscard]] std::uint32_t tileSize() const override { return pointTile; }
-    [[nodiscard]] RaySets raySets(const FramePlan& plan) const override { return pointRaySets(plan); }
+    [[nodiscard]] bool lightsVertices() const override { return lightsVertices_; }
+    [[nodiscard]] RaySets raySets(const FramePlan& plan, std::uint32_t parts) const override {
+        return pointRaySets(plan, parts);
+    }
     [[nodiscard]] ShaderDefines rayDefines() const override { return {}; }
     [[nodiscard]] std::uint64_t rayBytes() const override { return recordBytes; }
 
@@ -63,6 +67,7 @@ public:
 
 private:
     std::filesystem::path shaderFolder_;
+    bool lightsVertices_;
     glm::ivec2 imageSize_{0};
     std::vector<glm::vec4> bounds_;
     ShaderDefines defines_;
@@ -74,11 +79,14 @@ private:
 }  // namespace
 
 Method stochasticMethod() {
+    const std::vector<MethodSetting> settings = {shadingSetting()};
     return {.name = "stochastic",
             .description = "lens space: points of its own for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
-            .settings = {},
-            .make = [](const World& world, const RendererOptions& options) {
-                return makeLensSpaceRenderer(world, options, std::make_unique<StochasticKernel>(options.shaderFolder));
+            .settings = settings,
+            .make = [settings](const World& world, const RendererOptions& options) {
+                RendererOptions complete = options;
+                complete.settings = completeSettings("stochastic", settings, options.settings);
+                return makeLensSpaceRenderer(world, complete, std::make_unique<StochasticKernel>(complete));
             }};
 }
 
