@@ -1,10 +1,13 @@
-// Puts each tile's triangles in the frame's order, whatever the order in which they were listed: bitonic sort (Batcher 1968) with
+// Puts each tile's triangles in order of their least depth, and in the frame's where that is equal, whatever the order in which they
+// were listed. What comes late is mostly hidden, and rays may be done before the end. Bitonic sort (Batcher 1968) with
 // mirrored first steps, so that all steps put the smaller first and what lies beyond the end can be left out.
 
 layout(local_size_x = 256) in;
 
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) coherent buffer EntryBlock { uint entries[]; };
+
+layout(std430, binding = 6) readonly buffer DepthBlock { uint depths[]; };
 
 layout(location = 0) uniform uint firstTile;
 layout(location = 1) uniform uvec2 only;   // a block and a step of it; 0: all. Mesa's software driver ends the loops of a thread after 65,535
@@ -13,7 +16,9 @@ layout(location = 1) uniform uvec2 only;   // a block and a step of it; 0: all. 
 void order(uint a, uint b) {
     uint p = entries[a];
     uint q = entries[b];
-    if (p <= q) return;
+    uint depthP = depths[p];
+    uint depthQ = depths[q];
+    if (depthP < depthQ || (depthP == depthQ && p <= q)) return;
     entries[a] = q;
     entries[b] = p;
 }

@@ -70,10 +70,13 @@ vec2 crossings(vec3 f) {
     return vec2(min(a, b), max(a, b));
 }
 
+// Whether anything as near as this may be visible.
+bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
+
 // Whether a segment may be visible anywhere. 1/w has its greatest value at one of its ends.
 bool mayChange(Interval interval, OnLine line) {
     if (!(interval.last > interval.first)) return false;
-    return max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)) >= hidden * (1.0 - 1e-5);
+    return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
 }
 
 bool changes(Interval interval, uint triangle, vec4 depth) {

@@ -54,6 +54,8 @@ bool mergedInto(uint i, vec4 segment, uint triangle) {
     return true;
 }
 
+bool maySee(float inverseDepth) { return true; }
+
 bool mayChange(Interval interval, OnLine line) { return interval.last > interval.first; }
 
 void addSegment(Interval interval, uint triangle, OnLine line) {

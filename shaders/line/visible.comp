@@ -49,6 +49,7 @@ shared uvec2 kept[mostKept];    // triangle, double-sided
 shared uint keptHere[2];        // a bit for each thread whose candidate is kept
 shared uint keptCount;
 shared uint nextBase;
+shared uint open;               // whether some line may still see what comes next
 shared uint halted;             // what some thread has left, of the two below
 
 const uint hasSegments = 1u;    // that are seen and not added yet
@@ -174,8 +175,15 @@ void keepMore(inout uint base, uint end, uint ray, vec2 tileLeast, vec2 tileMost
     if (gl_LocalInvocationIndex == 0u) {
         keptCount = min(count, mostKept);
         halted = 0u;
+        open = 0u;
     }
     barrier();
+}
+
+bool isOpen() {
+    if (keptCount == 0u) return true;
+    float least = min(min(keptCorners[0].z, keptCorners[1].z), keptCorners[2].z);
+    return least < frame.projection.z || maySee(1.0 / least);
 }
 
 OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
@@ -254,7 +262,15 @@ void main() {
     while (!finished) {
         uint first = base;
         keepMore(base, end, ray, tileLeast, tileMost);
-        if (status != jobHasSeen) sides = seenOfKept(direction, place, whole);
+        // The list goes from front to back: where all lines are covered by what is nearer, they are done.
+        if (isOpen()) atomicOr(open, 1u);
+        barrier();
+        if (open == 0u) {
+            sides = uvec4(0u);
+            base = end;
+        } else if (status != jobHasSeen) {
+            sides = seenOfKept(direction, place, whole);
+        }
         addSeen(sides, direction, place, whole);
         finished = base >= end;
         status = jobGoesOn;

@@ -28,6 +28,7 @@ const uint stride = 3u;
 shared vec4 keptCorners[threads * stride];
 shared uvec2 kept[threads];   // triangle, double-sided
 shared uint keptCount;
+shared uint open;             // whether some ray may still meet what comes next
 
 // May the vertex move the triangle into the tile? Bounds of its places in px.
 void addPlaces(inout vec2 least, inout vec2 most, vec4 clip, vec4 lens) {
@@ -47,6 +48,15 @@ bool mayCover(vec4 corners[stride], vec4 lens, vec2 tileLeast, vec2 tileMost) {
         addPlaces(least, most, corners[i], lens);
     }
     return all(lessThanEqual(least, tileMost)) && all(greaterThanEqual(most, tileLeast));
+}
+
+float leastDepth(uint triangle) {
+    uvec4 vertices = triangles[triangle];
+    float least = min(min(clips[vertices.x].z, clips[vertices.y].z), clips[vertices.z].z);
+#ifdef MOVING
+    least = min(least, min(min(clipsAtEnd[vertices.x].z, clipsAtEnd[vertices.y].z), clipsAtEnd[vertices.z].z));
+#endif
+    return least;
 }
 
 void main() {
@@ -76,8 +86,15 @@ void main() {
         triangle = records[index].triangle;
     }
     for (uint base = first; base < end; base += threads) {
-        if (gl_LocalInvocationIndex == 0u) keptCount = 0u;
+        if (gl_LocalInvocationIndex == 0u) {
+            keptCount = 0u;
+            open = 0u;
+        }
         barrier();
+        // The list goes from front to back.
+        if (inside && nearest * (1.0 + 1e-5) >= leastDepth(entries[base])) atomicOr(open, 1u);
+        barrier();
+        if (open == 0u) break;
         uint at = base + gl_LocalInvocationIndex;
         if (at < end) {
             uint candidate = entries[at];

@@ -68,17 +68,16 @@ void dispatchOver(std::uint64_t count) {
     glDispatchCompute(static_cast<GLuint>(std::min(needed, most)), static_cast<GLuint>((needed + most - 1) / most), 1);
 }
 
-LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool ordered, bool lightsVertices,
-                     std::uint64_t entryBytes, std::filesystem::path shaderFolder)
+LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
+                     std::filesystem::path shaderFolder)
     : scene_(&scene),
       tileSize_(tileSize),
-      ordered_(ordered),
       lightsVertices_(lightsVertices),
       entryBytes_(std::min(entryBytes, largestStorage())),
       shaderFolder_(std::move(shaderFolder)),
       unused_({.format = TextureFormat::rgba8}),
       unusedTarget_({&unused_}) {
-    if (ordered_) sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
+    sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
     ShaderDefines defines;
     if (lightsVertices_) defines.emplace_back("FIRST_TRIANGLES", "1");
     trianglesProgram_ = Program({{"lens_space/triangles.comp"}, defines, shaderFolder_});
@@ -115,6 +114,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
         vertexLight_ = storage(std::uint64_t{vertexCount_} * vertexLightBytes, "the light of the frame's vertices");
     }
     triangles_ = storage(std::uint64_t{triangleCount_} * 4 * sizeof(std::uint32_t), "the frame's triangles");
+    depths_ = Buffer(std::size_t{triangleCount_} * sizeof(std::uint32_t));
     makeTriangles();
 
     ShaderDefines binDefines = defines_;
@@ -124,6 +124,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
         fillProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
         binDefines.emplace_back("COUNT", "1");
         countProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
+        depthsProgram_ = Program({{"lens_space/depths.comp"}, defines_, shaderFolder_});
     }
 }
 
@@ -189,7 +190,18 @@ void LensFront::pose(std::uint32_t part) {
     // What moves is lit as it is halfway.
     makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    makeDepths();
     countTiles();
+}
+
+void LensFront::makeDepths() {
+    frame_->bind(0);
+    depthsProgram_.use();
+    bindTriangles();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());
+    glUniform1ui(0, triangleCount_);
+    dispatchOver(triangleCount_);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
@@ -295,7 +307,7 @@ void LensFront::fill(const TileBand& band) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileCounts_.name());
     binInto(band.first, band.end);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    if (ordered_) sort(band);
+    sort(band);
 }
 
 void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
@@ -311,18 +323,21 @@ void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
 void LensFront::sort(const TileBand& band) {
     sortProgram_.use();
     bindTriangles();
+    GLint rays = 0;  // they share a binding with the depths
+    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());
     glUniform1ui(0, band.first);
     const auto dispatch = [&](std::uint32_t block, std::uint32_t step) {
         glUniform2ui(1, block, step);
         glDispatchCompute(band.end - band.first, 1, 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    if (statistics_.largestTile <= mostSortedAtOnce) {
+    if (statistics_.largestTile <= mostSortedAtOnce)
         dispatch(0, 0);
-        return;
-    }
-    for (std::uint32_t block = 2; block / 2 < statistics_.largestTile; block *= 2)
-        for (std::uint32_t step = block / 2; step > 0; step /= 2) dispatch(block, step);
+    else
+        for (std::uint32_t block = 2; block / 2 < statistics_.largestTile; block *= 2)
+            for (std::uint32_t step = block / 2; step > 0; step /= 2) dispatch(block, step);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, static_cast<GLuint>(rays));
 }
 
 void LensFront::bindTriangles() const {
@@ -352,7 +367,7 @@ void LensFront::bindVertices() const {
 
 std::size_t LensFront::bytes() const {
     std::size_t total = objects_.bytes();
-    for (const Buffer* buffer : {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &firstTriangles_,
+    for (const Buffer* buffer : {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &depths_, &firstTriangles_,
                                  &vertexLight_, &tileCounts_, &tileEnds_, &entries_})
         total += buffer->bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();

@@ -38,10 +38,10 @@ struct BinStatistics {
 
 class LensFront {
 public:
-    // `tileSize`: px. `ordered`: tiles list triangles in the frame's order. `lightsVertices`: whether vertices have
+    // `tileSize`: px. `lightsVertices`: whether vertices have
     // light of their own (RecordShading). `entryBytes`: the most memory for lists at once; beyond it the tiles come in
     // several bands.
-    LensFront(GpuScene& scene, std::uint32_t tileSize, bool ordered, bool lightsVertices, std::uint64_t entryBytes,
+    LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
               std::filesystem::path shaderFolder);
 
     // The triangles of `plan`. `frame` must outlive the drawing. Throws Error, naming the object, for what no method of
@@ -49,7 +49,7 @@ public:
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
     // Vertices and tiles in a part of the exposure: from moment `part` of the shutter to the next. 0 if nothing moves.
     void pose(std::uint32_t part);
-    // Fills the lists of a band, if they aren't yet.
+    // Fills the lists of a band, if they aren't yet: front to back.
     void fill(const TileBand& band);
     // Binds vertices, triangles, draws, ends of the tiles' lists and the lists as shaders/lens_space/ has them.
     void bindTriangles() const;
@@ -96,13 +96,13 @@ private:
     void makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
                       float fraction);
     const Program& vertexProgram(const Vertices& vertices, bool attributes);
+    void makeDepths();
     void countTiles();
     void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // with the program and the buffers that are bound
     void sort(const TileBand& band);
 
     GpuScene* scene_;
     std::uint32_t tileSize_;
-    bool ordered_;
     bool lightsVertices_;
     std::uint64_t entryBytes_;
     std::filesystem::path shaderFolder_;
@@ -111,7 +111,7 @@ private:
     ShaderDefines defines_;
     std::map<std::string, Program> programs_;
     ShaderDefines binDefines_;
-    Program trianglesProgram_, countProgram_, fillProgram_, sortProgram_;
+    Program trianglesProgram_, depthsProgram_, countProgram_, fillProgram_, sortProgram_;
     GlTexture unused_;  // drivers want a target even where nothing is rasterised
     Target unusedTarget_;
     UniformBlocks<GpuObject> objects_;
@@ -125,6 +125,7 @@ private:
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
     Buffer firstTriangles_, vertexLight_;  // where vertices have light of their own
+    Buffer depths_;                        // of triangles, by which lists are sorted
     Buffer tileCounts_, tileEnds_, entries_;
     std::vector<std::uint32_t> tilePlaces_;  // where each tile's list begins in its band
     std::vector<TileBand> bands_;

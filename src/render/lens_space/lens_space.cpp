@@ -24,8 +24,8 @@ public:
         clock_.beginSetup();
         plan_ = plan;
         if (!front_) {
-            front_.emplace(scene_, kernel_->tileSize(), kernel_->ordersTiles(), kernel_->lightsVertices(),
-                           options_.waveBytes, options_.shaderFolder);
+            front_.emplace(scene_, kernel_->tileSize(), kernel_->lightsVertices(), options_.waveBytes,
+                           options_.shaderFolder);
             shading_.emplace(scene_, options_.shaderFolder);
         }
         scene_.prepare(plan_);

@@ -20,8 +20,6 @@ public:
     virtual ~VisibilityKernel() = default;
     [[nodiscard]] virtual std::string name() const = 0;        // of the method
     [[nodiscard]] virtual std::uint32_t tileSize() const = 0;  // px
-    // Whether tiles must list their triangles in the frame's order.
-    [[nodiscard]] virtual bool ordersTiles() const { return false; }
     // Whether surfaces are shaded at their vertices, and interpolated, instead of where they are seen.
     [[nodiscard]] virtual bool lightsVertices() const = 0;
     // Throws Error for a plan that the method can't draw.

@@ -61,7 +61,6 @@ public:
 
     [[nodiscard]] std::string name() const override { return "line"; }
     [[nodiscard]] std::uint32_t tileSize() const override { return lineTile; }
-    [[nodiscard]] bool ordersTiles() const override { return true; }
     [[nodiscard]] bool lightsVertices() const override { return lightsVertices_; }
     [[nodiscard]] RaySets raySets(const FramePlan& plan, std::uint32_t /*parts*/) const override {
         return lineSets(plan, turned_).sets;
