@@ -22,6 +22,7 @@ vec2 lineSides;
 float lost = 0.0;
 uint lostSegments = 0u;
 uint merged = 0u;
+float hidden = 0.0;      // 1/w up to which a segment over all of the line hides everything
 
 uint slotOf(uint i) { return i * threads + gl_LocalInvocationIndex; }   // neighbours lie in neighbouring words
 
@@ -54,9 +55,14 @@ bool mergedInto(uint i, vec4 segment, uint triangle) {
     return true;
 }
 
-bool maySee(float inverseDepth) { return true; }
+// Whether anything as near as this may be visible.
+bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
 
-bool mayChange(Interval interval, OnLine line) { return interval.last > interval.first; }
+// Whether a segment may be visible anywhere. 1/w has its greatest value at one of its ends.
+bool mayChange(Interval interval, OnLine line) {
+    if (!(interval.last > interval.first)) return false;
+    return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
+}
 
 void addSegment(Interval interval, uint triangle, OnLine line) {
     if (!(interval.last > interval.first)) return;
@@ -68,6 +74,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     ownRounds += 3u * segmentCount;
     for (uint i = 0u; i < segmentCount; ++i)
         if (hides(segments[slotOf(i)], segment)) return;
+    if (segment.x <= -lineSides.x && segment.y >= 1.0) hidden = max(hidden, min(segment.z, segment.w));
     for (uint i = 0u; i < segmentCount;) {
         if (!hides(segment, segments[slotOf(i)])) {
             ++i;
@@ -155,13 +162,14 @@ uint walkRounds() {
     return parts * (4u * segmentCount + 2u + uint(MOST_SHADING_POINTS));
 }
 
-const uint stateSize = 2u + 3u * uint(SEGMENTS);
+const uint stateSize = 3u + 3u * uint(SEGMENTS);
 
 void saveLine(uint at) {
     ranges[at] = uvec2(segmentCount, lostSegments);
     ranges[at + 1u] = uvec2(floatBitsToUint(lost), merged);
+    ranges[at + 2u] = uvec2(floatBitsToUint(hidden), 0u);
     for (uint i = 0u; i < segmentCount; ++i) {
-        uint to = at + 2u + 3u * i;
+        uint to = at + 3u + 3u * i;
         vec4 segment = segments[slotOf(i)];
         ranges[to] = floatBitsToUint(segment.xy);
         ranges[to + 1u] = floatBitsToUint(segment.zw);
@@ -174,8 +182,9 @@ void loadLine(uint at) {
     lostSegments = ranges[at].y;
     lost = uintBitsToFloat(ranges[at + 1u].x);
     merged = ranges[at + 1u].y;
+    hidden = uintBitsToFloat(ranges[at + 2u].x);
     for (uint i = 0u; i < segmentCount; ++i) {
-        uint from = at + 2u + 3u * i;
+        uint from = at + 3u + 3u * i;
         segments[slotOf(i)] = vec4(uintBitsToFloat(ranges[from]), uintBitsToFloat(ranges[from + 1u]));
         segmentTriangles[slotOf(i)] = ranges[from + 2u].x;
     }

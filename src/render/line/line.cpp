@@ -177,7 +177,7 @@ private:
 
     // What a thread holds of a line between dispatches, as shaders/line/ has it.
     [[nodiscard]] std::size_t stateRanges() const {
-        return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 2 + 3 * std::size_t{segments_});
+        return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
     }
 
     // Lines of `wave`, of all tiles.
