@@ -94,10 +94,16 @@ RenderSettings settingsOf(std::uint32_t samples) {
     return settings;
 }
 
-RenderSettings byScore(std::uint32_t samples, LodMode mode) {
+RenderSettings byScore(std::uint32_t samples) {
     RenderSettings settings = settingsOf(samples);
-    settings.lod = mode;
+    settings.lod = LodMode::fractional;
     settings.metric = LodMetric::score;
+    return settings;
+}
+
+RenderSettings ofThreeLevels(std::uint32_t samples) {
+    RenderSettings settings = byScore(samples);
+    settings.lod = LodMode::nearest;
     settings.thresholds.blur = 0.25;  // of the preset tzeng2012
     return settings;
 }
@@ -207,8 +213,8 @@ void printFigure7(const std::string& model, int width, int height) {
             if (lines != 16 && share != tableBlur) continue;  // one of the two at a time
             const View view = blurredView(frame, share, true);
             const std::vector<Measured> all = measured(view, {{&frame, "line", settingsOf(lines)},
-                                                              {&frame, "line", byScore(lines, LodMode::fractional)},
-                                                              {&quarters, "line", byScore(lines, LodMode::nearest)}});
+                                                              {&frame, "line", byScore(lines)},
+                                                              {&quarters, "line", ofThreeLevels(lines)}});
             const auto& [full, levels, three] = std::tie(all[0], all[1], all[2]);
             fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.2f} | {:.4f} | {:.0f} | {:.2f} | {:.4f} |\n", lines, share,
                        full.milliseconds, levels.milliseconds, full.milliseconds / levels.milliseconds,

@@ -102,6 +102,7 @@ class Keywords(TypedDict, total=False):
     fields: Optional[Literal["separate", "combined"]]
     blend_bias: Optional[float]
     convolution: Optional[Literal["separable", "direct"]]
+    shading: Optional[Literal["surfaces", "vertices"]]
     resolve: Optional[Literal["exact", "published"]]
     segments: Optional[int]
     shading_step: Optional[int]
