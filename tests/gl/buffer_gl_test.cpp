@@ -7,6 +7,7 @@
 #include "gl/buffer.h"
 #include "gl/gl_test.h"
 #include "gl/texel_buffer.h"
+#include "gl_conduct.h"
 
 namespace defocus {
 namespace {
@@ -60,6 +61,7 @@ TEST_F(GlBuffer, livesAsLongAsItsLastOwner) {
 }
 
 TEST_F(GlBuffer, beyondMemoryIsAnErrorThatSaysHowMuch) {
+    const ExpectedGlMessages wrongOnPurpose;
     constexpr std::size_t bytes = std::size_t{1} << 60;
     try {
         const Buffer buffer(bytes);

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "gl/gl_test.h"
 #include "gl/program.h"
+#include "gl_conduct.h"
 
 namespace defocus {
 namespace {
@@ -61,6 +62,7 @@ TEST_F(GlProgram, theFoldersShaderReplacesTheEmbeddedOne) {
 }
 
 TEST_F(GlProgram, compileErrorsNameStageFileAndItsOwnLine) {
+    const ExpectedGlMessages wrongOnPurpose;
     writeShader("parts/long.glsl", std::string(20, '\n') + "const float tenth = 0.1;\n");
     const std::string broken = "#include \"parts/long.glsl\"\nout vec4 value;\nvoid main() {\nvalue = nowhere;\n}\n";
     writeShader("broken.frag", broken);

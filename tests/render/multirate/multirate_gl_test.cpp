@@ -12,6 +12,7 @@
 #include "plan/rates.h"
 #include "plan/sample_range.h"
 #include "render/methods.h"
+#include "render/multirate/partly_shared.h"
 #include "render/rendered.h"
 #include "small_world.h"
 
@@ -25,34 +26,6 @@ protected:
     static std::unique_ptr<GlContext> context_;
 };
 std::unique_ptr<GlContext> Multirate::context_;
-
-RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode::off) {
-    RenderSettings settings;
-    settings.sampleCount = samples;
-    settings.lod = lod;
-    if (lod != LodMode::off) settings.thresholds = {0.5, 2};
-    return settings;
-}
-
-Image drawnBy(const char* method, const SmallWorld& small, const RenderSettings& settings,
-              const RendererOptions& options = {}) {
-    return imageOf(*methodNamed(method).make(small.world, options), planFrame(small.world, small.view, settings));
-}
-
-// Some of the spheres share, and some don't.
-std::unique_ptr<SmallWorld> partlyShared() {
-    auto small = fiveSpheres();
-    small->view.lens.fStop = 1.2;
-    small->view.width = 120;
-    small->view.height = 90;
-    return small;
-}
-
-std::size_t sharingObjects(const SmallWorld& small, const RenderSettings& settings) {
-    const FramePlan plan = planFrame(small.world, small.view, settings);
-    return static_cast<std::size_t>(
-        std::ranges::count_if(frameRates(plan).objects, [](const ObjectRates& o) { return o.lensShare > 0; }));
-}
 
 // With every rate 1 it is the accumulation.
 TEST_F(Multirate, keepingEverythingGivesTheBitsOfAccumulation) {
@@ -68,9 +41,9 @@ TEST_F(Multirate, keepingEverythingGivesTheBitsOfAccumulation) {
 TEST_F(Multirate, waveSizeChangesNoBit) {
     const auto small = partlyShared();
     for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5})
-        for (const std::uint32_t samples : {64u, 100u, 200u}) {
+        for (const std::uint32_t samples : {64u, 200u}) {
             Image first;
-            for (const std::uint32_t k : {1u, 3u, 8u, 64u}) {
+            for (const std::uint32_t k : {1u, 3u, 64u}) {
                 RendererOptions options;
                 options.wave = k;
                 options.layerFormat = format;
@@ -295,39 +268,6 @@ TEST_F(Multirate, aBlurredLightKeepsItsEnergyAndItsSpread) {
     // gathers.
     const double expected = 2 * (c * c / 16 + side * side / 12 + 1.0 / 12);
     EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.1);
-}
-
-// What isn't drawn as an opaque surface, or is seen through a limited lens, keeps its place beside what is shared.
-TEST_F(Multirate, everyKindOfSurfaceAndLensStaysWhatItWas) {
-    const auto check = [](const SmallWorld& small, const char* what) {
-        const RenderSettings settings = ratedSettings(256);
-        EXPECT_GT(sharingObjects(small, settings), 0u) << what;
-        const Difference difference =
-            compareImages(drawnBy("accumulation", small, settings), drawnBy("multirate", small, settings));
-        EXPECT_LT(difference.rmse, 0.012) << what;
-        EXPECT_LT(std::abs(difference.mae), 0.004) << what;
-    };
-    auto small = partlyShared();
-    check(*small, "spheres");
-    Material glass = small->scene.materials[0];
-    glass.alphaMode = AlphaMode::blend;
-    glass.baseColorFactor = {1, 0.5f, 0.2f, 0.5f};
-    small->scene.materials.push_back(glass);
-    small->scene.meshes.push_back(bumpySphere(24, 16, 1));
-    place(*small, 1, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(0.1, 0, -2.6)), glm::dvec3(0.3)));
-    finish(*small);
-    check(*small, "glass");
-    auto map = std::make_shared<Image>(32, 16, 3);
-    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i % 7) / 7;
-    small->world.environment = {EnvironmentType::map, {}, {}, {}, map, 1};
-    check(*small, "map");
-    small->view.lens.focusTilt = 0.05;
-    check(*small, "tilt");
-    small->view.lens.catEye = 0.5;
-    check(*small, "cat's eye");
-    small->view.lens.catEye = 0;
-    small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};
-    check(*small, "transparent");
 }
 
 }  // namespace

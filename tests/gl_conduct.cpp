@@ -1,0 +1,208 @@
+// Watches what the tests of an executable ask of OpenGL, whichever part of the library asks:
+// - Every context is a debug context. What the driver reports with high or medium severity fails the test that ran.
+// Those
+//   that do wrong on purpose say so with ExpectedGlMessages (gl_conduct.h).
+// - Every shader is kept and, once all tests are done, given to Khronos's glslangValidator, which takes nothing that
+// isn't
+//   GLSL 4.50 core or an extension that the shader names. A driver may take more.
+//
+// - With DEFOCUS_EXPECTED_DRIVER in the environment all tests skip where another driver draws.
+//
+// libepoxy calls OpenGL and EGL through pointers. Those of a few functions lead here first.
+
+#include "gl_conduct.h"
+
+// epoxy before EGL's own headers
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "image/scratch_folder.h"
+
+namespace defocus {
+namespace {
+
+std::mutex mutex;
+int expected = 0;                                       // objects of ExpectedGlMessages that live
+std::set<std::pair<std::string, std::string>> shaders;  // extension of the stage, text
+std::map<GLuint, const char*> stages;                   // of the current shaders' names
+
+const char* extensionOf(GLenum stage) {
+    switch (stage) {
+        case GL_VERTEX_SHADER:
+            return "vert";
+        case GL_TESS_CONTROL_SHADER:
+            return "tesc";
+        case GL_TESS_EVALUATION_SHADER:
+            return "tese";
+        case GL_GEOMETRY_SHADER:
+            return "geom";
+        case GL_FRAGMENT_SHADER:
+            return "frag";
+        default:
+            return "comp";
+    }
+}
+
+// A pointer of libepoxy's that leads to `mine`, and what it held before. That is at first a function of libepoxy's own,
+// which must be called through the pointer: it looks up the driver's function and leaves it there.
+template <typename Function>
+class Detour {
+public:
+    Detour(Function& pointer, Function mine) : pointer_(pointer), mine_(mine), before_(pointer) { pointer_ = mine_; }
+
+    template <typename... Arguments>
+    auto call(Arguments... arguments) {
+        const std::scoped_lock lock(mutex_);
+        pointer_ = before_;
+        const Restored restored{*this};
+        return pointer_(arguments...);
+    }
+
+private:
+    struct Restored {
+        Detour& detour;
+        ~Restored() {
+            detour.before_ = detour.pointer_;
+            detour.pointer_ = detour.mine_;
+        }
+    };
+
+    std::mutex mutex_;
+    Function& pointer_;
+    Function mine_;
+    Function before_;
+};
+
+GLuint EPOXY_CALLSPEC createShader(GLenum stage);
+void EPOXY_CALLSPEC shaderSource(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths);
+EGLContext EPOXY_CALLSPEC createContext(EGLDisplay display, EGLConfig config, EGLContext share,
+                                        const EGLint* attributes);
+EGLBoolean EPOXY_CALLSPEC makeCurrent(EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context);
+
+Detour toCreateShader(epoxy_glCreateShader, &createShader);
+Detour toShaderSource(epoxy_glShaderSource, &shaderSource);
+Detour toCreateContext(epoxy_eglCreateContext, &createContext);
+Detour toMakeCurrent(epoxy_eglMakeCurrent, &makeCurrent);
+
+GLuint EPOXY_CALLSPEC createShader(GLenum stage) {
+    const GLuint shader = toCreateShader.call(stage);
+    const std::scoped_lock lock(mutex);
+    stages[shader] = extensionOf(stage);
+    return shader;
+}
+
+void EPOXY_CALLSPEC shaderSource(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths) {
+    {
+        const std::scoped_lock lock(mutex);
+        if (count == 1 && lengths == nullptr && expected == 0) shaders.emplace(stages[shader], texts[0]);
+    }
+    toShaderSource.call(shader, count, texts, lengths);
+}
+
+EGLContext EPOXY_CALLSPEC createContext(EGLDisplay display, EGLConfig config, EGLContext share,
+                                        const EGLint* attributes) {
+    std::vector<EGLint> all;
+    for (; *attributes != EGL_NONE; attributes += 2) all.insert(all.end(), {attributes[0], attributes[1]});
+    all.insert(all.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE, EGL_NONE});
+    return toCreateContext.call(display, config, share, static_cast<const EGLint*>(all.data()));
+}
+
+void EPOXY_CALLSPEC report(GLenum /*source*/, GLenum /*type*/, GLuint id, GLenum severity, GLsizei length,
+                           const GLchar* text, const void* /*user*/) {
+    if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) return;
+    const std::scoped_lock lock(mutex);
+    if (expected > 0) return;
+    ADD_FAILURE() << "OpenGL reports (" << id << "): "
+                  << std::string_view(
+                         text, length < 0 ? std::char_traits<char>::length(text) : static_cast<std::size_t>(length));
+}
+
+EGLBoolean EPOXY_CALLSPEC makeCurrent(EGLDisplay display, EGLSurface draw, EGLSurface read, EGLContext context) {
+    const EGLBoolean made = toMakeCurrent.call(display, draw, read, context);
+    if (made == EGL_TRUE && context != EGL_NO_CONTEXT) {
+        glEnable(GL_DEBUG_OUTPUT);
+        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+        glDebugMessageCallback(report, nullptr);
+    }
+    return made;
+}
+
+// What a command prints, and whether it went well.
+std::pair<std::string, bool> outputOf(const std::string& command) {
+    std::FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return {"popen failed", false};
+    std::string output;
+    std::array<char, 4096> buffer{};
+    for (std::size_t read = 0; (read = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        output.append(buffer.data(), read);
+    return {output, pclose(pipe) == 0};
+}
+
+class Conduct : public testing::Environment {
+public:
+    void SetUp() override {
+        const char* const driver = std::getenv("DEFOCUS_EXPECTED_DRIVER");
+        if (driver == nullptr) return;
+        std::string found = "no OpenGL";
+        try {
+            found = createHeadlessContext()->device();
+        } catch (const Error& error) {
+            found = error.what();
+        }
+        if (found.find(driver) == std::string::npos) GTEST_SKIP() << "skipped: no " << driver << " but " << found;
+    }
+
+    void TearDown() override {
+        if (shaders.empty()) return;
+        if (!outputOf("command -v glslangValidator").second) {
+            std::puts(
+                "glslangValidator isn't there (Debian: glslang-tools): no shader was held against GLSL 4.50 core");
+            return;
+        }
+        const ScratchFolder folder;
+        const std::string validate = "cd '" + folder.path().string() + "' && glslangValidator ";
+        std::map<std::string, const std::string*> files;
+        for (const auto& [extension, text] : shaders) {
+            const std::string name = std::to_string(files.size()) + '.' + extension;
+            std::ofstream(folder / name) << text;
+            files[name] = &text;
+        }
+        // All at once; one by one only to tell which is wrong.
+        if (!outputOf(validate + "*.*").second)
+            for (const auto& [name, text] : files) {
+                const auto [output, valid] = outputOf(validate + name);
+                EXPECT_TRUE(valid) << output << "The shader begins:\n" << text->substr(0, 400);
+            }
+        std::printf("%zu shaders held against GLSL 4.50 core\n", shaders.size());
+    }
+};
+
+[[maybe_unused]] const testing::Environment* const conduct = testing::AddGlobalTestEnvironment(new Conduct);
+
+}  // namespace
+
+ExpectedGlMessages::ExpectedGlMessages() {
+    const std::scoped_lock lock(mutex);
+    ++expected;
+}
+
+ExpectedGlMessages::~ExpectedGlMessages() {
+    const std::scoped_lock lock(mutex);
+    --expected;
+}
+
+}  // namespace defocus
