@@ -403,7 +403,7 @@ def lens_space_rows(columns):
     rows = []
     for line in lines_of("lens-space"):
         cells = [cell.strip() for cell in line.split("|")[1:-1]]
-        if len(cells) == columns and cells[-1][:1].isdigit():
+        if len(cells) == columns and cells[1].isdigit():
             rows.append([cells[0].removesuffix(".glb"), *(float(cell) for cell in cells[1:])])
     return rows
 
@@ -443,7 +443,7 @@ def lens_levels():
             for lines, blur, full, _, ours, our_error, _, three, three_error in measured]
     return table(["model", "lines", "blur, of the width", "full detail", "fractional levels: times as fast", "RMSE", "three levels: "
                   "times as fast", "RMSE"], rows) + source(
-        "defocus_lens_space_bench --size 160x160 --figure7 MODEL…", "scene, camera, light, image size, process, threshold of the "
+        "defocus_lens_space_bench --size 128x128 --figure7 MODEL…", "scene, camera, light, image size, process, threshold of the "
         "score; errors are against full detail with as many lines", "llvmpipe-lens-space.txt")
 
 
