@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 #include <numbers>
+#include <set>
 
 #include "core/error.h"
 #include "frame/prepared_frame.h"

@@ -50,8 +50,8 @@ double expectedSampleError(std::uint32_t sampleCount);
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 struct LevelQuery {
-    // Projected px per object unit: largestScale · W / (2 tan(θx/2) · z), z the nearest depth, or of scores the depth of
-    // the box's centre.
+    // Projected px per object unit: largestScale · W / (2 tan(θx/2) · z), z the nearest depth, or of scores the depth
+    // of the box's centre.
     double pixelsPerUnit = 0;
     double coc = 0;  // CoC diameter the object may rely on, px, ≥ 0
 };

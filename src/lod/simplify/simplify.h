@@ -34,7 +34,8 @@ struct SimplifyOptions {
     std::uint32_t leastTriangles = 64;  // halving ends here
     int mostLevels = 23;                // without level 0
     bool anchors = true;                // whether levels get them; a level without anchors can't be fitted
-    // Instead of halving: how much of the mesh's vertices each level keeps, shrinking; vertices at one position are one.
+    // Instead of halving: how much of the mesh's vertices each level keeps, shrinking; vertices at one position are
+    // one.
     std::vector<double> vertexShares = {};
 };
 
