@@ -62,7 +62,7 @@ def label_of(method, setting):
     if values.get("lod") == "off":
         words.append("full detail")
     elif "lod" in values:
-        by_error = {"error": " by error", "halving": " in steps of half"}.get(values.get("metric"), "")
+        by_error = {"error": " by error", "halving": " in steps of half", "score": " by score"}.get(values.get("metric"), "")
         words.append(f"{values['lod']} levels{by_error} ×{values.get('thresholds', '1')}")
     rest = [name + sign + value for name, sign, value in parts if name not in ("lod", "metric", "thresholds", "standard")]
     return ", ".join(words + [" ".join(rest)] if rest else words)

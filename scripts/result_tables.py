@@ -398,6 +398,56 @@ def parts():
 
 
 PRINTED = {"wave": "waves", "cluster": "clusters", "elision": "elisions", "post-process": "post-process"}
+def lens_space_rows(columns):
+    """The rows of the runs' tables with so many columns, as text and numbers."""
+    rows = []
+    for line in lines_of("lens-space"):
+        cells = [cell.strip() for cell in line.split("|")[1:-1]]
+        if len(cells) == columns and cells[1].isdigit():
+            rows.append([cells[0].removesuffix(".glb"), *(float(cell) for cell in cells[1:])])
+    return rows
+
+
+def lens_space():
+    rows = [[f"`{name}`", f"{triangles:,.0f}", f"{points / 1000:.2f} s", f"{lines / 1000:.2f} s", f"{ratio:.1f}", f"{buffered:.1f}",
+             f"{rmse:.4f}", f"{few:.4f}", f"{line:.4f}", f"{published:.4f}"]
+            for name, triangles, points, lines, ratio, _, buffered, rmse, line, published, few, *_ in lens_space_rows(14)]
+    return table(["model", "triangles", "256 points", "16 lines", "times as fast", "as published", "RMSE, 256 points", "64 points",
+                  "16 lines", "as published"], rows) + source(
+        "defocus_lens_space_bench --size 160x160 MODEL…", "scene, camera, light, image size, process; the blur of the most blurred "
+        "object is a tenth of the image's width; errors are against 1,600 samples of the accumulation", "llvmpipe-lens-space.txt")
+
+
+def strobes():
+    rows = [[f"`{row[0]}`", f"{row[8]:.4f}", f"{row[11]:.4f}", f"{row[12]:.4f}", f"{row[13]:.4f}"] for row in lens_space_rows(14)]
+    return table(["RMSE, 16 lines", "pixels, turned wheels", "pixels, one wheel", "8 × 8 px, turned wheels", "8 × 8 px, one wheel"],
+                 rows) + source("defocus_lens_space_bench --size 160x160 MODEL…", "as above", "llvmpipe-lens-space.txt")
+
+
+def lens_levels_of():
+    """Rows of each model of Figure 7."""
+    models = {}
+    for line in lines_of("lens-space"):
+        if ": milliseconds of line samples" in line:
+            rows = models.setdefault(line.split(".glb")[0], [])
+        cells = [cell.strip() for cell in line.split("|")[1:-1]]
+        if len(cells) == 9 and cells[0].isdigit():
+            rows.append([float(cell) for cell in cells])
+    return models
+
+
+def lens_levels():
+    rows = [[f"`{model}`", f"{lines:.0f}", f"{100 * blur:.0f} %", f"{full / 1000:.2f} s", f"{ours:.2f}", f"{our_error:.4f}",
+             f"{three:.2f}", f"{three_error:.4f}"]
+            for model, measured in lens_levels_of().items()
+            for lines, blur, full, _, ours, our_error, _, three, three_error in measured]
+    return table(["model", "lines", "blur, of the width", "full detail", "fractional levels: times as fast", "RMSE", "three levels: "
+                  "times as fast", "RMSE"], rows) + source(
+        "defocus_lens_space_bench --size 128x128 --figure7 MODEL…", "scene, camera, light, image size, process, threshold of the "
+        "score; errors are against full detail with as many lines", "llvmpipe-lens-space.txt")
+
+
 TABLES = {"speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
           "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "pyramids": pyramids, "truth": truth,
-          "stability": stability, "honesty": honesty, "sequences": sequences, "parts": parts}
+          "stability": stability, "honesty": honesty, "sequences": sequences, "parts": parts,
+          "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_levels}

@@ -35,6 +35,7 @@ enum class LodMetric {
     error,      // target deviation in px
     halving,    // target edge length in px, as if each level had exactly half the triangles (Jeong, Kim and Lee 2011)
     measured,   // target error of the light that a blur leaves, as a share of how it varies there
+    score,      // target edge length by blur alone, against the edges at the object's centre (Tzeng et al. 2012)
 };
 
 // What hides that a level is coarse. Benches ask for one alone; images need both.
@@ -48,6 +49,7 @@ enum class LodCause {
 enum class LevelVertices {
     fitted,     // vertices with positions, normals, colours and texture coordinates that are fitted to full detail
     surviving,  // vertices of full detail with their own values, as published
+    quarters,   // the same, but three levels alone, of 100, 75 and 50 % of the vertices (Tzeng et al. 2012)
 };
 
 // By size and by error the target is max(blur · c, size) px for a circle of confusion of c px. Measured levels err by
@@ -55,7 +57,7 @@ enum class LevelVertices {
 // samples, so that long renders converge to full detail.
 struct GivenThresholds {
     std::optional<double> blur = {};   // px a px of blur, ≥ 0
-    std::optional<double> size = {};   // px, ≥ 0
+    std::optional<double> size = {};   // px, ≥ 0; not of LodMetric::score
     std::optional<double> light = {};  // ≥ 0; of LodMetric::measured alone, which has neither of the others
 };
 

@@ -86,6 +86,8 @@ void main() {
     ivec2 from = max(ivec2(first), ivec2(0));
     ivec2 to = ivec2(last);
     int across = (imageSize.x + TILE - 1) / TILE;
+    from.y = max(from.y, int(firstTile) / across);
+    to.y = min(to.y, int(endTile - 1u) / across);
     for (int y = from.y; y <= to.y; ++y) {
         for (int x = from.x; x <= to.x; ++x) {
             uint tile = uint(y * across + x);

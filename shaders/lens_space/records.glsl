@@ -3,7 +3,7 @@
 struct Record {
     uint triangle;   // or noTriangle: the sky
     uint ray;        // (ray of the wave · height + y) · width + x
-    float place;     // along a line over the lens; 0 for a point
+    float place;     // along a line over the lens; the depth of what a point sees
     float weight;
 };
 

@@ -17,47 +17,21 @@ layout(location = 2) uniform uint group;
 layout(location = 3) uniform float lensRadius;   // m
 
 #ifndef SKY
-#include "include/shading.glsl"
-
-struct Attributes {
-    vec4 position;   // from the camera along the world's axes, m
-    vec4 normal;     // w: agreement
-    vec4 color;
-    vec4 uv;
-    vec4 tangent;
-};
-
-layout(std430, binding = 3) readonly buffer AttributeBlock { Attributes attributes[]; };
-
-struct Surface {
-    vec4 color;
-    vec3 normal;
-    vec3 toEye;
-    vec3 position;
-    vec4 uv;
-    vec4 tangent;
-    float agreement;
-    bool showsFront;
-    vec4 uvRight;       // where the same lens point sees it a pixel to the right, and one up
-    vec4 uvUp;
-    vec3 normalRight;
-    vec3 normalUp;
-} surface;
-
-#define SURFACE_TEXTURE(map, slot)                                                                                 \
-    textureGrad(map, uvOf(slot, surface.uv), uvOf(slot, surface.uvRight) - uvOf(slot, surface.uv),                 \
-                uvOf(slot, surface.uvUp) - uvOf(slot, surface.uv))
-#define SURFACE_SHOWS_FRONT surface.showsFront
-
-float surfaceFootprint(vec3 normal) {
-    vec3 right = normalize(surface.normalRight) - normal;
-    vec3 up = normalize(surface.normalUp) - normal;
-    return dot(right, right) + dot(up, up);
-}
-
-#include "include/surface_shading.glsl"
-
 vec3 barycentric(vec3 edges) { return edges / (edges.x + edges.y + edges.z); }
+
+#ifdef VERTEX_LIGHT
+layout(std430, binding = 3) readonly buffer LightBlock { vec4 lights[]; };   // of each vertex: of its front, of its back
+
+// What its vertices throw back, interpolated.
+vec4 surfaceLight(uvec3 vertices, Ray ray, vec2 lens, vec2 place) {
+    float time = ray.values.x;
+    vec3 edges = edgeFunctions(clipAt(vertices.x, time), clipAt(vertices.y, time), clipAt(vertices.z, time), lens, place);
+    vec3 here = barycentric(edges);
+    uvec3 at = 2u * vertices + (edges.x + edges.y + edges.z > 0.0 ? 0u : 1u);
+    return here.x * lights[at.x] + here.y * lights[at.y] + here.z * lights[at.z];
+}
+#else
+#include "lens_space/surface.glsl"
 
 vec4 surfaceLight(uvec3 vertices, Ray ray, vec2 lens, vec2 place) {
     float time = ray.values.x;
@@ -88,6 +62,7 @@ vec4 surfaceLight(uvec3 vertices, Ray ray, vec2 lens, vec2 place) {
     surface.toEye = mat3(frame.worldFromView) * vec3(eye, 0.0) - surface.position;
     return vec4(surfaceRadiance(texturedColor(surface.color).rgb), 1.0);
 }
+#endif
 #else
 
 // The sky lies infinitely far away, where C/w = b.

@@ -1,4 +1,5 @@
-// Puts each tile's triangles in the frame's order, whatever the order in which they were listed: bitonic sort (Batcher 1968) with
+// Puts each tile's triangles in order of their least depth, and in the frame's where that is equal, whatever the order in which they
+// were listed. What comes late is mostly hidden, and rays may be done before the end. Bitonic sort (Batcher 1968) with
 // mirrored first steps, so that all steps put the smaller first and what lies beyond the end can be left out.
 
 layout(local_size_x = 256) in;
@@ -6,12 +7,18 @@ layout(local_size_x = 256) in;
 layout(std430, binding = 4) readonly buffer TileBlock { uint tileEnds[]; };
 layout(std430, binding = 5) coherent buffer EntryBlock { uint entries[]; };
 
+layout(std430, binding = 6) readonly buffer DepthBlock { uint depths[]; };
+
 layout(location = 0) uniform uint firstTile;
+layout(location = 1) uniform uvec2 only;   // a block and a step of it; 0: all. Mesa's software driver ends the loops of a thread after 65,535
+                                           // rounds in all, which long lists need several dispatches for.
 
 void order(uint a, uint b) {
     uint p = entries[a];
     uint q = entries[b];
-    if (p <= q) return;
+    uint depthP = depths[p];
+    uint depthQ = depths[q];
+    if (depthP < depthQ || (depthP == depthQ && p <= q)) return;
     entries[a] = q;
     entries[b] = p;
 }
@@ -20,13 +27,14 @@ void main() {
     uint tile = firstTile + gl_WorkGroupID.x;
     uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
     uint count = tileEnds[tile] - first;
-    for (uint block = 2u; (block >> 1u) < count; block <<= 1u) {
-        for (uint step = block >> 1u; step > 0u; step >>= 1u) {
+    for (uint block = only.x > 0u ? only.x : 2u; (block >> 1u) < count; block <<= 1u) {
+        for (uint step = only.x > 0u ? only.y : block >> 1u; step > 0u; step >>= 1u) {
             bool mirrored = step == block >> 1u;
             for (uint i = gl_LocalInvocationID.x; i < count; i += 256u) {
                 uint partner = mirrored ? i ^ (block - 1u) : i ^ step;
                 if (partner > i && partner < count) order(first + i, first + partner);
             }
+            if (only.x > 0u) return;
             memoryBarrierBuffer();
             barrier();
         }

@@ -18,11 +18,17 @@ uint nextList = 0u;
 vec2 lineSides;
 float lost = 0.0;                 // light of pieces that found no room
 uint lostPieces = 0u;
+float hidden = 0.0;               // the least 1/w that is visible, if all of the line is covered
+float nextLeast = 1e30;           // of the new list
+bool nextHasGaps = false;
 
 void beginLine(vec2 sides) { lineSides = sides; }
 
+float pieceInverseDepth(vec4 depth, float p) { return (depth.x + p * depth.y) / (depth.z + p * depth.w); }
+
 void emitPiece(float first, float last, uint triangle, vec4 depth) {
     if (!(last > first)) return;
+    nextLeast = min(nextLeast, min(pieceInverseDepth(depth, first), pieceInverseDepth(depth, last)));
     if (nextCount > 0u) {
         uint previous = nextList + nextCount - 1u;
         if (pieceTriangles[previous] == triangle && pieceEnds[previous].y == first && pieceDepths[previous] == depth) {
@@ -30,6 +36,8 @@ void emitPiece(float first, float last, uint triangle, vec4 depth) {
             return;
         }
     }
+    float before = nextCount > 0u ? pieceEnds[nextList + nextCount - 1u].y : -lineSides.x;
+    nextHasGaps = nextHasGaps || before != first;
     if (nextCount == uint(SEGMENTS)) {
         lost += lightBetween(first, last, lineSides);
         ++lostPieces;
@@ -62,9 +70,19 @@ vec2 crossings(vec3 f) {
     return vec2(min(a, b), max(a, b));
 }
 
+// Whether anything as near as this may be visible.
+bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
+
+// Whether a segment may be visible anywhere. 1/w has its greatest value at one of its ends.
+bool mayChange(Interval interval, OnLine line) {
+    if (!(interval.last > interval.first)) return false;
+    return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
+}
+
 bool changes(Interval interval, uint triangle, vec4 depth) {
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount && cursor < interval.last; ++i) {
+        ++ownRounds;
         vec2 ends = pieceEnds[current + i];
         if (ends.y <= cursor) continue;
         if (ends.x > cursor) return true;
@@ -82,11 +100,14 @@ bool changes(Interval interval, uint triangle, vec4 depth) {
 
 void addSegment(Interval interval, uint triangle, OnLine line) {
     vec4 depth = vec4(line.sums, line.determinant);
-    if (!changes(interval, triangle, depth)) return;
+    if (!(interval.last > interval.first) || !changes(interval, triangle, depth)) return;
     nextList = uint(SEGMENTS) - current;
     nextCount = 0u;
+    nextLeast = 1e30;
+    nextHasGaps = false;
     float cursor = interval.first;
     for (uint i = 0u; i < pieceCount; ++i) {
+        ownRounds += 4u;   // with the three parts below
         vec2 ends = pieceEnds[current + i];
         vec4 otherDepth = pieceDepths[current + i];
         uint other = pieceTriangles[current + i];
@@ -122,6 +143,7 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     emitPiece(cursor, interval.last, triangle, depth);
     current = nextList;
     pieceCount = nextCount;
+    hidden = nextHasGaps || pieceEnds[current + pieceCount - 1u].y != 1.0 ? 0.0 : nextLeast;
 }
 
 // The piece at p, or the gap up to the next one.
@@ -137,6 +159,38 @@ Piece pieceFrom(uint index, float p, Interval whole) {
 Piece firstPiece(Interval whole) { return pieceFrom(0u, whole.first, whole); }
 
 Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.index, piece.last, whole); }
+
+// Rounds of the loops that walk over the line in the end, at most.
+uint walkRounds() { return (2u * pieceCount + 1u) * (2u + uint(MOST_SHADING_POINTS)); }
+
+const uint stateSize = 2u + 4u * uint(SEGMENTS);
+
+void saveLine(uint at) {
+    ranges[at] = uvec2(pieceCount, lostPieces);
+    ranges[at + 1u] = floatBitsToUint(vec2(lost, hidden));
+    for (uint i = 0u; i < pieceCount; ++i) {
+        uint to = at + 2u + 4u * i;
+        vec4 depth = pieceDepths[current + i];
+        ranges[to] = floatBitsToUint(pieceEnds[current + i]);
+        ranges[to + 1u] = floatBitsToUint(depth.xy);
+        ranges[to + 2u] = floatBitsToUint(depth.zw);
+        ranges[to + 3u] = uvec2(pieceTriangles[current + i], 0u);
+    }
+}
+
+void loadLine(uint at) {
+    pieceCount = ranges[at].x;
+    lostPieces = ranges[at].y;
+    lost = uintBitsToFloat(ranges[at + 1u].x);
+    hidden = uintBitsToFloat(ranges[at + 1u].y);
+    for (uint i = 0u; i < pieceCount; ++i) {
+        uint from = at + 2u + 4u * i;
+        pieceEnds[i] = uintBitsToFloat(ranges[from]);
+        pieceDepths[i] = vec4(uintBitsToFloat(ranges[from + 1u]), uintBitsToFloat(ranges[from + 2u]));
+        pieceTriangles[i] = ranges[from + 3u].x;
+    }
+    ownRounds += pieceCount / widestVector;
+}
 
 void countDropped() {
     if (lostPieces == 0u) return;

@@ -7,7 +7,8 @@ struct Piece {
     float first;
     float last;
     uint triangle;
-    uint unused;
+    float nextLast;      // of the part behind it, which another triangle shows
+    uint nextTriangle;
 };
 
 const float leastLight = 1.0 / 4096.0;       // of the line
@@ -21,6 +22,7 @@ vec2 lineSides;
 float lost = 0.0;
 uint lostSegments = 0u;
 uint merged = 0u;
+float hidden = 0.0;      // 1/w up to which a segment over all of the line hides everything
 
 uint slotOf(uint i) { return i * threads + gl_LocalInvocationIndex; }   // neighbours lie in neighbouring words
 
@@ -53,14 +55,26 @@ bool mergedInto(uint i, vec4 segment, uint triangle) {
     return true;
 }
 
+// Whether anything as near as this may be visible.
+bool maySee(float inverseDepth) { return inverseDepth >= hidden * (1.0 - 1e-5); }
+
+// Whether a segment may be visible anywhere. 1/w has its greatest value at one of its ends.
+bool mayChange(Interval interval, OnLine line) {
+    if (!(interval.last > interval.first)) return false;
+    return maySee(max(inverseDepth(line, interval.first), inverseDepth(line, interval.last)));
+}
+
 void addSegment(Interval interval, uint triangle, OnLine line) {
+    if (!(interval.last > interval.first)) return;
     vec4 segment = vec4(interval.first, interval.last, inverseDepth(line, interval.first), inverseDepth(line, interval.last));
     if (lightBetween(segment.x, segment.y, lineSides) < leastLight) {
         drop(segment);
         return;
     }
+    ownRounds += 3u * segmentCount;
     for (uint i = 0u; i < segmentCount; ++i)
         if (hides(segments[slotOf(i)], segment)) return;
+    if (segment.x <= -lineSides.x && segment.y >= 1.0) hidden = max(hidden, min(segment.z, segment.w));
     for (uint i = 0u; i < segmentCount;) {
         if (!hides(segment, segments[slotOf(i)])) {
             ++i;
@@ -96,43 +110,85 @@ void addSegment(Interval interval, uint triangle, OnLine line) {
     ++segmentCount;
 }
 
+struct Part {
+    float last;
+    uint triangle;
+};
+
 // What is nearest from p on, up to where another segment begins or this one ends.
-Piece partFrom(float p, Interval whole) {
+Part partFrom(float p, Interval whole) {
     float last = whole.last;
     for (uint i = 0u; i < segmentCount; ++i) {
         vec2 ends = segments[slotOf(i)].xy;
         if (ends.x > p) last = min(last, ends.x);
         else if (ends.y > p) last = min(last, ends.y);
     }
-    Piece piece = Piece(p, last, noTriangle, 0u);
+    uint triangle = noTriangle;
     float middle = 0.5 * (p + last);
     float nearest = 0.0;
     for (uint i = 0u; i < segmentCount; ++i) {
         vec4 segment = segments[slotOf(i)];
         if (segment.x > p || segment.y <= p) continue;
         float here = inverseDepthAt(segment, middle);
-        uint triangle = segmentTriangles[slotOf(i)];
-        if (here > nearest || (here == nearest && triangle < piece.triangle)) {
+        uint other = segmentTriangles[slotOf(i)];
+        if (here > nearest || (here == nearest && other < triangle)) {
             nearest = here;
-            piece.triangle = triangle;
+            triangle = other;
         }
     }
-    return piece;
+    return Part(last, triangle);
 }
 
-Piece pieceFrom(float p, Interval whole) {
-    Piece piece = partFrom(p, whole);
+// The piece that begins with a part; parts of one triangle are one piece.
+Piece pieceFrom(float p, Part part, Interval whole) {
+    Piece piece = Piece(p, part.last, part.triangle, part.last, noTriangle);
     while (piece.last < whole.last) {
-        Piece next = partFrom(piece.last, whole);
+        Part next = partFrom(piece.last, whole);
+        piece.nextLast = next.last;
+        piece.nextTriangle = next.triangle;
         if (next.triangle != piece.triangle || !(next.last > piece.last)) break;
         piece.last = next.last;
     }
     return piece;
 }
 
-Piece firstPiece(Interval whole) { return pieceFrom(whole.first, whole); }
+Piece firstPiece(Interval whole) { return pieceFrom(whole.first, partFrom(whole.first, whole), whole); }
 
-Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.last, whole); }
+Piece nextPiece(Piece piece, Interval whole) { return pieceFrom(piece.last, Part(piece.nextLast, piece.nextTriangle), whole); }
+
+// Rounds of the loops that walk over the line in the end, at most.
+uint walkRounds() {
+    uint parts = 2u * segmentCount + 1u;
+    return parts * (4u * segmentCount + 2u + uint(MOST_SHADING_POINTS));
+}
+
+const uint stateSize = 3u + 3u * uint(SEGMENTS);
+
+void saveLine(uint at) {
+    ranges[at] = uvec2(segmentCount, lostSegments);
+    ranges[at + 1u] = uvec2(floatBitsToUint(lost), merged);
+    ranges[at + 2u] = uvec2(floatBitsToUint(hidden), 0u);
+    for (uint i = 0u; i < segmentCount; ++i) {
+        uint to = at + 3u + 3u * i;
+        vec4 segment = segments[slotOf(i)];
+        ranges[to] = floatBitsToUint(segment.xy);
+        ranges[to + 1u] = floatBitsToUint(segment.zw);
+        ranges[to + 2u] = uvec2(segmentTriangles[slotOf(i)], 0u);
+    }
+}
+
+void loadLine(uint at) {
+    segmentCount = ranges[at].x;
+    lostSegments = ranges[at].y;
+    lost = uintBitsToFloat(ranges[at + 1u].x);
+    merged = ranges[at + 1u].y;
+    hidden = uintBitsToFloat(ranges[at + 2u].x);
+    for (uint i = 0u; i < segmentCount; ++i) {
+        uint from = at + 3u + 3u * i;
+        segments[slotOf(i)] = vec4(uintBitsToFloat(ranges[from]), uintBitsToFloat(ranges[from + 1u]));
+        segmentTriangles[slotOf(i)] = ranges[from + 2u].x;
+    }
+}
 
 void countDropped() {
     if (lostSegments > 0u) {

@@ -21,9 +21,10 @@ layout(std430, binding = 1) buffer OutputBlock {
     uint droppedSegments;
     uint droppedLight;      // in 1/1024 of a line
     uint mergedSegments;
-    uint unfinished;        // threads whose loops the driver ended
-    uint unused;
-    uvec2 ranges[];         // of each ray: its first record, their number
+    uint laterJobs;         // that are put off to other dispatches
+    uint unfinishedJobs;    // of those that this dispatch took up
+    uvec2 ranges[];         // of each ray: its first record, their number. Behind those of the wave lie the jobs that are put off, two each
+                            // (tile, ray; next entry, status), and behind them what the lines of those hold that are at work
 };
 struct Bounds {
     vec4 box;               // of the line over the variants: least u, k·v, most
@@ -34,12 +35,37 @@ layout(std140, binding = 7) uniform BoundBlock { Bounds lensBounds[MOST_RAYS]; }
 layout(location = 2) uniform uint firstTile;       // of those that the entries hold
 layout(location = 3) uniform uint recordCapacity;
 layout(location = 5) uniform float shadingStep;    // px that a surface moves under one shading point; 0: one for each segment
+// A job is what a group of threads does: a tile and a line of each of its pixels. Mesa's software driver ends the loops of a thread
+// after 65,535 rounds in all. There jobs that need more are put off, and go on from dispatch to dispatch.
+layout(location = 6) uniform uint mostRounds;      // of the loops in a dispatch, about; 0: any number
+layout(location = 7) uniform uvec4 jobs;           // x: 1 for jobs that were put off, 0 for all tiles and rays; y: the first of the dispatch
+                                                   // and z: where the states begin, both among the ranges; w: where jobs are put off to
 
 const uint threads = uint(TILE * TILE);
-shared vec4 keptCorners[threads * 3u];
-shared uvec2 kept[threads];   // triangle, double-sided
-shared uint keptHere[threads];   // whether the thread's candidate is kept
+const uint mostKept = 64u;
+const uint mostScans = 1024u;   // of as many entries as there are threads, before the segments of what was kept are added
+shared vec4 keptCorners[mostKept * 3u];
+shared uvec2 kept[mostKept];    // triangle, double-sided
+shared uint keptHere[2];        // a bit for each thread whose candidate is kept
 shared uint keptCount;
+shared uint nextBase;
+shared uint open;               // whether some line may still see what comes next
+shared uint halted;             // what some thread has left, of the two below
+
+const uint hasSegments = 1u;    // that are seen and not added yet
+const uint hasNoRounds = 2u;
+
+const uint jobIsNew = 0u;
+const uint jobGoesOn = 1u;      // with the triangles from the next entry on
+const uint jobHasSeen = 2u;     // the triangles from there on, and goes on with what of them isn't added yet
+const uint jobIsDone = 3u;
+
+// A driver's vector of threads walks a loop as often as that of its threads which needs most rounds.
+const uint widestVector = 16u;
+uint commonRounds = 0u;         // of loops that all threads walk alike
+uint ownRounds = 0u;
+
+bool hasRoundsFor(uint more, uint most) { return mostRounds == 0u || commonRounds + widestVector * ownRounds + more < most; }
 
 #ifdef EXACT
 #include "line/envelope.glsl"
@@ -104,9 +130,113 @@ uint writeRecords(uint at, uint ray, uint triangle, float p1, float p2, Ray mine
     return count;
 }
 
+// Keeps the next triangles of the tile that its lines may see, until they are enough or there was much to scan; all threads call it. They are in
+// the order of the list, whatever the threads' order: which segments a full buffer drops depends on it.
+void keepMore(inout uint base, uint end, uint ray, vec2 tileLeast, vec2 tileMost) {
+    uint count = 0u;
+    uint word = gl_LocalInvocationIndex >> 5u;
+    uint bit = 1u << (gl_LocalInvocationIndex & 31u);
+    for (uint scans = 0u; scans < mostScans && base < end && count < mostKept; ++scans) {
+        ++commonRounds;
+        if (gl_LocalInvocationIndex == 0u) {
+            keptHere[0] = 0u;
+            keptHere[1] = 0u;
+            nextBase = base + threads;
+        }
+        barrier();
+        uint at = base + gl_LocalInvocationIndex;
+        uvec2 candidate = uvec2(noTriangle, 0u);
+        vec4 corners[3];
+        if (at < end) {
+            uvec4 vertices = triangles[entries[at]];
+            Draw draw = draws[vertices.w];
+            for (int i = 0; i < 3; ++i) corners[i] = clips[vertices[i]];
+            if (firstRay + ray >= draw.firstRay && firstRay + ray < draw.endRay &&
+                mayCover(corners, lensBounds[ray], tileLeast, tileMost)) {
+                candidate = uvec2(entries[at], draw.doubleSided);
+                atomicOr(keptHere[word], bit);
+            }
+        }
+        barrier();
+        uint slot = count + bitCount(keptHere[word] & (bit - 1u)) + (word == 1u ? bitCount(keptHere[0]) : 0u);
+        count += bitCount(keptHere[0]) + bitCount(keptHere[1]);
+        if (candidate.x != noTriangle) {
+            if (slot < mostKept) {
+                kept[slot] = candidate;
+                for (uint i = 0u; i < 3u; ++i) keptCorners[slot * 3u + i] = corners[i];
+            } else {
+                atomicMin(nextBase, at);
+            }
+        }
+        barrier();
+        base = nextBase;
+        barrier();
+    }
+    if (gl_LocalInvocationIndex == 0u) {
+        keptCount = min(count, mostKept);
+        halted = 0u;
+        open = 0u;
+    }
+    barrier();
+}
+
+bool isOpen() {
+    if (keptCount == 0u) return true;
+    float least = min(min(keptCorners[0].z, keptCorners[1].z), keptCorners[2].z);
+    return least < frame.projection.z || maySee(1.0 / least);
+}
+
+OnLine keptOnLine(uint i, vec2 direction, vec2 place) {
+    return onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
+}
+
+// Which of the kept triangles the line sees, in bits: xy their fronts, zw their backs. Threads that know them all can add segments at the
+// same time, though it's different triangles that they see.
+uvec4 seenOfKept(vec2 direction, vec2 place, Interval whole) {
+    uvec4 sides = uvec4(0u);
+    for (uint i = 0u; i < keptCount; ++i) {
+        ++commonRounds;
+        OnLine line = keptOnLine(i, direction, place);
+        bool front = mayChange(seen(line, whole), line);
+        line = turned(line);
+        bool back = kept[i].y != 0u && mayChange(seen(line, whole), line);
+        uint bit = 1u << (i & 31u);
+        uvec2 word = i < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
+        if (front) sides.xy |= word;
+        if (back) sides.zw |= word;
+    }
+    return sides;
+}
+
+// Adds the segments of what is seen, as long as there are rounds; the rest stays in `sides`.
+void addSeen(inout uvec4 sides, vec2 direction, vec2 place, Interval whole) {
+    while (sides != uvec4(0u) && hasRoundsFor(0u, mostRounds)) {
+        ++ownRounds;
+        uvec2 either = sides.xy | sides.zw;
+        uint i = either.x != 0u ? uint(findLSB(either.x)) : 32u + uint(findLSB(either.y));
+        uint bit = 1u << (i & 31u);
+        uvec2 word = i < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
+        bool front = (sides.xy & word) != uvec2(0u);
+        OnLine line = keptOnLine(i, direction, place);
+        if (!front) line = turned(line);
+        addSegment(seen(line, whole), kept[i].x, line);
+        if (front) sides.xy &= ~word;
+        else sides.zw &= ~word;
+    }
+}
+
 void main() {
+    uint slot = gl_WorkGroupID.x;
+    uint job = jobs.y + 2u * slot;
     uint tile = firstTile + gl_WorkGroupID.x;
     uint ray = gl_WorkGroupID.y;
+    uint status = jobIsNew;
+    if (jobs.x != 0u) {
+        tile = ranges[job].x;
+        ray = ranges[job].y;
+        status = ranges[job + 1u].y;
+        if (status == jobIsDone) return;
+    }
     uint across = uint(imageSize.x + TILE - 1) / uint(TILE);
     uvec2 corner = uvec2(tile % across, tile / across) * uint(TILE);
     uvec2 pixel = corner + gl_LocalInvocationID.xy;
@@ -119,50 +249,60 @@ void main() {
     vec2 tileMost = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
 
     beginLine(mine.values.xy);
-    uint asked = 0u;   // triangles to be held against the line, and those that were
-    uint done = 0u;
-    uint seenBatches = 0u;
     uint end = tileEnds[tile];
-    uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
-    for (uint base = first; base < end; base += threads) {
-        ++seenBatches;
-        keptHere[gl_LocalInvocationIndex] = 0u;
-        uint at = base + gl_LocalInvocationIndex;
-        uvec4 vertices = uvec4(0u);
-        vec4 corners[3];
-        Draw draw;
-        if (at < end) {
-            vertices = triangles[entries[at]];
-            draw = draws[vertices.w];
-            for (int i = 0; i < 3; ++i) corners[i] = clips[vertices[i]];
-            if (firstRay + ray >= draw.firstRay && firstRay + ray < draw.endRay &&
-                mayCover(corners, lensBounds[ray], tileLeast, tileMost))
-                keptHere[gl_LocalInvocationIndex] = 1u;
-        }
-        // In the order of the list, whatever the threads' order: which segments a full buffer drops depends on it.
+    uint base = tile == firstTile ? 0u : tileEnds[tile - 1u];
+    uvec4 sides = uvec4(0u);
+    uint state = jobs.z + (slot * threads + gl_LocalInvocationIndex) * (2u + stateSize);
+    if (status != jobIsNew) {
+        base = ranges[job + 1u].x;
+        sides = uvec4(ranges[state], ranges[state + 1u]);
+        loadLine(state + 2u);
+    }
+    bool finished = false;
+    while (!finished) {
+        uint first = base;
+        keepMore(base, end, ray, tileLeast, tileMost);
+        // The list goes from front to back: where all lines are covered by what is nearer, they are done.
+        if (isOpen()) atomicOr(open, 1u);
         barrier();
-        uint before = 0u;
-        for (uint i = 0u; i < gl_LocalInvocationIndex; ++i) before += keptHere[i];
-        if (keptHere[gl_LocalInvocationIndex] != 0u) {
-            kept[before] = uvec2(entries[at], draw.doubleSided);
-            for (uint i = 0u; i < 3u; ++i) keptCorners[before * 3u + i] = corners[i];
+        if (open == 0u) {
+            sides = uvec4(0u);
+            base = end;
+        } else if (status != jobHasSeen) {
+            sides = seenOfKept(direction, place, whole);
         }
-        if (gl_LocalInvocationIndex == threads - 1u) keptCount = before + keptHere[gl_LocalInvocationIndex];
+        addSeen(sides, direction, place, whole);
+        finished = base >= end;
+        status = jobGoesOn;
+        if (mostRounds == 0u) continue;
+        if (sides != uvec4(0u)) atomicOr(halted, hasSegments);
+        else if (finished ? !hasRoundsFor(walkRounds(), 2u * mostRounds) : !hasRoundsFor(0u, mostRounds)) atomicOr(halted, hasNoRounds);
         barrier();
-        asked += keptCount;
-        for (uint i = 0u; i < keptCount; ++i) {
-            ++done;
-            OnLine line = onLine(keptCorners[3u * i], keptCorners[3u * i + 1u], keptCorners[3u * i + 2u], direction, place);
-            Interval interval = seen(line, whole);
-            if (interval.last > interval.first) addSegment(interval, kept[i].x, line);
-            if (kept[i].y != 0u) {
-                line = turned(line);
-                interval = seen(line, whole);
-                if (interval.last > interval.first) addSegment(interval, kept[i].x, line);
+        if ((halted & hasSegments) != 0u) {
+            base = first;
+            status = jobHasSeen;
+        }
+        if (halted == 0u) continue;
+
+        // Put the rest off.
+        bool putOff = jobs.x == 0u;
+        if (gl_LocalInvocationIndex == 0u) {
+            if (putOff) {
+                uint later = jobs.w + 2u * atomicAdd(laterJobs, 1u);
+                ranges[later] = uvec2(tile, ray);
+                ranges[later + 1u] = uvec2(0u, jobIsNew);
+            } else {
+                atomicAdd(unfinishedJobs, 1u);
+                ranges[job + 1u] = uvec2(base, status);
             }
         }
-        barrier();
+        if (putOff) return;
+        ranges[state] = sides.xy;
+        ranges[state + 1u] = sides.zw;
+        saveLine(state + 2u);
+        return;
     }
+    if (jobs.x != 0u && gl_LocalInvocationIndex == 0u) ranges[job + 1u].y = jobIsDone;
     if (any(greaterThanEqual(pixel, uvec2(imageSize)))) return;
     uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
 
@@ -173,8 +313,6 @@ void main() {
     uint at = atomicAdd(recordCount, needed);
     ranges[index] = uvec2(at, needed);
     countDropped();
-    uint batches = end > first ? (end - first - 1u) / threads + 1u : 0u;
-    if (done != asked || seenBatches != batches) atomicAdd(unfinished, 1u);
     if (at + needed > recordCapacity) return;   // the wave is drawn again with room for all
     for (Piece piece = firstPiece(whole); piece.last > piece.first; piece = nextPiece(piece, whole))
         at += writeRecords(at, index, piece.triangle, piece.first, piece.last, mine);

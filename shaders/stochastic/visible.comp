@@ -15,6 +15,9 @@ layout(std430, binding = 5) readonly buffer EntryBlock { uint entries[]; };
 layout(std140, binding = 7) uniform BoundBlock { vec4 lensBounds[MOST_RAYS]; };   // of each ray over the variants: least u, k·v, most
 
 layout(location = 2) uniform uint firstTile;   // of those that the entries hold
+// The part of each tile's list that is held against the rays. Mesa's software driver ends the loops of a thread after 65,535 rounds in
+// all, so that long lists take several dispatches, each of which goes on where the one before ended.
+layout(location = 3) uniform uvec2 part;
 
 const uint threads = uint(TILE * TILE);
 #ifdef MOVING
@@ -25,6 +28,7 @@ const uint stride = 3u;
 shared vec4 keptCorners[threads * stride];
 shared uvec2 kept[threads];   // triangle, double-sided
 shared uint keptCount;
+shared uint open;             // whether some ray may still meet what comes next
 
 // May the vertex move the triangle into the tile? Bounds of its places in px.
 void addPlaces(inout vec2 least, inout vec2 most, vec4 clip, vec4 lens) {
@@ -46,6 +50,15 @@ bool mayCover(vec4 corners[stride], vec4 lens, vec2 tileLeast, vec2 tileMost) {
     return all(lessThanEqual(least, tileMost)) && all(greaterThanEqual(most, tileLeast));
 }
 
+float leastDepth(uint triangle) {
+    uvec4 vertices = triangles[triangle];
+    float least = min(min(clips[vertices.x].z, clips[vertices.y].z), clips[vertices.z].z);
+#ifdef MOVING
+    least = min(least, min(min(clipsAtEnd[vertices.x].z, clipsAtEnd[vertices.y].z), clipsAtEnd[vertices.z].z));
+#endif
+    return least;
+}
+
 void main() {
     uint tile = firstTile + gl_WorkGroupID.x;
     uint ray = gl_WorkGroupID.y;
@@ -59,13 +72,29 @@ void main() {
     vec2 tileLeast = 2.0 * vec2(corner) / vec2(imageSize) - 1.0 - margin;
     vec2 tileMost = 2.0 * vec2(corner + uint(TILE)) / vec2(imageSize) - 1.0 + margin;
 
-    float nearest = 3e38;
-    uint triangle = noTriangle;
     uint end = tileEnds[tile];
     uint first = gl_WorkGroupID.x == 0u ? 0u : tileEnds[tile - 1u];
+    if (part.x > 0u && part.x >= end - first) return;
+    end = min(end, first + part.y);
+    first += part.x;
+    bool inside = all(lessThan(pixel, uvec2(imageSize)));
+    uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
+    float nearest = 3e38;
+    uint triangle = noTriangle;
+    if (part.x > 0u && inside && records[index].triangle != noTriangle) {
+        nearest = records[index].place;
+        triangle = records[index].triangle;
+    }
     for (uint base = first; base < end; base += threads) {
-        if (gl_LocalInvocationIndex == 0u) keptCount = 0u;
+        if (gl_LocalInvocationIndex == 0u) {
+            keptCount = 0u;
+            open = 0u;
+        }
         barrier();
+        // The list goes from front to back.
+        if (inside && nearest * (1.0 + 1e-5) >= leastDepth(entries[base])) atomicOr(open, 1u);
+        barrier();
+        if (open == 0u) break;
         uint at = base + gl_LocalInvocationIndex;
         if (at < end) {
             uint candidate = entries[at];
@@ -103,7 +132,5 @@ void main() {
         }
         barrier();
     }
-    if (any(greaterThanEqual(pixel, uvec2(imageSize)))) return;
-    uint index = (ray * uint(imageSize.y) + pixel.y) * uint(imageSize.x) + pixel.x;
-    records[index] = Record(triangle, index, 0.0, 1.0);
+    if (inside) records[index] = Record(triangle, index, nearest, 1.0);
 }

@@ -241,12 +241,12 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
             })
         ->default_str("off,fractional")
         ->group(group);
-    addList(
-        command, "--metrics", "size,error,halving,measured", options.metrics, "What levels are chosen by",
-        [](const std::string& part) {
-            constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving, LodMetric::measured};
-            return metrics[parseChoice(part, {"size", "error", "halving", "measured"})];
-        })
+    addList(command, "--metrics", "size,error,halving,measured,score", options.metrics, "What levels are chosen by",
+            [](const std::string& part) {
+                constexpr std::array metrics = {LodMetric::size, LodMetric::error, LodMetric::halving,
+                                                LodMetric::measured, LodMetric::score};
+                return metrics[parseChoice(part, {"size", "error", "halving", "measured", "score"})];
+            })
         ->default_str("measured")
         ->group(group);
     addNumbers(command, "--threshold-factors", options.thresholdFactors, {0, 1000}, "F,F,…",

@@ -22,6 +22,17 @@ std::span<const Preset> presets() {
           {"lodMetric", "halving"},
           {"lodCoc", "centre"},
           {"levelVertices", "surviving"}}},
+        // Tzeng and others 2012. What score a level begins at is ours, by the same threshold.
+        {"tzeng2012",
+         "Tzeng and others 2012 as published: line samples in a buffer of fixed size, the same for all pixels, each "
+         "segment shaded in its middle from the light of vertices; of three levels of 100, 75 and 50 % of the vertices "
+         "one by its score",
+         {{"method", "line:resolve=published,shading-step=0,shading=vertices,wheel=shared"},
+          {"lod", "nearest"},
+          {"blurThreshold", "0.25"},
+          {"lodMetric", "score"},
+          {"lodCoc", "smallest"},
+          {"levelVertices", "quarters"}}},
     };
     return all;
 }

@@ -38,11 +38,11 @@ bool sameRenderer(const Request& a, const Request& b) {
            sameSurroundings(a, b);
 }
 
-// The kinds of pyramids that a request may need: full detail alone, or levels of either sort of vertices.
-constexpr std::size_t pyramidKinds = 3;
+// The kinds of pyramids that a request may need: full detail alone, or levels of any sort of vertices.
+constexpr std::size_t pyramidKinds = 4;
 std::size_t pyramidKind(const Request& request) {
     if (request.settings.lod == LodMode::off) return 0;
-    return request.settings.levelVertices == LevelVertices::fitted ? 1 : 2;
+    return 1 + static_cast<std::size_t>(request.settings.levelVertices);
 }
 
 }  // namespace

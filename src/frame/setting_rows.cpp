@@ -509,18 +509,22 @@ Rows developerRows() {
                  {"size", LodMetric::size},
                  {"error", LodMetric::error},
                  {"halving", LodMetric::halving},
-                 {"measured", LodMetric::measured}},
+                 {"measured", LodMetric::measured},
+                 {"score", LodMetric::score}},
                 MEMBER(settings.metric),
                 "Levels are chosen by what the blur leaves of how they change the light (measured); by the projected "
                 "size of their edges, of their error, or of full detail's edges as if each level had exactly half the "
-                "triangles (halving). automatic: by size where one of its thresholds is given, else measured"),
+                "triangles (halving); or by how many edges at the object's centre the blur measures (score). "
+                "automatic: by size where one of its thresholds is given, else measured"),
             "/lodMetric"),
         inShot(choice<LevelVertices>(
                    "levelVertices", "--level-vertices",
-                   {{"fitted", LevelVertices::fitted}, {"surviving", LevelVertices::surviving}},
+                   {{"fitted", LevelVertices::fitted},
+                    {"surviving", LevelVertices::surviving},
+                    {"quarters", LevelVertices::quarters}},
                    MEMBER(settings.levelVertices),
                    "Coarser levels are fitted to full detail, or are made of those of its vertices that survive, as "
-                   "they are"),
+                   "they are; quarters: so made, and only two, of 75 and 50 % of the vertices"),
                "/levelVertices"),
         choice<bool>("lodCoc", "--lod-coc", {{"smallest", false}, {"centre", true}}, MEMBER(settings.lodCocAtCentre),
                      "The blur that an object may count on: the smallest over its box, or the one at its centre"),

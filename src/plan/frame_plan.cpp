@@ -34,6 +34,8 @@ void checkRequest(const View& view, const RenderSettings& settings) {
         fail("level-of-detail thresholds must be 0 or more");
     const LodMetric metric = chosenMetric(settings.metric, settings.thresholds);
     const bool measured = metric == LodMetric::measured;
+    if (metric == LodMetric::score && settings.thresholds.size)
+        fail("levels by score take a blur threshold alone (--blur-threshold)");
     if (measured ? settings.thresholds.blur || settings.thresholds.size : settings.thresholds.light.has_value())
         fail("levels by {} take {} alone", measured ? "measured error" : lodMetricName(metric),
              measured ? "a light threshold (--light-threshold)"
@@ -103,8 +105,8 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     if (plan.settings.metric == LodMetric::measured)
         return levelOfBlurredError(pyramid, blurredPatches(object, plan), plan.thresholds.light);
     LevelQuery query;
-    query.pixelsPerUnit =
-        largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * object.nearestDepth);
+    const double depth = plan.settings.metric == LodMetric::score ? -object.viewBox.centre().z : object.nearestDepth;
+    query.pixelsPerUnit = largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * depth);
     query.coc = plan.settings.lodCocAtCentre ? cocAtCentre(object, plan) : object.coc.smallest;
     LodThresholds thresholds = plan.thresholds;
     if (plan.settings.lodCause == LodCause::size) thresholds.blur = 0;

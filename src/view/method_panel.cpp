@@ -53,7 +53,7 @@ void levelSection(ViewState& state) {
         settingRow(request, "lightThreshold", fmt::format("{:.3g}", standard.light));
     } else {
         settingRow(request, "blurThreshold", fmt::format("{}", standard.blur));
-        settingRow(request, "sizeThreshold", fmt::format("{}", standard.size));
+        if (metric != LodMetric::score) settingRow(request, "sizeThreshold", fmt::format("{}", standard.size));
     }
     settingRow(request, "lodCoc");
 }

@@ -196,6 +196,7 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
         {"resolve", {{"--resolve", "published"}, joined(only("line"), {"--focus-distance", "1"})}},
         {"segments", {{"--segments", "2"}, joined(only("line"), {"--resolve", "published", "--focus-distance", "1"})}},
         {"shading-step", {{"--shading-step", "0"}, joined(only("line"), {"--focus-distance", "1"})}},
+        {"shading", {{"--shading", "vertices"}, joined(only("line"), {"--focus-distance", "1"})}},
         {"wheel", {{"--wheel", "shared"}, joined(only("line"), {"--focus-distance", "1"})}},
         {"coc", {{"--coc", "thin-lens"}, only("scheuermann")}},
         {"taps", {{"--taps", "24"}, only("scheuermann")}},

@@ -7,11 +7,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "core/error.h"
 #include "frame/prepared_frame.h"
 #include "frame/settings.h"
 #include "plan/frame_plan.h"
+#include "plan/object_pose.h"
 
 namespace defocus {
 namespace {
@@ -51,8 +53,39 @@ TEST(Presets, areLeftByAnotherValue) {
 }
 
 TEST(Presets, comeBeforeWhatTheySet) {
-    const auto place = [](std::string_view name) { return settingNamed(name) - settings().data(); };
-    for (const PresetValue& value : jeong().values) EXPECT_LT(place("preset"), place(value.setting)) << value.setting;
+    for (const Preset& preset : presets())
+        for (const PresetValue& value : preset.values)
+            EXPECT_LT(settingNamed("preset"), settingNamed(value.setting)) << preset.name << " " << value.setting;
+}
+
+// Each object's score is written once more, from the boxes of the plan and the formula of the circle of confusion.
+TEST(TzengPlan, drawsTheLevelNearestToTheScore) {
+    Request request;
+    request.fishCount = 5;
+    request.trianglesPerFish = 20'000;
+    request.noCache = true;
+    request.lens.fStop = 0.4;
+    setByName(request, "preset", "tzeng2012");
+    const PreparedFrame frame = prepareFrame(request);
+    const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    std::set<std::uint32_t> levels;
+    for (const ObjectPlan& object : plan.objects) {
+        const Pyramid& pyramid = frame.world.pyramids[static_cast<std::size_t>(object.mesh)];
+        ASSERT_EQ(pyramid.levels.size(), 3u);
+        const double depth = -0.5 * (object.viewBox.minimum.z + object.viewBox.maximum.z);
+        const double edge = pyramid.levels[0].meanEdge * largestScale(object.pose) * plan.view.width /
+                            (2 * plan.tanHalfHorizontal * depth);
+        const double growth = 0.25 * object.coc.smallest / edge;  // of the edges
+        std::size_t expected = 0;
+        for (std::size_t l = 1; l < 3; ++l) {
+            const double middle = std::sqrt(pyramid.levels[l - 1].meanEdge * pyramid.levels[l].meanEdge);
+            if (growth * pyramid.levels[0].meanEdge > middle) expected = l;
+        }
+        EXPECT_EQ(object.fine.level, expected) << object.name;
+        EXPECT_EQ(object.fine.sampleCount, plan.samples.size());
+        levels.insert(object.fine.level);
+    }
+    EXPECT_GE(levels.size(), 2u);
 }
 
 // Six fish, in focus and far out of it.

@@ -18,8 +18,13 @@ constexpr double lightAtOneSample = 0.185;  // at 16 samples it is a seventh of 
 constexpr double lightExponent = 0.75;
 constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
 
+// Whether edges are held against the target.
+bool bySize(LodMetric metric) {
+    return metric == LodMetric::size || metric == LodMetric::score;
+}
+
 double storedSize(const PyramidLevel& level, LodMetric metric) {
-    return metric == LodMetric::size ? level.meanEdge : level.error;
+    return bySize(metric) ? level.meanEdge : level.error;
 }
 
 // How often the triangles may be halved for edges of `target` px, at most as often as they are.
@@ -32,8 +37,8 @@ double halvings(const Pyramid& pyramid, double pixelsPerUnit, double target) {
 // Where `target` lies between the sizes of two levels, 0 to 1. `size` interpolates logarithms: halving the triangles
 // multiplies the edges. Errors start at 0 and are interpolated as they are.
 double between(double fine, double coarse, double target, LodMetric metric) {
-    const double fraction = metric == LodMetric::size && fine > 0 ? std::log(target / fine) / std::log(coarse / fine)
-                                                                  : (target - fine) / (coarse - fine);
+    const double fraction = bySize(metric) && fine > 0 ? std::log(target / fine) / std::log(coarse / fine)
+                                                       : (target - fine) / (coarse - fine);
     return std::clamp(fraction, 0.0, 1.0);
 }
 
@@ -51,6 +56,8 @@ const char* lodMetricName(LodMetric metric) {
             return "halving";
         case LodMetric::measured:
             return "measured";
+        case LodMetric::score:
+            return "score";
     }
     return "";
 }
@@ -83,13 +90,16 @@ LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
         return {.light = lightAtOneSample * std::pow(std::max(sampleCount, 1u), -lightExponent)};
     const LodThresholds& reference = metric == LodMetric::error ? referenceError : referenceSize;
     const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
-    return {reference.blur * std::min(factor, largestFactor), reference.size * std::min(factor, 1.0)};
+    const double blur = reference.blur * std::min(factor, largestFactor);
+    if (metric == LodMetric::score) return {.blur = blur};
+    return {blur, reference.size * std::min(factor, 1.0)};
 }
 
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount) {
     metric = chosenMetric(metric, given);
     const LodThresholds standard = defaultThresholds(metric, sampleCount);
     if (metric == LodMetric::measured) return {.light = given.light.value_or(standard.light)};
+    if (metric == LodMetric::score) return {.blur = given.blur.value_or(standard.blur)};
     return {given.blur.value_or(standard.blur), given.size.value_or(standard.size)};
 }
 
@@ -98,6 +108,8 @@ void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double f
     settings.metric = chosenMetric(settings.metric, settings.thresholds);
     if (settings.metric == LodMetric::measured)
         settings.thresholds.light = factor * standard.light;
+    else if (settings.metric == LodMetric::score)
+        settings.thresholds.blur = factor * standard.blur;
     else
         settings.thresholds = {.blur = factor * standard.blur, .size = factor * standard.size};
 }

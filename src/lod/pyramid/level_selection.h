@@ -50,7 +50,8 @@ double expectedSampleError(std::uint32_t sampleCount);
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
 
 struct LevelQuery {
-    // Projected px per object unit at the nearest depth: largestScale · W / (2 tan(θx/2) · z).
+    // Projected px per object unit: largestScale · W / (2 tan(θx/2) · z), z the nearest depth, or of scores the depth
+    // of the box's centre.
     double pixelsPerUnit = 0;
     double coc = 0;  // CoC diameter the object may rely on, px, ≥ 0
 };
@@ -59,6 +60,8 @@ struct LevelQuery {
 // blurred_error.h. λ is continuous in the query.
 //   size:  λ is where the stored mean edges, interpolated in their logarithm, project to τ.
 //   halving: λ = 2·log2(τ/d), d the mean edge of level 0 as it projects: edges grow by √2 where triangles are halved.
+//   score: the same as size with blur·c alone for τ. With s = c/d, d the mean edge of level 0 at the box's centre, λ is
+//     where the mean edges have grown by blur·s (Tzeng et al. 2012, whose score s is).
 //   error: λ = l + (τ − e[l]) / (e[l+1] − e[l]) between the stored errors projected to px.
 // λ is 0 if pixelsPerUnit is negative, infinite or NaN. If it is 0 (the object is a point), λ is the coarsest level.
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,

@@ -224,6 +224,11 @@ std::vector<Finish> finishesOf(const Mesh& mesh, const PyramidOptions& options) 
     return finishes;
 }
 
+// Of the levels behind the mesh itself; empty where each has half the triangles of the one before.
+std::vector<double> vertexShares(LevelVertices vertices) {
+    return vertices == LevelVertices::quarters ? std::vector{0.75, 0.5} : std::vector<double>();
+}
+
 Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {
     // Join equal vertices; weld the positions of the rest.
     WeldedVertices unique = weldVertices(mesh);
@@ -256,12 +261,13 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         std::vector<FittedLevel> coarser(
             std::min<std::size_t>(mostPossibleLevels, static_cast<std::size_t>(options.mostLevels) - 1));
         Tasks tasks(helpers);
-        simplification = simplify(
-            vertices, positions, smoothing, levels[0].triangles, {options.leastTriangles, options.mostLevels - 1, fits},
-            tasks, [&](std::uint32_t l, SimplifiedLevel level) {
-                if (fits) std::call_once(prepared, prepare);
-                coarser[l] = fits ? fitted(*source, std::move(level)) : surviving(vertices, std::move(level));
-            });
+        simplification =
+            simplify(vertices, positions, smoothing, levels[0].triangles,
+                     {options.leastTriangles, options.mostLevels - 1, fits, vertexShares(options.vertices)}, tasks,
+                     [&](std::uint32_t l, SimplifiedLevel level) {
+                         if (fits) std::call_once(prepared, prepare);
+                         coarser[l] = fits ? fitted(*source, std::move(level)) : surviving(vertices, std::move(level));
+                     });
         tasks.wait();
         if (simplification.levelCount > 0) diagonal = diagonalOf(vertices, levels[0].triangles);
         coarser.resize(simplification.levelCount);
@@ -366,7 +372,15 @@ void measureDeformations(Pyramid& pyramid, const Mesh& mesh) {
 }
 
 const char* levelVerticesName(LevelVertices vertices) {
-    return vertices == LevelVertices::fitted ? "fitted" : "surviving";
+    switch (vertices) {
+        case LevelVertices::fitted:
+            return "fitted";
+        case LevelVertices::surviving:
+            return "surviving";
+        case LevelVertices::quarters:
+            return "quarters";
+    }
+    return "";
 }
 
 Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {

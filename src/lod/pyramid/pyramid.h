@@ -4,7 +4,8 @@
 // All levels index ONE vertex buffer whose vertices are sorted by how long they survive (vertices at one position stay
 // together), so level l uses the prefix [0, vertexCount[l]): joints, weights, tangents and morph targets are those of
 // the surviving vertices. Positions, normals, colours and texture coordinates are each level's own, fitted to level 0
-// (level_fit.h), or with LevelVertices::surviving those of the surviving vertices, too.
+// (level_fit.h), or with LevelVertices::surviving those of the surviving vertices, too. With LevelVertices::quarters
+// there are three levels, of all, three quarters and half of the vertices.
 
 #include <array>
 #include <cstddef>

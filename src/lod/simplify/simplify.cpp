@@ -5,6 +5,7 @@
 #include "lod/simplify/simplify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -275,6 +276,27 @@ PyramidEnd endAt(std::size_t faces, const TriangleSet<MeshVertexNumber>& mesh, c
     return faces <= options.leastTriangles ? PyramidEnd::leastTriangles : PyramidEnd::smallSaving;
 }
 
+std::size_t vertexCount(const SurfaceMesh& mesh) {
+    std::size_t count = 0;
+    forEachVertex(mesh, [&](VertexHandle) { ++count; });
+    return count;
+}
+
+// Collapses until `wanted` vertices are left or nothing more is possible. A collapse takes one vertex, and one face or
+// two.
+void collapseToVertices(Simplifier& s, std::size_t wanted) {
+    while (true) {
+        const std::size_t vertices = vertexCount(*s.mesh);
+        if (vertices <= wanted) return;
+        const std::size_t before = s.liveFaces;
+        const std::size_t target = before - std::min(before, vertices - wanted);
+        s.queued = false;
+        startQueue(s);
+        collapseTo(s, target, target, keptShare);
+        if (s.liveFaces == before) return;
+    }
+}
+
 bool canCollapse(const Simplifier& s) {
     bool found = false;
     forEachVertex(*s.mesh, [&](VertexHandle v) { found = found || s.mesh->data(v).candidate.possible(); });
@@ -291,8 +313,32 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
     prepareSimplifier(s, vertices, positions, smoothing, triangles);
     result.repairedFaces = s.repairedFaces;
 
-    // Collapse, and take a picture whenever half of the triangles are gone.
+    const auto takePicture = [&] {
+        compact(s);
+        const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
+        tasks.add([origin = s.origin, picture, take, anchors = options.anchors, l = result.levelCount++] {
+            SimplifiedLevel level = described(*origin, *picture, anchors);
+            *picture = {};  // before what takes the most memory
+            take(l, std::move(level));
+        });
+    };
     forEachVertex(*s.mesh, [&](VertexHandle v) { enqueueCheapest(s, v); });
+    if (!options.vertexShares.empty()) {
+        const auto all = static_cast<double>(vertexCount(*s.mesh));
+        for (const double share : options.vertexShares) {
+            const std::size_t before = s.liveFaces;
+            collapseToVertices(s, static_cast<std::size_t>(std::ceil(share * all)));
+            if (s.liveFaces == before || s.liveFaces == 0) {
+                result.end = s.liveFaces == 0 ? PyramidEnd::noSurface : PyramidEnd::topology;
+                break;
+            }
+            takePicture();
+        }
+        result.twins = s.twins;
+        return result;
+    }
+
+    // Collapse, and take a picture whenever half of the triangles are gone.
     while (result.levelCount < static_cast<std::uint32_t>(std::max(0, options.mostLevels))) {
         const std::size_t target = nextTarget(s, options.leastTriangles);
         const auto most = static_cast<std::size_t>(largestShare * static_cast<double>(s.liveFaces));
@@ -321,13 +367,7 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
             result.end = s.components.size() > 1 && canCollapse(s) ? PyramidEnd::largestParts : PyramidEnd::topology;
             break;
         }
-        compact(s);
-        const auto picture = std::make_shared<Snapshot>(snapshot(s, triangles.primitiveIndexCounts.size()));
-        tasks.add([origin = s.origin, picture, take, anchors = options.anchors, l = result.levelCount++] {
-            SimplifiedLevel level = described(*origin, *picture, anchors);
-            *picture = {};  // before what takes the most memory
-            take(l, std::move(level));
-        });
+        takePicture();
     }
     result.twins = s.twins;
     return result;

@@ -34,6 +34,9 @@ struct SimplifyOptions {
     std::uint32_t leastTriangles = 64;  // halving ends here
     int mostLevels = 23;                // without level 0
     bool anchors = true;                // whether levels get them; a level without anchors can't be fitted
+    // Instead of halving: how much of the mesh's vertices each level keeps, shrinking; vertices at one position are
+    // one.
+    std::vector<double> vertexShares = {};
 };
 
 struct Ball {
@@ -58,7 +61,8 @@ struct Simplification {
     PyramidEnd end = PyramidEnd::mostLevels;
 };
 
-// Makes levels of half the triangles each, until less than a quarter can be saved. Calls take(l, level) once for each
+// Makes levels of half the triangles each, until less than a quarter can be saved, or levels of the given shares of the
+// vertices. Calls take(l, level) once for each
 // level l = 0 … levelCount − 1, on the thread of `tasks` that has made its anchors. The caller must call tasks.wait()
 // to have them all, and must keep `smoothing` and `vertices` until then.
 Simplification simplify(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,

@@ -4,13 +4,18 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "render/lens_space/record_buffer.h"
 
 namespace defocus {
 
 namespace {
 
 constexpr std::size_t clipBytes = 4 * sizeof(float);
-constexpr std::size_t attributeBytes = 20 * sizeof(float);  // of shaders/lens_space/vertex.vert
+// Mesa's software driver ends the loops of a thread after 65,535 rounds in all.
+constexpr std::uint32_t mostTilesAtOnce = 50'000;   // of a triangle, which a thread walks over
+constexpr std::uint32_t mostSortedAtOnce = 65'536;  // triangles of a tile, which takes 136 · 256 rounds of a thread
+constexpr std::size_t vertexLightBytes = 8 * sizeof(float);  // of shaders/lens_space/shade_vertices.comp
+constexpr std::size_t attributeBytes = 20 * sizeof(float);   // of shaders/lens_space/vertex.vert
 
 // Where a level ends and the next begins, a boundary sample may be shared by both. A ray sees one of them.
 std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
@@ -22,19 +27,6 @@ std::uint32_t endOf(const ObjectPlan& object, const LevelDraw& level, bool coars
 std::uint32_t beginOf(const ObjectPlan& object, const LevelDraw& level, bool coarse) {
     const bool shared = boundarySample(object).has_value();
     return !coarse && shared && object.boundaryShare >= 0.5 ? level.firstSample + 1 : level.firstSample;
-}
-
-std::uint64_t largestBuffer() {
-    GLint64 most = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    return static_cast<std::uint64_t>(most);
-}
-
-// A buffer that shaders read whole.
-Buffer storage(std::uint64_t bytes, const char* what) {
-    if (bytes > largestBuffer())
-        fail("{} take {} bytes; this driver's shaders read at most {} of one buffer", what, bytes, largestBuffer());
-    return Buffer(bytes);
 }
 
 void checkDrawable(const FramePlan& plan, const World& world, const std::string& method) {
@@ -76,17 +68,19 @@ void dispatchOver(std::uint64_t count) {
     glDispatchCompute(static_cast<GLuint>(std::min(needed, most)), static_cast<GLuint>((needed + most - 1) / most), 1);
 }
 
-LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool ordered, std::uint64_t entryBytes,
+LensFront::LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
                      std::filesystem::path shaderFolder)
     : scene_(&scene),
       tileSize_(tileSize),
-      ordered_(ordered),
-      entryBytes_(std::min(entryBytes, largestBuffer())),
+      lightsVertices_(lightsVertices),
+      entryBytes_(std::min(entryBytes, largestStorage())),
       shaderFolder_(std::move(shaderFolder)),
       unused_({.format = TextureFormat::rgba8}),
       unusedTarget_({&unused_}) {
-    if (ordered_) sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
-    trianglesProgram_ = Program({{"lens_space/triangles.comp"}, {}, shaderFolder_});
+    sortProgram_ = Program({{"lens_space/sort.comp"}, {}, shaderFolder_});
+    ShaderDefines defines;
+    if (lightsVertices_) defines.emplace_back("FIRST_TRIANGLES", "1");
+    trianglesProgram_ = Program({{"lens_space/triangles.comp"}, defines, shaderFolder_});
 }
 
 void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method) {
@@ -115,7 +109,12 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
     clips_ = storage(std::uint64_t{vertexCount_} * clipBytes, "the frame's vertices");
     clipsAtEnd_ = moving ? Buffer(clips_.bytes()) : Buffer();
     attributes_ = storage(std::uint64_t{vertexCount_} * attributeBytes, "the attributes of the frame's vertices");
+    if (lightsVertices_) {
+        firstTriangles_ = Buffer(std::size_t{vertexCount_} * sizeof(std::uint32_t));
+        vertexLight_ = storage(std::uint64_t{vertexCount_} * vertexLightBytes, "the light of the frame's vertices");
+    }
     triangles_ = storage(std::uint64_t{triangleCount_} * 4 * sizeof(std::uint32_t), "the frame's triangles");
+    depths_ = Buffer(std::size_t{triangleCount_} * sizeof(std::uint32_t));
     makeTriangles();
 
     ShaderDefines binDefines = defines_;
@@ -125,6 +124,7 @@ void LensFront::prepare(const FramePlan& plan, const FrameUniforms& frame, const
         fillProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
         binDefines.emplace_back("COUNT", "1");
         countProgram_ = Program({{"lens_space/bin.comp"}, binDefines, shaderFolder_});
+        depthsProgram_ = Program({{"lens_space/depths.comp"}, defines_, shaderFolder_});
     }
 }
 
@@ -162,6 +162,11 @@ std::uint32_t LensFront::groupOf(int mesh, int material, std::uint32_t level) {
 void LensFront::makeTriangles() {
     trianglesProgram_.use();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, triangles_.name());
+    if (lightsVertices_) {
+        const GLuint none = ~0u;
+        glClearNamedBufferData(firstTriangles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, firstTriangles_.name());
+    }
     std::uint32_t first = 0;
     for (const Run& run : runs_) {
         const ObjectPlan& object = plan_.objects[run.object];
@@ -185,7 +190,18 @@ void LensFront::pose(std::uint32_t part) {
     // What moves is lit as it is halfway.
     makeVertices(attributes_, attributeBytes, true, part, moving ? 0.5f : 0.0f);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    makeDepths();
     countTiles();
+}
+
+void LensFront::makeDepths() {
+    frame_->bind(0);
+    depthsProgram_.use();
+    bindTriangles();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());
+    glUniform1ui(0, triangleCount_);
+    dispatchOver(triangleCount_);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
@@ -243,11 +259,7 @@ void LensFront::countTiles() {
     countProgram_.use();
     bindTriangles();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileCounts_.name());
-    glUniform2i(0, plan_.view.width, plan_.view.height);
-    glUniform1ui(1, triangleCount_);
-    glUniform1ui(2, 0);
-    glUniform1ui(3, tiles);
-    dispatchOver(triangleCount_);
+    binInto(0, tiles);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glGetNamedBufferSubData(tileCounts_.name(), 0, static_cast<GLsizeiptr>(tileCounts_.bytes()), counts.data());
 
@@ -293,18 +305,39 @@ void LensFront::fill(const TileBand& band) {
     fillProgram_.use();
     bindTriangles();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileCounts_.name());
+    binInto(band.first, band.end);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    sort(band);
+}
+
+void LensFront::binInto(std::uint32_t firstTile, std::uint32_t endTile) {
     glUniform2i(0, plan_.view.width, plan_.view.height);
     glUniform1ui(1, triangleCount_);
-    glUniform1ui(2, band.first);
-    glUniform1ui(3, band.end);
-    dispatchOver(triangleCount_);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    if (!ordered_) return;
+    for (std::uint32_t first = firstTile; first < endTile; first += mostTilesAtOnce) {
+        glUniform1ui(2, first);
+        glUniform1ui(3, std::min(endTile - first, mostTilesAtOnce) + first);
+        dispatchOver(triangleCount_);
+    }
+}
+
+void LensFront::sort(const TileBand& band) {
     sortProgram_.use();
     bindTriangles();
+    GLint rays = 0;  // they share a binding with the depths
+    glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 6, &rays);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, depths_.name());
     glUniform1ui(0, band.first);
-    glDispatchCompute(band.end - band.first, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    const auto dispatch = [&](std::uint32_t block, std::uint32_t step) {
+        glUniform2ui(1, block, step);
+        glDispatchCompute(band.end - band.first, 1, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    };
+    if (statistics_.largestTile <= mostSortedAtOnce)
+        dispatch(0, 0);
+    else
+        for (std::uint32_t block = 2; block / 2 < statistics_.largestTile; block *= 2)
+            for (std::uint32_t step = block / 2; step > 0; step /= 2) dispatch(block, step);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, static_cast<GLuint>(rays));
 }
 
 void LensFront::bindTriangles() const {
@@ -320,10 +353,22 @@ void LensFront::bindAttributes() const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, attributes_.name());
 }
 
+void LensFront::bindVertexLight() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, vertexLight_.name());
+}
+
+void LensFront::bindVertices() const {
+    bindTriangles();
+    bindAttributes();
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, draws_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, vertexLight_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, firstTriangles_.name());
+}
+
 std::size_t LensFront::bytes() const {
     std::size_t total = objects_.bytes();
-    for (const Buffer* buffer :
-         {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &tileCounts_, &tileEnds_, &entries_})
+    for (const Buffer* buffer : {&clips_, &clipsAtEnd_, &attributes_, &triangles_, &draws_, &depths_, &firstTriangles_,
+                                 &vertexLight_, &tileCounts_, &tileEnds_, &entries_})
         total += buffer->bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
     return total;

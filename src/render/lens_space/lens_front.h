@@ -38,9 +38,10 @@ struct BinStatistics {
 
 class LensFront {
 public:
-    // `tileSize`: px. `ordered`: tiles list triangles in the frame's order. `entryBytes`: the most memory for lists at
-    // once; beyond it the tiles come in several bands.
-    LensFront(GpuScene& scene, std::uint32_t tileSize, bool ordered, std::uint64_t entryBytes,
+    // `tileSize`: px. `lightsVertices`: whether vertices have
+    // light of their own (RecordShading). `entryBytes`: the most memory for lists at once; beyond it the tiles come in
+    // several bands.
+    LensFront(GpuScene& scene, std::uint32_t tileSize, bool lightsVertices, std::uint64_t entryBytes,
               std::filesystem::path shaderFolder);
 
     // The triangles of `plan`. `frame` must outlive the drawing. Throws Error, naming the object, for what no method of
@@ -48,16 +49,21 @@ public:
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const std::string& method);
     // Vertices and tiles in a part of the exposure: from moment `part` of the shutter to the next. 0 if nothing moves.
     void pose(std::uint32_t part);
-    // Fills the lists of a band, if they aren't yet.
+    // Fills the lists of a band, if they aren't yet: front to back.
     void fill(const TileBand& band);
     // Binds vertices, triangles, draws, ends of the tiles' lists and the lists as shaders/lens_space/ has them.
     void bindTriangles() const;
     void bindAttributes() const;
+    void bindVertexLight() const;
+    // Binds what shaders/lens_space/shade_vertices.comp reads and writes.
+    void bindVertices() const;
 
     [[nodiscard]] const std::vector<TileBand>& bands() const { return bands_; }
     // Group i of triangles is shaded as groups()[i − 1]; 0 is the sky.
     [[nodiscard]] const std::vector<ShadedGroup>& groups() const { return groups_; }
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }  // that kernels over triangles need
+    [[nodiscard]] bool lightsVertices() const { return lightsVertices_; }
+    [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; }
     [[nodiscard]] std::uint32_t triangleCount() const { return triangleCount_; }
     [[nodiscard]] std::uint32_t parts() const { return parts_; }  // of the exposure; 1 if nothing moves
     [[nodiscard]] const BinStatistics& statistics() const { return statistics_; }
@@ -90,11 +96,14 @@ private:
     void makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
                       float fraction);
     const Program& vertexProgram(const Vertices& vertices, bool attributes);
+    void makeDepths();
     void countTiles();
+    void binInto(std::uint32_t firstTile, std::uint32_t endTile);  // with the program and the buffers that are bound
+    void sort(const TileBand& band);
 
     GpuScene* scene_;
     std::uint32_t tileSize_;
-    bool ordered_;
+    bool lightsVertices_;
     std::uint64_t entryBytes_;
     std::filesystem::path shaderFolder_;
     FramePlan plan_;
@@ -102,7 +111,7 @@ private:
     ShaderDefines defines_;
     std::map<std::string, Program> programs_;
     ShaderDefines binDefines_;
-    Program trianglesProgram_, countProgram_, fillProgram_, sortProgram_;
+    Program trianglesProgram_, depthsProgram_, countProgram_, fillProgram_, sortProgram_;
     GlTexture unused_;  // drivers want a target even where nothing is rasterised
     Target unusedTarget_;
     UniformBlocks<GpuObject> objects_;
@@ -115,6 +124,8 @@ private:
     std::uint32_t triangleCount_ = 0;
     std::uint32_t parts_ = 1;
     Buffer clips_, clipsAtEnd_, attributes_, triangles_, draws_;
+    Buffer firstTriangles_, vertexLight_;  // where vertices have light of their own
+    Buffer depths_;                        // of triangles, by which lists are sorted
     Buffer tileCounts_, tileEnds_, entries_;
     std::vector<std::uint32_t> tilePlaces_;  // where each tile's list begins in its band
     std::vector<TileBand> bands_;

@@ -6,6 +6,7 @@
 #include "gl/read_back.h"
 #include "render/frame_clock.h"
 #include "render/lens_space/ray_sum.h"
+#include "render/lens_space/record_buffer.h"
 #include "render/lens_space/record_shading.h"
 
 namespace defocus {
@@ -23,14 +24,14 @@ public:
         clock_.beginSetup();
         plan_ = plan;
         if (!front_) {
-            front_.emplace(scene_, kernel_->tileSize(), kernel_->ordersTiles(), options_.waveBytes,
+            front_.emplace(scene_, kernel_->tileSize(), kernel_->lightsVertices(), options_.waveBytes,
                            options_.shaderFolder);
             shading_.emplace(scene_, options_.shaderFolder);
         }
         scene_.prepare(plan_);
         frame_.upload(scene_.world(), plan_, 1);
         front_->prepare(plan_, frame_, kernel_->name());
-        const RaySets sets = kernel_->raySets(plan_);
+        const RaySets sets = kernel_->raySets(plan_, front_->parts());
         rays_ = Buffer::of(std::span<const GpuRay>(sets.table));
         ShaderDefines rayDefines = kernel_->rayDefines();
         rayDefines.emplace_back("VARIANTS", std::to_string(sets.variants) + "u");
@@ -51,7 +52,11 @@ public:
         RayWave wave = nextWave(first, total);
         clock_.beginWave();
         const std::uint32_t part = partOf(first, total);
-        if (part_ != part) front_->pose(part);
+        frame_.bind(first);
+        if (part_ != part) {
+            front_->pose(part);
+            shading_->shadeVertices(*front_);
+        }
         part_ = part;
         frame_.bind(first);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, rays_.name());
@@ -109,9 +114,7 @@ private:
     [[nodiscard]] std::uint32_t wavesRays() const {
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(plan_.view.width)} * static_cast<std::uint32_t>(plan_.view.height);
-        GLint64 largestBuffer = 0;
-        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largestBuffer);
-        const std::uint64_t bytes = std::min(options_.waveBytes, static_cast<std::uint64_t>(largestBuffer));
+        const std::uint64_t bytes = std::min(options_.waveBytes, largestStorage());
         const std::uint64_t most = std::max<std::uint64_t>(bytes / (pixels * kernel_->rayBytes()), 1);
         return static_cast<std::uint32_t>(std::min<std::uint64_t>({wave_ > 0 ? wave_ : most, most, blockSamples}));
     }
@@ -146,6 +149,13 @@ private:
 };
 
 }  // namespace
+
+MethodSetting shadingSetting() {
+    return {.name = "shading",
+            .standard = "surfaces",
+            .description = "Surfaces are shaded where rays meet them, or at their vertices, as published",
+            .choices = {"surfaces", "vertices"}};
+}
 
 std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,
                                                 std::unique_ptr<VisibilityKernel> kernel) {

@@ -9,6 +9,9 @@
 
 namespace defocus {
 
+// The setting of these methods that VisibilityKernel::lightsVertices() follows.
+MethodSetting shadingSetting();
+
 // `options.settings` must be complete. Starting a frame throws Error, naming the object or the setting, for what these
 // methods can't draw: blended and alpha-tested materials, controls of the blur that bend inside triangles, axial
 // chromatic aberration, the cat's eye, exact motion.

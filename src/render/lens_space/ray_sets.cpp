@@ -49,7 +49,11 @@ std::vector<std::uint32_t> spreadOrder(std::uint32_t count) {
     return order;
 }
 
-RaySets pointRaySets(const FramePlan& plan) {
+std::uint32_t firstRayOfPart(std::uint32_t part, std::uint32_t parts, std::uint32_t total) {
+    return static_cast<std::uint32_t>((std::uint64_t{part} * total + parts - 1) / parts);
+}
+
+RaySets pointRaySets(const FramePlan& plan, std::uint32_t parts) {
     const auto count = static_cast<std::uint32_t>(plan.samples.size());
     const auto aspect = static_cast<float>(plan.view.width) / static_cast<float>(plan.view.height);
     RaySets sets;
@@ -62,19 +66,27 @@ RaySets pointRaySets(const FramePlan& plan) {
                                                   count * sets.variants, plan.settings.seed);
     if (!plan.usesLens)
         for (LensSample& sample : samples) sample.lens = glm::vec2(0);
-    const std::vector<std::uint32_t> order = spreadOrder(count);
     const int axes = plan.moments.empty() ? 2 : 3;
     for (std::uint32_t variant = 0; variant < sets.variants; ++variant) {
         const std::span<LensSample> set = std::span(samples).subspan(std::size_t{variant} * count, count);
-        sortIntoParts(set, 0, axes);
-        for (std::uint32_t ray = 0; ray < count; ++ray) {
-            const LensSample& sample = set[order[ray]];
-            const glm::vec2 lens(sample.lens.x, aspect * sample.lens.y);
-            sets.table[std::size_t{ray} * sets.variants + variant] = {glm::vec4(lens, sample.pixel),
-                                                                      glm::vec4(sample.time, 0, 0, 0)};
-            glm::vec4& bounds = sets.lensBounds[ray];
-            bounds = {std::min(bounds.x, lens.x), std::min(bounds.y, lens.y), std::max(bounds.z, lens.x),
-                      std::max(bounds.w, lens.y)};
+        if (parts > 1) std::ranges::sort(set, {}, &LensSample::time);
+        for (std::uint32_t part = 0; part < parts; ++part) {
+            const std::uint32_t first = firstRayOfPart(part, parts, count);
+            const std::span<LensSample> own = set.subspan(first, firstRayOfPart(part + 1, parts, count) - first);
+            sortIntoParts(own, 0, axes);
+            const std::vector<std::uint32_t> order = spreadOrder(static_cast<std::uint32_t>(own.size()));
+            for (std::uint32_t i = 0; i < own.size(); ++i) {
+                const LensSample& sample = own[order[i]];
+                const std::uint32_t ray = first + i;
+                const glm::vec2 lens(sample.lens.x, aspect * sample.lens.y);
+                const float time =
+                    std::clamp(sample.time * static_cast<float>(parts) - static_cast<float>(part), 0.0f, 1.0f);
+                sets.table[std::size_t{ray} * sets.variants + variant] = {glm::vec4(lens, sample.pixel),
+                                                                          glm::vec4(time, 0, 0, 0)};
+                glm::vec4& bounds = sets.lensBounds[ray];
+                bounds = {std::min(bounds.x, lens.x), std::min(bounds.y, lens.y), std::max(bounds.z, lens.x),
+                          std::max(bounds.w, lens.y)};
+            }
         }
     }
     return sets;

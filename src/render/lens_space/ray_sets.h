@@ -7,7 +7,9 @@
 // them is well spread over the lens (of any shape), the pixel and time. In each set the lens is halved again and again,
 // by its width, its height and so on, until one ray is left; ray i of all sets then passes through nearly the same
 // small part of the lens, whose bounds the tile tests use (Munkberg, Toth and Akenine-Möller 2012, Section 4). The
-// parts are visited so that the first rays are well spread, too.
+// parts are visited so that the first rays are well spread, too. Where the exposure has parts of its own, a set is
+// first divided among those, by time: to take every other ray of a set would take the same side of each pair that was
+// halved last.
 
 #include <glm/vec4.hpp>
 
@@ -31,8 +33,13 @@ struct RaySets {
 // How many variants sets of `rays` rays have: 64, and fewer where they would be more than a quarter of a million rays.
 std::uint32_t variantCount(std::uint32_t rays);
 
-// As many rays a pixel as the plan has samples; all pass through the lens's centre if the plan leaves out the lens.
-RaySets pointRaySets(const FramePlan& plan);
+// Of `total` rays, the first that sees part `part` of the exposure, which has `parts` of equal length.
+std::uint32_t firstRayOfPart(std::uint32_t part, std::uint32_t parts, std::uint32_t total);
+
+// As many rays a pixel as the plan has samples; all pass through the lens's centre if the plan leaves out the lens. The
+// rays of each of the exposure's `parts` follow each other and are well spread over lens and pixel; their time is that
+// in their part.
+RaySets pointRaySets(const FramePlan& plan, std::uint32_t parts);
 
 // The order in which `count` parts in a row are visited: any number of the first are spread over the row (van der
 // Corput 1935).

@@ -18,11 +18,11 @@ RecordShading::RecordShading(GpuScene& scene, std::filesystem::path shaderFolder
     placesProgram_ = Program({{"lens_space/list_places.comp"}, {}, shaderFolder_});
 }
 
-const Program& RecordShading::program(const ShaderDefines& defines, const ShaderDefines& more) {
+const Program& RecordShading::program(const char* shader, const ShaderDefines& defines, const ShaderDefines& more) {
     ShaderDefines all = defines;
     all.insert(all.end(), more.begin(), more.end());
-    const auto [entry, isNew] = programs_.try_emplace(keyOf(all));
-    if (isNew) entry->second = Program({{"lens_space/shade.comp"}, all, shaderFolder_});
+    const auto [entry, isNew] = programs_.try_emplace(shader + keyOf(all));
+    if (isNew) entry->second = Program({{shader}, all, shaderFolder_});
     return entry->second;
 }
 
@@ -36,15 +36,40 @@ void RecordShading::prepare(const FramePlan& plan, const LensFront& front, const
         counting.emplace_back("COUNT", "1");
         countProgram_ = Program({{"lens_space/lists.comp"}, counting, shaderFolder_});
     }
-    groupPrograms_ = {&program(defines, {{"SKY", "1"}})};
+    constexpr const char* shade = "lens_space/shade.comp";
+    groupPrograms_ = {&program(shade, defines, {{"SKY", "1"}})};
+    vertexPrograms_.clear();
     std::vector<GpuMaterial> materials;
     for (const ShadedGroup& group : front.groups()) {
-        groupPrograms_.push_back(&program(defines, group.defines));
+        if (front.lightsVertices()) {
+            groupPrograms_.push_back(&program(shade, defines, {{"VERTEX_LIGHT", "1"}}));
+            vertexPrograms_.push_back(&program("lens_space/shade_vertices.comp", front.defines(), group.defines));
+        } else {
+            groupPrograms_.push_back(&program(shade, defines, group.defines));
+        }
         materials.push_back(scene_->materialBlock(group.material));
     }
     materials_ = UniformBlocks<GpuMaterial>(materials);
     groups_ = Buffer(groupPrograms_.size() * groupBytes);
     dispatches_ = Buffer(groupPrograms_.size() * dispatchBytes);
+}
+
+void RecordShading::bindMaterial(const LensFront& front, std::size_t group) const {
+    scene_->textures(front.groups()[group].material).attach();
+    materials_.bind(2, group);
+}
+
+void RecordShading::shadeVertices(const LensFront& front) {
+    if (!front.lightsVertices()) return;
+    front.bindVertices();
+    for (std::size_t i = 0; i < vertexPrograms_.size(); ++i) {
+        vertexPrograms_[i]->use();
+        glUniform1ui(0, front.vertexCount());
+        glUniform1ui(1, static_cast<GLuint>(i) + 1);
+        bindMaterial(front, i);
+        dispatchOver(front.vertexCount());
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint32_t firstRay) {
@@ -77,7 +102,10 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
     overRecords(listProgram_);
 
     // Their light.
-    front.bindAttributes();
+    if (front.lightsVertices())
+        front.bindVertexLight();
+    else
+        front.bindAttributes();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatches_.name());
     for (std::size_t i = 0; i < groupPrograms_.size(); ++i) {
         groupPrograms_[i]->use();
@@ -85,10 +113,7 @@ void RecordShading::shade(const LensFront& front, std::uint64_t count, std::uint
         glUniform1ui(1, firstRay);
         glUniform1ui(2, static_cast<GLuint>(i));
         glUniform1f(3, lensRadius_);
-        if (i > 0) {
-            scene_->textures(front.groups()[i - 1].material).attach();
-            materials_.bind(2, i - 1);
-        }
+        if (i > 0 && !front.lightsVertices()) bindMaterial(front, i - 1);
         glDispatchComputeIndirect(static_cast<GLintptr>(i * dispatchBytes));
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

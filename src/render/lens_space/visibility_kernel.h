@@ -20,10 +20,10 @@ public:
     virtual ~VisibilityKernel() = default;
     [[nodiscard]] virtual std::string name() const = 0;        // of the method
     [[nodiscard]] virtual std::uint32_t tileSize() const = 0;  // px
-    // Whether tiles must list their triangles in the frame's order.
-    [[nodiscard]] virtual bool ordersTiles() const { return false; }
+    // Whether surfaces are shaded at their vertices, and interpolated, instead of where they are seen.
+    [[nodiscard]] virtual bool lightsVertices() const = 0;
     // Throws Error for a plan that the method can't draw.
-    [[nodiscard]] virtual RaySets raySets(const FramePlan& plan) const = 0;
+    [[nodiscard]] virtual RaySets raySets(const FramePlan& plan, std::uint32_t partsOfExposure) const = 0;
     // What shaders that read rays and records need, beside VARIANTS.
     [[nodiscard]] virtual ShaderDefines rayDefines() const = 0;
     // Bytes of a ray's records, at least.

@@ -1,10 +1,14 @@
 #include "render/line/line.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "core/error.h"
+#include "gl/context.h"
 #include "render/lens_space/lens_space.h"
+#include "render/lens_space/record_buffer.h"
 #include "render/line/line_sets.h"
 
 namespace defocus {
@@ -13,6 +17,10 @@ namespace {
 
 constexpr std::uint32_t lineTile = 8;  // px
 constexpr std::size_t rangeBytes = 2 * sizeof(std::uint32_t);
+constexpr std::size_t jobRanges = 2;  // of a job
+// Mesa's software driver ends the loops of a thread after 65,535 rounds in all. Kernels stop at twice this number.
+constexpr std::uint32_t softwareRounds = 30'000;
+constexpr std::size_t stateBytes = 32u << 20;    // of jobs that go on from dispatch to dispatch, about
 constexpr std::uint64_t expectedRecords = 6;     // of a line; there is more room where a wave needs it
 constexpr std::uint32_t mostShadingPoints = 16;  // of a piece
 constexpr std::uint32_t firstCapacity = 48;      // pieces of an exact line
@@ -32,8 +40,8 @@ struct Counters {
     std::uint32_t droppedSegments = 0;
     std::uint32_t droppedLight = 0;
     std::uint32_t mergedSegments = 0;
-    std::uint32_t unfinished = 0;
-    std::uint32_t unused = 0;
+    std::uint32_t laterJobs = 0;
+    std::uint32_t unfinishedJobs = 0;
 };
 
 constexpr std::uint32_t standardSegments = 16;
@@ -43,6 +51,7 @@ public:
     explicit LineKernel(const RendererOptions& options)
         : shaderFolder_(options.shaderFolder),
           exact_(options.settings.at("resolve") == "exact"),
+          lightsVertices_(options.settings.at("shading") == "vertices"),
           turned_(options.settings.at("wheel") == "turned"),
           segments_(static_cast<std::uint32_t>(numberOf(options.settings, "segments"))),
           shadingStep_(static_cast<float>(numberOf(options.settings, "shading-step"))) {
@@ -52,8 +61,10 @@ public:
 
     [[nodiscard]] std::string name() const override { return "line"; }
     [[nodiscard]] std::uint32_t tileSize() const override { return lineTile; }
-    [[nodiscard]] bool ordersTiles() const override { return true; }
-    [[nodiscard]] RaySets raySets(const FramePlan& plan) const override { return lineSets(plan, turned_).sets; }
+    [[nodiscard]] bool lightsVertices() const override { return lightsVertices_; }
+    [[nodiscard]] RaySets raySets(const FramePlan& plan, std::uint32_t /*parts*/) const override {
+        return lineSets(plan, turned_).sets;
+    }
     [[nodiscard]] ShaderDefines rayDefines() const override { return {{"LINES", "1"}}; }
     [[nodiscard]] std::uint64_t rayBytes() const override { return 2 * expectedRecords * recordBytes; }
 
@@ -70,6 +81,7 @@ public:
         lightOverRadius_ = {static_cast<float>(lens.sphericalAberration),
                             static_cast<float>(lens.obstruction * lens.obstruction)};
         defines_ = defines;
+        mostRounds_ = currentIsSoftware() ? softwareRounds : 0;
         totals_ = {};
         lines_ = 0;
         if (exact_) {
@@ -79,7 +91,7 @@ public:
         GLint most = 0;
         glGetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &most);
         const auto beside =
-            static_cast<GLint>(lineTile * lineTile * (3 * sizeof(glm::vec4) + 3 * sizeof(std::uint32_t)) + 64);
+            static_cast<GLint>(lineTile * lineTile * (3 * sizeof(glm::vec4) + 2 * sizeof(std::uint32_t)) + 64);
         const GLint fit = (most - beside) / static_cast<GLint>(lineTile * lineTile * sharedBytes);
         if (static_cast<GLint>(segments_) > fit)
             fail("method line: segments is at most {} on this driver, which shares {} bytes between threads", fit,
@@ -90,36 +102,25 @@ public:
     std::uint64_t find(LensFront& front, RayWave& wave) override {
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
-        const std::size_t outputBytes = sizeof(Counters) + pixels * wave.count * rangeBytes;
-        if (output_.bytes() < outputBytes) output_ = Buffer(outputBytes);
         boundBlock_.update(0, wave.count * sizeof(GpuBounds), bounds_.data() + wave.first);
-        reserve(std::min(pixels * wave.count * expectedRecords, mostRecords()));
+        records_.reserve(std::min(pixels * wave.count * expectedRecords, RecordBuffer::most()));
         while (true) {
-            Counters counters;
-            output_.update(0, sizeof counters, &counters);
-            draw(front, wave);
-            glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-            glGetNamedBufferSubData(output_.name(), 0, sizeof counters, &counters);
-            if (counters.unfinished > 0)
-                fail(
-                    "method line: this driver ended the loops over the triangles of a tile, {} at most; choose a "
-                    "larger image or accumulation",
-                    front.statistics().largestTile);
+            const Counters counters = draw(front, wave);
             if (exact_ && counters.droppedSegments > 0 && capacity_ < mostCapacity) {
                 build(capacity_ *= 2);
                 continue;
             }
-            if (counters.records > mostRecords()) {
+            if (counters.records > RecordBuffer::most()) {
                 if (wave.count == 1)
                     fail(
                         "method line: what one line of each pixel sees takes {} records, and this driver's shaders "
                         "read at most {} of one buffer; choose a smaller image or a longer shading step",
-                        counters.records, mostRecords());
+                        counters.records, RecordBuffer::most());
                 wave.count /= 2;
                 continue;
             }
-            if (counters.records > records_.bytes() / recordBytes) {
-                reserve(counters.records);
+            if (counters.records > records_.capacity()) {
+                records_.reserve(counters.records);
                 continue;
             }
             totals_.droppedSegments += counters.droppedSegments;
@@ -132,7 +133,7 @@ public:
     }
 
     void bindRecords() const override {
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, records_.name());
+        records_.bind();
         glBindBufferRange(GL_SHADER_STORAGE_BUFFER, 1, output_.name(), 0, static_cast<GLsizeiptr>(output_.bytes()));
     }
 
@@ -150,6 +151,11 @@ public:
     [[nodiscard]] std::size_t bytes() const override { return records_.bytes() + output_.bytes(); }
 
 private:
+    struct Places {  // among the ranges
+        std::uint64_t jobs = 0;
+        std::uint64_t states = 0;
+        std::uint64_t slots = 0;  // of states
+    };
     struct Totals {
         std::uint64_t records = 0;
         std::uint64_t droppedSegments = 0;
@@ -169,39 +175,84 @@ private:
         program_ = Program({{"line/visible.comp"}, all, shaderFolder_});
     }
 
-    // What shaders read of one buffer.
-    static std::uint64_t mostRecords() {
-        GLint64 most = 0;
-        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-        return static_cast<std::uint64_t>(most) / recordBytes;
+    // What a thread holds of a line between dispatches, as shaders/line/ has it.
+    [[nodiscard]] std::size_t stateRanges() const {
+        return 2 + (exact_ ? 2 + 4 * std::size_t{capacity_} : 3 + 3 * std::size_t{segments_});
     }
 
-    void reserve(std::uint64_t records) {
-        if (records_.bytes() >= records * recordBytes) return;
-        records_ = Buffer();  // before the new one is made: both may not fit
-        records_ = Buffer(records * recordBytes);
-    }
+    // Lines of `wave`, of all tiles.
+    Counters draw(LensFront& front, const RayWave& wave) {
+        // Room for ranges, and where jobs may be put off, for those and the states of some of them.
+        const std::uint64_t rays = std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} *
+                                   static_cast<std::uint32_t>(imageSize_.y) * wave.count;
+        const std::size_t jobs = mostRounds_ > 0 ? std::size_t{front.statistics().tiles} * wave.count : 0;
+        const std::size_t slotBytes = stateRanges() * rangeBytes * lineTile * lineTile;
+        const std::size_t slots = jobs > 0 ? std::clamp<std::size_t>(stateBytes / slotBytes, 1, jobs) : 0;
+        const Places places{rays, rays + jobRanges * jobs, slots};
+        const std::size_t bytes = sizeof(Counters) + places.states * rangeBytes + slots * slotBytes;
+        if (output_.bytes() < bytes) {
+            output_ = Buffer();  // before the new one is made: both may not fit
+            output_ = storage(bytes, "the lines of a wave");
+        }
 
-    void draw(LensFront& front, const RayWave& wave) {
+        Counters counters;
+        output_.update(0, sizeof counters, &counters);
         for (const TileBand& band : front.bands()) {
             front.fill(band);
-            program_.use();
-            front.bindTriangles();
-            bindRecords();
-            glBindBufferBase(GL_UNIFORM_BUFFER, 7, boundBlock_.name());
-            glUniform2i(0, imageSize_.x, imageSize_.y);
-            glUniform1ui(1, wave.first);
-            glUniform1ui(2, band.first);
-            glUniform1ui(3, static_cast<GLuint>(records_.bytes() / recordBytes));
-            glUniform2f(4, lightOverRadius_.x, lightOverRadius_.y);
-            glUniform1f(5, shadingStep_);
-            glDispatchCompute(band.end - band.first, wave.count, 1);
-            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+            use(front, wave, band);
+            dispatch({0, 0, 0, places.jobs}, band.end - band.first, wave.count);
+            if (mostRounds_ > 0) finishJobs(places);
         }
+        return readCounters();
     }
+
+    // What the first dispatch put off, as many at once as there is room for what they hold.
+    void finishJobs(const Places& places) {
+        const std::uint32_t count = readCounters().laterJobs;
+        for (std::uint32_t first = 0; first < count; first += static_cast<std::uint32_t>(places.slots)) {
+            const auto atOnce = std::min(count - first, static_cast<std::uint32_t>(places.slots));
+            do {
+                setCounter(offsetof(Counters, unfinishedJobs), 0);
+                dispatch({1, places.jobs + jobRanges * first, places.states, 0}, atOnce, 1);
+            } while (readCounters().unfinishedJobs > 0);
+        }
+        setCounter(offsetof(Counters, laterJobs), 0);
+    }
+
+    void use(const LensFront& front, const RayWave& wave, const TileBand& band) {
+        program_.use();
+        front.bindTriangles();
+        bindRecords();
+        glBindBufferBase(GL_UNIFORM_BUFFER, 7, boundBlock_.name());
+        glUniform2i(0, imageSize_.x, imageSize_.y);
+        glUniform1ui(1, wave.first);
+        glUniform1ui(2, band.first);
+        glUniform1ui(3, static_cast<GLuint>(records_.capacity()));
+        glUniform2f(4, lightOverRadius_.x, lightOverRadius_.y);
+        glUniform1f(5, shadingStep_);
+        glUniform1ui(6, mostRounds_);
+    }
+
+    // `jobs` as shaders/line/visible.comp has them.
+    static void dispatch(const std::array<std::uint64_t, 4>& jobs, std::uint32_t width, std::uint32_t height) {
+        glUniform4ui(7, static_cast<GLuint>(jobs[0]), static_cast<GLuint>(jobs[1]), static_cast<GLuint>(jobs[2]),
+                     static_cast<GLuint>(jobs[3]));
+        glDispatchCompute(width, height, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+
+    [[nodiscard]] Counters readCounters() const {
+        Counters counters;
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+        glGetNamedBufferSubData(output_.name(), 0, sizeof counters, &counters);
+        return counters;
+    }
+
+    void setCounter(std::size_t offset, std::uint32_t value) { output_.update(offset, sizeof value, &value); }
 
     std::filesystem::path shaderFolder_;
     bool exact_;
+    bool lightsVertices_;
     bool turned_;
     std::uint32_t segments_;
     float shadingStep_;
@@ -211,7 +262,9 @@ private:
     std::vector<GpuBounds> bounds_;
     ShaderDefines defines_, built_;
     Program program_;
-    Buffer boundBlock_, records_, output_;
+    Buffer boundBlock_, output_;
+    RecordBuffer records_;
+    std::uint32_t mostRounds_ = 0;  // of a dispatch; 0: any number
     Totals totals_;
     std::uint64_t lines_ = 0;
 };
@@ -238,6 +291,7 @@ Method lineMethod() {
          .choices = {},
          .least = 0,
          .most = 64},
+        shadingSetting(),
         {.name = "wheel",
          .standard = "turned",
          .description = "Lines that each pixel turns differently, or the same for all, as published",

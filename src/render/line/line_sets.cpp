@@ -39,6 +39,31 @@ double angleOfShare(const std::vector<double>& sums, double share) {
     return std::numbers::pi * (static_cast<double>(found - 1 - sums.begin()) + place) / angleSteps;
 }
 
+// Where the lines of a variant lie in the pixel, and where along a segment they are shaded, by their place in the
+// wheel.
+struct WheelPoint {
+    glm::dvec2 pixel{0};  // [0, 1)
+    double shading = 0;
+};
+
+// The pixel's places are a net, that is two coordinates of the sequence, and a third one says which line has which: so
+// they are well spread over the wheel, too. Shading goes on by the golden ratio from line to line.
+std::vector<WheelPoint> wheelPoints(const RenderSettings& settings, std::uint32_t variant, std::uint32_t lines) {
+    std::vector<SequencePoint> points;
+    for (std::uint32_t line = 0; line < lines; ++line)
+        points.push_back(sequencePoint(settings.sequence,
+                                       std::uint64_t{settings.firstSample} + std::uint64_t{variant} * lines + line,
+                                       settings.seed));
+    const double start = points.front().time;
+    std::ranges::sort(points, {}, [](const SequencePoint& point) { return point.pixel.x; });
+    std::vector<WheelPoint> wheel;
+    for (const SequencePoint& point : points) {
+        const double shading = start + static_cast<double>(wheel.size()) * (std::numbers::phi - 1);
+        wheel.push_back({point.lens, shading - std::floor(shading)});
+    }
+    return wheel;
+}
+
 }  // namespace
 
 double apertureRim(const Aperture& aperture, double angle) {
@@ -66,10 +91,13 @@ LineSets lineSets(const FramePlan& plan, bool turned) {
     sets.lensBounds.assign(count, {infinity, infinity, -infinity, -infinity});
     const std::vector<std::uint32_t> order = spreadOrder(count);
     std::vector<glm::vec2> ways(sets.variants);
+    std::vector<std::vector<WheelPoint>> wheels;
+    for (std::uint32_t variant = 0; variant < sets.variants; ++variant)
+        wheels.push_back(wheelPoints(plan.settings, variant, count));
     for (std::uint32_t line = 0; line < count; ++line) {
         float longest = 0;
         for (std::uint32_t variant = 0; variant < sets.variants; ++variant) {
-            const double turn = radicalInverse(2, variant) + 0.5 / sets.variants;
+            const double turn = (variant + 0.5) / sets.variants;
             const double angle = angleOfShare(sums, (order[line] + turn) / count);
             const double ahead = apertureRim(aperture, angle);
             const double behind = apertureRim(aperture, angle + std::numbers::pi);
@@ -78,14 +106,12 @@ LineSets lineSets(const FramePlan& plan, bool turned) {
             if (aperture.anamorphicRatio > 1) way.x /= aperture.anamorphicRatio;
             if (aperture.anamorphicRatio < 1) way.y *= aperture.anamorphicRatio;
             if (!plan.usesLens) way = glm::dvec2(0);
-            const auto point = sequencePoint(
-                plan.settings.sequence,
-                std::uint64_t{plan.settings.firstSample} + std::uint64_t{variant} * count + line, plan.settings.seed);
+            const WheelPoint& point = wheels[variant][order[line]];
             const auto backward = static_cast<float>(behind / ahead);
             const glm::vec2 lens(way.x, aspect * way.y);
             sets.table[std::size_t{line} * sets.variants + variant] = {
                 glm::vec4(lens, glm::vec2(point.pixel) - 0.5f),
-                glm::vec4(backward, areaAt(ahead) / (areaAt(ahead) + areaAt(behind)), point.time, 0)};
+                glm::vec4(backward, areaAt(ahead) / (areaAt(ahead) + areaAt(behind)), point.shading, 0)};
             glm::vec4& bounds = sets.lensBounds[line];
             for (const glm::vec2& end : {lens, -backward * lens})
                 bounds = {std::min(bounds.x, end.x), std::min(bounds.y, end.y), std::max(bounds.z, end.x),

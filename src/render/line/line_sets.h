@@ -4,6 +4,9 @@
 // the pixel. The paper leaves open how to avoid that lines of one direction, at the same place of all pixels, show as
 // strobes.
 //
+// The lines of a pixel have places in it that are spread over the pixel and over the wheel together, because a wheel
+// of few lines smooths what is in focus by those places alone.
+//
 // The angle is counted in equal shares of the aperture's light, so that all lines weigh the same for any shape without
 // an image.
 

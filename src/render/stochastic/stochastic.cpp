@@ -1,23 +1,27 @@
 #include "render/stochastic/stochastic.h"
 
-#include "core/error.h"
-#include "gl/context.h"
 #include "render/lens_space/lens_space.h"
+#include "render/lens_space/record_buffer.h"
 
 namespace defocus {
 
 namespace {
 
-constexpr std::uint32_t pointTile = 16;                               // px
+constexpr std::uint32_t pointTile = 8;                                // px
+constexpr std::uint32_t mostEntries = 40'000;                         // of a tile's list that a dispatch walks over
 constexpr std::size_t boundBytes = blockSamples * sizeof(glm::vec4);  // of a wave
 
 class StochasticKernel final : public VisibilityKernel {
 public:
-    explicit StochasticKernel(std::filesystem::path shaderFolder) : shaderFolder_(std::move(shaderFolder)) {}
+    explicit StochasticKernel(const RendererOptions& options)
+        : shaderFolder_(options.shaderFolder), lightsVertices_(options.settings.at("shading") == "vertices") {}
 
     [[nodiscard]] std::string name() const override { return "stochastic"; }
     [[nodiscard]] std::uint32_t tileSize() const override { return pointTile; }
-    [[nodiscard]] RaySets raySets(const FramePlan& plan) const override { return pointRaySets(plan); }
+    [[nodiscard]] bool lightsVertices() const override { return lightsVertices_; }
+    [[nodiscard]] RaySets raySets(const FramePlan& plan, std::uint32_t parts) const override {
+        return pointRaySets(plan, parts);
+    }
     [[nodiscard]] ShaderDefines rayDefines() const override { return {}; }
     [[nodiscard]] std::uint64_t rayBytes() const override { return recordBytes; }
 
@@ -37,18 +41,7 @@ public:
         const std::uint64_t pixels =
             std::uint64_t{static_cast<std::uint32_t>(imageSize_.x)} * static_cast<std::uint32_t>(imageSize_.y);
         const std::uint64_t records = pixels * wave.count;
-        if (records_.bytes() < records * recordBytes) {
-            records_ = Buffer();  // before the new one is made: both may not fit
-            records_ = Buffer(records * recordBytes);
-        }
-        // Mesa's software driver ends loops after 65,535 rounds, whether they are done or not.
-        constexpr std::uint32_t mostRounds = 60000;
-        if (currentIsSoftware() && front.statistics().largestTile > mostRounds)
-            fail(
-                "method stochastic: a tile shows {} triangles, and this software driver's loops end after {}; choose a "
-                "larger "
-                "image or accumulation",
-                front.statistics().largestTile, mostRounds);
+        records_.reserve(records);
         boundBlock_.update(0, wave.count * sizeof(glm::vec4), bounds_.data() + wave.first);
         for (const TileBand& band : front.bands()) {
             front.fill(band);
@@ -59,34 +52,42 @@ public:
             glUniform2i(0, imageSize_.x, imageSize_.y);
             glUniform1ui(1, wave.first);
             glUniform1ui(2, band.first);
-            glDispatchCompute(band.end - band.first, wave.count, 1);
-            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+            for (std::uint32_t first = 0; first == 0 || first < front.statistics().largestTile; first += mostEntries) {
+                glUniform2ui(3, first, first + mostEntries);
+                glDispatchCompute(band.end - band.first, wave.count, 1);
+                glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+            }
         }
         return records;
     }
 
-    void bindRecords() const override { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, records_.name()); }
+    void bindRecords() const override { records_.bind(); }
     void addTo(RenderStats&) const override {}
     [[nodiscard]] std::size_t bytes() const override { return records_.bytes(); }
 
 private:
     std::filesystem::path shaderFolder_;
+    bool lightsVertices_;
     glm::ivec2 imageSize_{0};
     std::vector<glm::vec4> bounds_;
     ShaderDefines defines_;
     Program program_;
-    Buffer boundBlock_, records_;
+    Buffer boundBlock_;
+    RecordBuffer records_;
 };
 
 }  // namespace
 
 Method stochasticMethod() {
+    const std::vector<MethodSetting> settings = {shadingSetting()};
     return {.name = "stochastic",
             .description = "lens space: points of its own for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
             .showsThrough = false,
-            .settings = {},
-            .make = [](const World& world, const RendererOptions& options) {
-                return makeLensSpaceRenderer(world, options, std::make_unique<StochasticKernel>(options.shaderFolder));
+            .settings = settings,
+            .make = [settings](const World& world, const RendererOptions& options) {
+                RendererOptions complete = options;
+                complete.settings = completeSettings("stochastic", settings, options.settings);
+                return makeLensSpaceRenderer(world, complete, std::make_unique<StochasticKernel>(complete));
             }};
 }
 

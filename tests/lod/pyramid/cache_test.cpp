@@ -455,7 +455,8 @@ TEST(PyramidCache, storesAtFirstAndLoadsAfterwards) {
 TEST(PyramidCache, otherOptionsHaveTheirOwnFiles) {
     const ScratchFolder scratch;
     const std::vector<Mesh> meshes = {sphere(24, 16)};
-    const std::vector<PyramidOptions> others = {{.leastTriangles = 200}, {.vertices = LevelVertices::surviving}};
+    const std::vector<PyramidOptions> others = {
+        {.leastTriangles = 200}, {.vertices = LevelVertices::surviving}, {.vertices = LevelVertices::quarters}};
     EXPECT_EQ(cachedPyramids(meshes, scratch.path()).loaded, 0u);
     for (const PyramidOptions& other : others) EXPECT_EQ(cachedPyramids(meshes, scratch.path(), other).loaded, 0u);
     EXPECT_EQ(cachedPyramids(meshes, scratch.path()).loaded, 1u);

@@ -51,6 +51,19 @@ TEST(LevelOfDetail, ByHalvingIsTwiceTheLogarithmOfTargetOverEdge) {
     EXPECT_EQ(levelOfDetail(pyramid, {3, 40}, LodMetric::halving, {0.7, 1.5}), 0);
 }
 
+// λ is where the stored edges have grown by the threshold times the score, c/d.
+TEST(LevelOfDetail, ByScoreFollowsTheBlurOverTheEdge) {
+    const Pyramid pyramid = uniformPyramid();
+    for (double coc = 0; coc < 90; coc += 1.3) {
+        const double score = coc / 3;
+        const double expected = coc > 0 ? std::clamp(2 * std::log2(0.7 * score), 0.0, 4.0) : 0.0;
+        EXPECT_NEAR(levelOfDetail(pyramid, {3, coc}, LodMetric::score, {.blur = 0.7}), expected, 1e-12) << coc;
+    }
+    EXPECT_EQ(chosenThresholds({.blur = 0.3}, LodMetric::score, 64).size, 0);
+    EXPECT_EQ(defaultThresholds(LodMetric::score, 64).size, 0);
+    EXPECT_EQ(defaultThresholds(LodMetric::score, 256).blur, defaultThresholds(LodMetric::size, 256).blur);
+}
+
 TEST(LevelOfDetail, OfErrorsIsLinearBetweenThem) {
     const Pyramid pyramid = uniformPyramid();
     const auto lambda = [&](double target) {

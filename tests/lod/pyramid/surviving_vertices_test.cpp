@@ -84,6 +84,31 @@ TEST(SurvivingVertices, areThoseThatFittedLevelsHave) {
     }
 }
 
+std::size_t placesOf(const Pyramid& pyramid, const PyramidLevel& level) {
+    std::set<std::array<float, 3>> places;
+    for (const IndexRange& range : level.primitives)
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+            const glm::vec3& p = level.positions[pyramid.indices[i]];
+            places.insert({p.x, p.y, p.z});
+        }
+    return places.size();
+}
+
+// Of closed and of open surfaces, with seams and without.
+TEST(Quarters, areThreeLevelsOfAllThreeQuartersAndHalfOfTheVertices) {
+    for (const Mesh& mesh : {coloured(sphere(64, 32, 0.1)), coloured(torus(64, 40)), coloured(flatGrid(48))}) {
+        const Pyramid pyramid = buildPyramid(mesh, {.vertices = LevelVertices::quarters});
+        ASSERT_EQ(pyramid.levels.size(), 3u);
+        const auto all = static_cast<double>(placesOf(pyramid, pyramid.levels[0]));
+        EXPECT_EQ(placesOf(pyramid, pyramid.levels[1]), std::ceil(0.75 * all));
+        EXPECT_EQ(placesOf(pyramid, pyramid.levels[2]), std::ceil(0.5 * all));
+        const OwnValues own = ownValues(mesh, pyramid);
+        EXPECT_EQ(own.positions, own.all);
+        EXPECT_LT(pyramid.levels[0].meanEdge, pyramid.levels[1].meanEdge);
+        EXPECT_LT(pyramid.levels[1].meanEdge, pyramid.levels[2].meanEdge);
+    }
+}
+
 // A collapse inside a surface takes two triangles, one at a border takes one.
 TEST(SurvivingVertices, makeLevelsOfHalfTheTriangles) {
     const Pyramid pyramid = buildPyramid(sphere(96, 48), asPublished);

@@ -1,0 +1,21 @@
+// The least depth w of each triangle at any time, as bits that are ordered like it; 0 where it reaches the near plane.
+
+#include "include/frame.glsl"
+#include "lens_space/triangles.glsl"
+
+layout(local_size_x = 256) in;
+
+layout(std430, binding = 6) writeonly buffer DepthBlock { uint depths[]; };
+
+layout(location = 0) uniform uint triangleCount;
+
+void main() {
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (index >= triangleCount) return;
+    uvec4 triangle = triangles[index];
+    float least = min(min(clips[triangle.x].z, clips[triangle.y].z), clips[triangle.z].z);
+#ifdef MOVING
+    least = min(least, min(min(clipsAtEnd[triangle.x].z, clipsAtEnd[triangle.y].z), clipsAtEnd[triangle.z].z));
+#endif
+    depths[index] = least < frame.projection.z ? 0u : floatBitsToUint(least);
+}

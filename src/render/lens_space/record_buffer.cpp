@@ -1,0 +1,38 @@
+#include "render/lens_space/record_buffer.h"
+
+#include "core/error.h"
+#include "render/lens_space/visibility_kernel.h"
+
+namespace defocus {
+
+std::uint64_t largestStorage() {
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    return static_cast<std::uint64_t>(most);
+}
+
+Buffer storage(std::uint64_t bytes, const char* what) {
+    if (bytes > largestStorage())
+        fail("{} take {} bytes; this driver's shaders read at most {} of one buffer", what, bytes, largestStorage());
+    return Buffer(bytes);
+}
+
+std::uint64_t RecordBuffer::most() {
+    return largestStorage() / recordBytes;
+}
+
+void RecordBuffer::reserve(std::uint64_t count) {
+    if (capacity() >= count) return;
+    buffer_ = Buffer();  // before the new one is made: both may not fit
+    buffer_ = Buffer(count * recordBytes);
+}
+
+void RecordBuffer::bind() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, buffer_.name());
+}
+
+std::uint64_t RecordBuffer::capacity() const {
+    return buffer_.bytes() / recordBytes;
+}
+
+}  // namespace defocus
