@@ -67,7 +67,7 @@ class Keywords(TypedDict, total=False):
     radial_blur_gain: Optional[float]
     aperture_image: Optional[Path]
     node_blur: Optional[Union[Mapping[str, float], str]]
-    preset: Optional[Literal["jeong2011"]]
+    preset: Optional[Literal["jeong2011", "tzeng2012"]]
     samples: Optional[Union[int, Literal["auto"]]]
     target_error: Optional[float]
     time_limit: Optional[Union[float, str]]  # s
@@ -83,8 +83,8 @@ class Keywords(TypedDict, total=False):
     layer_format: Optional[Literal["automatic", "rgb9e5", "rgba16f", "rgba32f", "rgba8"]]
     tone_map: Optional[Literal["none", "aces", "agx", "neutral"]]
     exposure: Optional[Union[float, Literal["auto"]]]  # EV
-    lod_metric: Optional[Literal["automatic", "size", "error", "halving", "measured"]]
-    level_vertices: Optional[Literal["fitted", "surviving"]]
+    lod_metric: Optional[Literal["automatic", "size", "error", "halving", "measured", "score"]]
+    level_vertices: Optional[Literal["fitted", "surviving", "quarters"]]
     lod_coc: Optional[Literal["smallest", "centre"]]
     coc_tolerance: Optional[float]  # px
     keep_all: Optional[bool]
@@ -102,6 +102,7 @@ class Keywords(TypedDict, total=False):
     fields: Optional[Literal["separate", "combined"]]
     blend_bias: Optional[float]
     convolution: Optional[Literal["separable", "direct"]]
+    shading: Optional[Literal["surfaces", "vertices"]]
     resolve: Optional[Literal["exact", "published"]]
     segments: Optional[int]
     shading_step: Optional[int]

@@ -73,6 +73,14 @@ struct Dolly {
 // How the camera moves; which one it is stands in Shot::request.
 using ShotMovement = std::variant<std::monostate, CameraKeys, Turntable, Dolly>;
 
+// What a shot's request is where neither the shot nor an option says: a default-made request, but with the same number
+// of lens samples for each frame. A number that changes from frame to frame would be seen.
+inline Request shotDefaults() {
+    Request request;
+    request.settings.sampleCount = RenderSettings{}.sampleCount;
+    return request;
+}
+
 struct Shot {
     std::filesystem::path file;  // for messages; paths in a shot are relative to its folder, outputs to the current one
     // Its fixed values, and the names of the settings (frame/settings.h) that it gives; time is that of frame 0.

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "capture/setting_json.h"
+#include "capture/shot.h"
 
 namespace defocus {
 
@@ -140,7 +141,7 @@ Json trackSchema(const Setting& setting) {
 Json schemaOf(const Setting& setting) {
     Json schema = Json::object();
     schema["description"] = setting.unit.empty() ? setting.help : fmt::format("{} ({})", setting.help, setting.unit);
-    const std::optional<std::string> standard = setting.text(Request{});
+    const std::optional<std::string> standard = setting.text(shotDefaults());
     if (standard)
         schema["default"] = settingJson(setting, *standard);
     else if (const auto example = exampleOf(setting))

@@ -373,8 +373,7 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
 
 void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<CaptureArguments>();
-    // As many for each frame: a number that changes from frame to frame would be seen.
-    arguments->request.settings.sampleCount = RenderSettings{}.sampleCount;
+    arguments->request = shotDefaults();
     CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and film");
     addShot(*command, *arguments);
     addOutputs(*command, *arguments);

@@ -51,7 +51,7 @@ void clearPreset(const Preset& preset, Request& request) {
     for (const PresetValue& value : preset.values) settingNamed(value.setting)->clear(request);
 }
 
-const Preset* presetOf(const Request& request) {
+const Preset* presetOf(const Request& request) try {
     const auto has = [&](const Preset& preset) {
         return std::ranges::all_of(preset.values, [&](const PresetValue& value) {
             return settingNamed(value.setting)->text(request) == value.text;
@@ -59,6 +59,8 @@ const Preset* presetOf(const Request& request) {
     };
     const auto found = std::ranges::find_if(presets(), has);
     return found == presets().end() ? nullptr : &*found;
+} catch (const Error&) {
+    return nullptr;  // the request's method, or a setting of it, doesn't exist
 }
 
 }  // namespace defocus

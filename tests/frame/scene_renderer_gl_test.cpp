@@ -185,7 +185,7 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     std::vector<Request> bad(5, smallRequest());
     bad[0].fishCount = 3;  // another scene
     bad[1].camera = "none such";
-    bad[2].settings.sampleCount = 0;
+    bad[2].settings.sampleCount = 65'537;
     bad[3].environment = folder_ / "missing.hdr";
     bad[4].nodeBlur["none such"] = 1;
     for (const Request& request : bad) EXPECT_THROW(renderer.start(request), Error);

@@ -19,6 +19,7 @@ Request twoFish() {
     request.width = 64;
     request.height = 48;
     request.lens.fStop = 1;
+    request.settings.sampleCount = 64;
     return request;
 }
 

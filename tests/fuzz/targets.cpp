@@ -63,7 +63,7 @@ std::vector<Bytes> filesIn(const std::filesystem::path& folder) {
 
 // ---- scenes
 
-constexpr std::uint64_t mostPlannedTriangles = 20'000;
+constexpr std::uint64_t mostPlannedTriangles = 5'000;
 constexpr std::size_t mostPlannedNodes = 1'000;
 
 void runGltf(std::span<const std::byte> bytes) {
@@ -141,7 +141,7 @@ std::vector<Bytes> cacheSeeds() {
 // ---- images
 
 constexpr std::array<const char*, 4> imageNames = {"image.exr", "image.png", "image.hdr", "image.jpg"};
-constexpr std::size_t mostImagePixels = 1 << 20;
+constexpr std::size_t mostImagePixels = 1 << 14;
 
 void runImage(std::span<const std::byte> bytes) {
     if (bytes.empty()) return;
