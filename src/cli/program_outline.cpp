@@ -8,6 +8,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "core/parse.h"
 #include "frame/settings.h"
 #include "render/methods.h"
 
@@ -39,17 +40,6 @@ bool isOfMethod(const CLI::Option& option) {
     });
 }
 
-std::vector<std::string> split(std::string_view text, char separator) {
-    std::vector<std::string> parts(1);
-    for (const char letter : text) {
-        if (letter == separator)
-            parts.emplace_back();
-        else
-            parts.back() += letter;
-    }
-    return parts;
-}
-
 // "half" is a word, "FILE" and "WxH" stand for one.
 bool isWord(const std::string& text) {
     return !text.empty() &&
@@ -60,7 +50,7 @@ bool isWord(const std::string& text) {
 // The words in the form of a value: "off" and "half" of "off|half|N", all of "depth,coc".
 void readForm(OptionOutline& option) {
     option.list = option.value.find('|') == std::string::npos && option.value.find(',') != std::string::npos;
-    for (const std::string& part : split(option.value, option.list ? ',' : '|')) {
+    for (const std::string& part : splitAt(option.value, option.list ? ',' : '|')) {
         if (isWord(part)) option.words.push_back(part);
         for (const char* file : {"FILE", "FOLDER", "PATTERN", "PATH", "SCENE", "SHOT", "IMAGE"})
             option.file = option.file || part == file;

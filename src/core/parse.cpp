@@ -36,7 +36,9 @@ bool inside(double number, const Range& range) {
     return std::isfinite(number) && low && number <= range.most;
 }
 
-std::vector<std::string> splitAt(const std::string& text, char separator) {
+}  // namespace
+
+std::vector<std::string> splitAt(std::string_view text, char separator) {
     std::vector<std::string> parts(1);
     for (const char letter : text) {
         if (letter == separator)
@@ -46,8 +48,6 @@ std::vector<std::string> splitAt(const std::string& text, char separator) {
     }
     return parts;
 }
-
-}  // namespace
 
 double parseNumber(const std::string& text, const Range& range) {
     const std::optional<double> number = wholeText<double>(text);

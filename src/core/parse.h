@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace defocus {
@@ -22,5 +23,8 @@ double parseSeconds(const std::string& text);
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const Range& range);
 // The place of `text` in `choices`. Throws Error listing them.
 std::size_t parseChoice(const std::string& text, const std::vector<std::string>& choices);
+
+// Returns what lies between the separators, one part more than there are of them; parts may be empty.
+std::vector<std::string> splitAt(std::string_view text, char separator);
 
 }  // namespace defocus
