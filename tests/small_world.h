@@ -93,7 +93,7 @@ inline std::unique_ptr<SmallWorld> fiveSpheres() {
     glossy.metallicFactor = 0;
     glossy.roughnessFactor = 0.4f;
     small->scene.materials.push_back(glossy);
-    small->scene.meshes.push_back(bumpySphere(120, 90, 0));
+    small->scene.meshes.push_back(bumpySphere(80, 60, 0));
     const auto at = [](double x, double y, double z, double s) {
         return glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, y, z)), glm::dvec3(s));
     };

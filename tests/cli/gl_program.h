@@ -7,6 +7,8 @@
 
 namespace defocus {
 
+inline const bool copiesDraw = ProgramCopies::draw = true;
+
 class GlProgramTest : public ProgramTest {
 protected:
     void SetUp() override {

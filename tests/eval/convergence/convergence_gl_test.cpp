@@ -43,10 +43,23 @@ private:
 
 class Convergence : public testing::Test {
 protected:
+    // Rendered once: it takes longer than most of what is compared with it.
+    static void SetUpTestSuite() {
+        context_ = createHeadlessContext();
+        const std::unique_ptr<SmallWorld> small = smallSpheres();
+        const ScratchFolder folder;
+        reference_ = referenceImage(small->world, small->view, {256, {}}, folder.path());
+    }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    static std::unique_ptr<SmallWorld> smallSpheres() {
+        auto small = fiveSpheres();
+        small->view.width = 64;
+        small->view.height = 48;
+        return small;
+    }
+
     void SetUp() override {
-        small_->view.width = 64;
-        small_->view.height = 48;
-        reference_ = referenceImage(small_->world, small_->view, {256, {}}, folder_.path());
         options_.sampleCounts = {4, 16, 64};
         options_.runs = 1;
         options_.methods = {parseMethodUse("accumulation")};
@@ -75,10 +88,10 @@ protected:
         return runs;
     }
 
-    std::unique_ptr<GlContext> context_ = createHeadlessContext();
-    std::unique_ptr<SmallWorld> small_ = fiveSpheres();
-    ScratchFolder folder_;
-    ReferenceImage reference_;
+    static inline std::unique_ptr<GlContext> context_;
+    static inline ReferenceImage reference_;
+
+    std::unique_ptr<SmallWorld> small_ = smallSpheres();
     ConvergenceOptions options_;
     int images_ = 0;
     std::map<std::string, std::string> leftOut_;

@@ -65,16 +65,26 @@ Image blocks() {
     return image;
 }
 
+// The left upper part of an image: enough where every pixel of a wide kernel costs.
+Image partOf(const Image& image) {
+    Image part(width / 2, height / 2, image.channels);
+    const std::size_t row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels);
+    for (int y = 0; y < part.height; ++y) std::copy_n(image.at(0, y), row, part.at(0, y));
+    return part;
+}
+
 // Infinity where either holds a NaN.
 TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
     for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight, ComplexTaps::sets})
         for (int components = 1; components <= circularKernelLimit; ++components)
             for (const float radius : {0.3f, 1.0f, 2.7f, 9.0f}) {
                 ComplexBlurInfo info = infoOf(components);
+                info.width /= 2;
+                info.height /= 2;
                 info.taps = taps;
-                const Image passes = blurred(info, blocks(), filled(1, radius));
+                const Image passes = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
                 info.direct = true;
-                const Image whole = blurred(info, blocks(), filled(1, radius));
+                const Image whole = blurred(info, partOf(blocks()), partOf(filled(1, radius)));
                 EXPECT_LT(largestDifference(passes, whole), 1e-3)
                     << components << " components, radius " << radius << ", taps " << static_cast<int>(taps);
             }
