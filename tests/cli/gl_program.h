@@ -7,8 +7,6 @@
 
 namespace defocus {
 
-inline const bool copiesDraw = ProgramCopies::draw = true;
-
 class GlProgramTest : public ProgramTest {
 protected:
     void SetUp() override {

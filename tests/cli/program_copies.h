@@ -17,7 +17,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/driver_libraries.h"
 #include "cli/run_program.h"
 
 namespace defocus {
@@ -33,8 +32,6 @@ struct ProgramRun {
 
 class ProgramCopies : public testing::Environment {
 public:
-    static inline bool draw = false;  // whether the copies will draw
-
     // The status that waitpid(2) gives; -1 where there is no process that makes copies.
     static int run(const ProgramRun& program) {
         std::string words;  // each with a NUL after it
@@ -75,7 +72,6 @@ public:
 
 private:
     [[noreturn]] static void makeCopies(int socket) {
-        if (draw) loadLibrariesOfDriver();
         std::size_t length = 0;
         while (read(socket, &length, sizeof length)) {
             std::string words(length, '\0');

@@ -19,11 +19,11 @@
 namespace defocus {
 namespace {
 
-// Two fish of 2,000 triangles each, with levels of detail.
+// Two fish of 1,000 triangles each, with levels of detail.
 Request smallRequest() {
     Request request;
     request.fishCount = 2;
-    request.trianglesPerFish = 2'000;
+    request.trianglesPerFish = 1'000;
     request.noCache = true;
     request.width = 96;
     request.height = 72;
@@ -194,7 +194,7 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
 }
 
 TEST_F(SceneRendererTest, aSceneIsSharedAndNobodyChangesIt) {
-    const SceneHandle school = schoolOfFish(2, 2'000);
+    const SceneHandle school = schoolOfFish(2, 1'000);
     const std::string fish = sceneInfo(*school).nodes.front();
     const Image plain = render(smallRequest());
     Request sharp = smallRequest();

@@ -56,6 +56,8 @@ std::unique_ptr<SmallWorld> wall(double depth, double halfSize) {
 
 TEST_F(Accumulation, waveSizeChangesNoBit) {
     const auto small = fiveSpheres();
+    small->view.width = 80;
+    small->view.height = 60;
     for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5}) {
         Image first;
         for (const std::uint32_t k : {1u, 3u, 64u}) {

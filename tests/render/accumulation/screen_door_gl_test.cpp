@@ -63,6 +63,8 @@ std::unique_ptr<SmallWorld> oneSphere() {
 
 TEST_F(ScreenDoor, waveSizeChangesNoBit) {
     const auto small = fiveSpheres();
+    small->view.width = 80;
+    small->view.height = 60;
     const FramePlan plan = planFrame(small->world, small->view, continuousFor(70));
     ASSERT_GE(sharingObjects(plan), 2);
     for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5}) {
