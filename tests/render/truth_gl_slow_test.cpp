@@ -84,7 +84,7 @@ void expectTruth(const std::string& name, Scene scene) {
 }
 
 TEST(Truth, FishSchoolEqualsTheRayTracer) {
-    expectTruth("fish", fishSchool());
+    expectTruth("fish", fishSchool({.trianglesPerFish = 15'000}));
 }
 
 TEST(Truth, FlightHelmetEqualsTheRayTracer) {
