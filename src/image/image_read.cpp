@@ -1,3 +1,5 @@
+#include "image/image_read.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -159,6 +161,8 @@ std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
     return std::nullopt;
 }
 
+}  // namespace
+
 Metadata metadataOf(const OIIO::ImageSpec& spec) {
     Metadata metadata;
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
@@ -168,8 +172,6 @@ Metadata metadataOf(const OIIO::ImageSpec& spec) {
     }
     return metadata;
 }
-
-}  // namespace
 
 Image readImage(const std::filesystem::path& path, Metadata& metadata) {
     // The whole file, and what it is.
