@@ -89,6 +89,7 @@ TilingNeeds measuredNeeds(const RenderArguments& arguments, const PreparedFrame&
     renderer.setWave(1);
     renderer.start(tileOf(plan, trial));
     renderer.advance();
+    static_cast<void>(renderer.image());  // drivers hold on to layers until what was drawn of them is read
     const std::uint64_t held = renderer.stats().peakBytes;
     return tilingNeeds(frame.world, plan, all, arguments.request, limit, drawn, held > drawn ? held - drawn : 0);
 }

@@ -69,17 +69,16 @@ Tiling chosenTiling(const TilingNeeds& needs) {
     }
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 
-    // The rows of each row of cells, in equal bands.
+    // The rows of each row of cells, in equal bands but for the last: layers and sums are made anew where sizes differ.
     for (const PixelRectangle& cell : cells) {
         if (cell.left > 0) continue;
         const int first = std::max(cell.top, needs.rows.first);
         const int end = std::min(cell.top + cell.height, needs.rows.end);
         if (first >= end) continue;
         const int count = (end - first + rows - 1) / rows;
-        for (int i = 0; i < count; ++i) {
-            const RowRange part = rowsOfPart(end - first, i, count);
-            tiling.bands.push_back(bandOf(cells, {first + part.first, first + part.end}));
-        }
+        const int each = (end - first + count - 1) / count;
+        for (int top = first; top < end; top += each)
+            tiling.bands.push_back(bandOf(cells, {top, std::min(top + each, end)}));
     }
     return tiling;
 }

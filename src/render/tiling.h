@@ -44,7 +44,7 @@ inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
 // Whether all of the image fits in one piece, with one layer or more; `rows` aren't looked at.
 bool fitsInOnePiece(const TilingNeeds& needs);
 
-// Bands that fit, all of nearly the same height. Throws Error, saying what it takes, where not even bands of a few rows
+// Bands that fit, all of the same height but the last of a row of cells. Throws Error, saying what it takes, where not even bands of a few rows
 // do.
 Tiling chosenTiling(const TilingNeeds& needs);
 

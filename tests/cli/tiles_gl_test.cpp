@@ -106,8 +106,8 @@ TEST_F(TileCommand, whatDoesNotGoWithTilesIsRefused) {
 // More pixels than the memory holds at once.
 class ShortOfMemory : public TileCommand {
 protected:
-    static constexpr const char* size = "1600x1200";
-    // In one piece this takes 400 MB for its pixels alone.
+    static constexpr const char* size = "2400x1800";
+    // In one piece this takes 880 MB for its pixels alone, and 50 MB for one layer.
     static std::vector<std::string> inTiles(std::vector<std::string> more, const char* memory = "350MiB") {
         more.insert(more.end(), {"--memory", memory});
         return line(more, size, "3");
