@@ -24,6 +24,7 @@ std::vector<PixelRectangle> cellsFor(const TilingNeeds& needs) {
 
 // Rows of a band, where the layers take `layers` bytes.
 std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std::uint64_t layers) {
+    if (needs.shared) layers *= 2;  // software drivers still hold those of the tile before while new ones are made
     if (layers >= needs.deviceMemory) return 0;
     const std::uint64_t device = cellWidth * sumPixelBytes;
     const std::uint64_t host = cellWidth * tilePixelBytes + static_cast<std::uint64_t>(needs.width) * bandPixelBytes;

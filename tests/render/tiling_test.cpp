@@ -37,7 +37,7 @@ std::uint64_t bytesOf(const TilingNeeds& needs, const Tiling& tiling) {
 
 TEST(Tiling, coversTheRowsOnceWithinTheMemory) {
     for (const auto& [width, height, memory] :
-         {std::tuple{640, 480, 20ull << 20}, {4000, 3000, 400ull << 20}, {16384, 16384, 1500ull << 20}}) {
+         {std::tuple{640, 480, 20ull << 20}, {4000, 3000, 400ull << 20}, {16384, 16384, 2500ull << 20}}) {
         TilingNeeds needs = needsOf(width, height, memory);
         needs.rows = {height / 10, height - 3};
         const Tiling tiling = chosenTiling(needs);
