@@ -69,6 +69,7 @@ struct Request {
     std::map<std::string, std::string> methodSettings;  // by their names, beyond those in `method`
     LayerFormat layerFormat = LayerFormat::automatic;
     std::uint32_t wave = 0;  // lens samples drawn at once, 1 … 64 (the same image); 0: as memory allows
+    std::optional<std::uint64_t> memory;  // bytes that the process may take; none: three quarters of what is free
 
     // Display: how PNG and JPEG are made of the linear image.
     ToneMap toneMap = ToneMap::neutral;

@@ -88,6 +88,7 @@ class Keywords(TypedDict, total=False):
     lod_coc: Optional[Literal["smallest", "centre"]]
     coc_tolerance: Optional[float]  # px
     keep_all: Optional[bool]
+    memory: Optional[str]
     wave: Optional[int]
     coc: Optional[Literal["published", "thin-lens"]]
     taps: Optional[int]

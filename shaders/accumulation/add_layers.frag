@@ -24,6 +24,7 @@ layout(std140, binding = 4) uniform SampleBlock {
 #endif
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
+layout(location = 2) uniform ivec2 firstPixel;   // of the layers, that the sums begin with
 
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
@@ -52,11 +53,12 @@ void main() {
     bool startsBlock = firstInBlock == 0;
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
     vec4 compensation = startsBlock ? vec4(0.0) : texelFetch(compensationSoFar, pixel, 0);
-    vec2 imagePlane = (2.0 * gl_FragCoord.xy / vec2(textureSize(layers, 0).xy) - 1.0) / frame.projection.xy;
+    ivec2 layerPixel = pixel + firstPixel;
+    vec2 imagePlane = (2.0 * (gl_FragCoord.xy + vec2(firstPixel) + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
 #ifdef CAT_EYE
     // The rim of the barrel: a circle as large as the aperture that moves over it the farther the pixel lies from the centre, by
     // CAT_EYE radii at the image's corners. Light from the right meets it on the right.
-    float aspect = float(textureSize(layers, 0).x) / float(textureSize(layers, 0).y);
+    float aspect = frame.window.z / frame.window.w;
     vec2 rim = CAT_EYE * imagePlane * frame.projection.xy * vec2(1.0, 1.0 / aspect) * inversesqrt(1.0 + 1.0 / (aspect * aspect));
     float seen = 0.0;
 #else
@@ -74,14 +76,14 @@ void main() {
         const vec3 weight = vec3(1.0);
 #endif
 #ifdef LAYER_RGB9E5
-        uint bits = texelFetch(layers, ivec3(pixel, layer), 0).r;
+        uint bits = texelFetch(layers, ivec3(layerPixel, layer), 0).r;
         vec3 value = decodeLayer(bits).rgb;
 #if BACKGROUND == 1 || BACKGROUND == 2
         if (bits == 0u) value = behind(imagePlane, layer);
 #endif
         addCompensated(sum.rgb, compensation.rgb, value * weight);
 #else
-        vec4 value = texelFetch(layers, ivec3(pixel, layer), 0);
+        vec4 value = texelFetch(layers, ivec3(layerPixel, layer), 0);
 #if BACKGROUND == 1 || BACKGROUND == 2
         value.rgb += (1.0 - value.a) * behind(imagePlane, layer);
 #elif BACKGROUND == 0

@@ -86,7 +86,7 @@ vec4 seenBehind(vec3 offset, float roughness) {
 // Quasirandom Sequences: the R2 sequence as an ordered dither, x/ρ + y/ρ² modulo 1 with ρ³ = ρ + 1, in whole numbers
 // of 2⁻³² and so the same on each device. Any share of the pixels is spread evenly; each object has its own offset.
 bool drawsCoarser() {
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    uvec2 pixel = uvec2(gl_FragCoord.xy + frame.window.xy);
     uint place = pixel.x * 3242174889u + pixel.y * 2447445414u + uint(object.values.z) * 2654435769u;
     return float(place >> 8) < object.values.y * 16777216.0;
 }

@@ -6,6 +6,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 coc;             // a, b₁ of C; image width (px); b₂        (src/lens/circle_of_confusion.h)
     vec4 cocField;        // tilt t (2), κ, g
     vec4 cocLimits;       // R₁, R₂; 1/k²; px by which C may differ from its interpolation in a triangle
+    vec4 window;          // where pixel (0, 0) of the layers lies in the image, and the image's size (px)
     mat4 worldFromView;   // rotation
     vec4 lightPositions[MAX_LIGHTS];  // from the camera along the world's axes, m; w: range, 0 is unlimited
 } frame;

@@ -1,7 +1,10 @@
 #include "capture/frame_files.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 #include "core/error.h"
@@ -50,6 +53,16 @@ FrameState frameState(const fs::path& path, int width, int height, const std::st
     } catch (const Error&) {
         return FrameState::missing;
     }
+}
+
+void dropFileAttributes(Metadata& metadata) {
+    std::erase_if(metadata, [](const auto& entry) {
+        static constexpr std::string_view ofFile[] = {
+            "compression", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
+            "name",        "chunkCount",       "PixelAspectRatio",   "version"};
+        return entry.first.starts_with("openexr:") || entry.first.starts_with("oiio:") ||
+               std::ranges::find(ofFile, entry.first) != std::end(ofFile);
+    });
 }
 
 void removeUnfinished(const std::vector<fs::path>& paths) {

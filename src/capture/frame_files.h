@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "image/image_io.h"
+
 namespace defocus {
 
 // "frames/####.exr": the frame's number, with zeros in front, stands for the #. Throws Error for a pattern without #,
@@ -22,6 +24,9 @@ enum class FrameState {
     other,     // a whole image, but not that
 };
 FrameState frameState(const std::filesystem::path& path, int width, int height, const std::string& settings);
+
+// Takes out what the file format says of itself (compression, windows, …), which isn't the frame's.
+void dropFileAttributes(Metadata& metadata);
 
 // Removes what a process that was killed left beside these files: temporary ones of their names. What another process
 // is writing just now stays.

@@ -66,17 +66,6 @@ std::uint32_t sampleAttribute(const Metadata& metadata, const char* name, const 
     return static_cast<std::uint32_t>(value);
 }
 
-// What the file format says of itself isn't the frame's.
-void dropFileAttributes(Metadata& metadata) {
-    std::erase_if(metadata, [](const auto& entry) {
-        static constexpr std::string_view ofFile[] = {
-            "compression", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
-            "name",        "chunkCount",       "PixelAspectRatio",   "version"};
-        return entry.first.starts_with("openexr:") || entry.first.starts_with("oiio:") ||
-               std::ranges::find(ofFile, entry.first) != std::end(ofFile);
-    });
-}
-
 std::string rangeText(const SampleRange& range) {
     return fmt::format("{}:{}", range.first, range.end);
 }

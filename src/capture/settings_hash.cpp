@@ -58,7 +58,7 @@ void addSettings(HashedText& hashed, const Request& request) {
         const bool counts = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
                             setting.group == SettingGroup::developer;
         if (!counts || setting.kind == SettingKind::path || setting.name == "noCache" || setting.name == "wave" ||
-            setting.name == "timeLimit" || setting.name == "preset")
+            setting.name == "memory" || setting.name == "timeLimit" || setting.name == "preset")
             continue;
         // Frames of before these settings stay valid.
         const bool later = setting.name == "targetError" || setting.name == "levelVertices";

@@ -27,7 +27,7 @@ namespace {
 
 struct SpeedupArguments {
     Request request = measuredRequest();
-    std::string preset;                   // as it was given, whatever else was given beside it; empty: none
+    std::string preset;  // as it was given, whatever else was given beside it; empty: none
     SpeedupOptions speedup;
     std::filesystem::path folder;  // empty: only the table
     std::filesystem::path report;  // empty: none
@@ -116,7 +116,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
     addSettings(*command, arguments->request,
                 settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "cacheFolder",
                                          "noCache", "exposureTime", "iso"}));
-    addDeveloperSettings(*command, arguments->request);
+    addDeveloperSettings(*command, arguments->request, {"memory"});
     command->footer(
         "Examples:\n"
         "  defocus bench speedup --counts 16,64 -o bench-fish\n"

@@ -304,7 +304,7 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
                             "lightThreshold", "method", "cacheFolder", "noCache", "exposureTime", "iso"}));
     addMeasurement(*command, *arguments);
     addOutput(*command, *arguments);
-    addDeveloperSettings(*command, arguments->request, {"lodMetric"});
+    addDeveloperSettings(*command, arguments->request, {"lodMetric", "memory"});
     command->footer(
         "Examples:\n"
         "  defocus bench convergence scene.glb --report report\n"

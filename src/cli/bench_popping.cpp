@@ -115,7 +115,8 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
             ->group("Output");
     addReport(*command, output, arguments->report);
     addAllowChanged(*command, arguments->allowChanged);
-    addDeveloperSettings(*command, arguments->request, {"keepAll", "wave"});  // nothing that is measured depends on it
+    addDeveloperSettings(*command, arguments->request,
+                         {"keepAll", "memory", "wave"});  // nothing that is measured depends on it
     command->footer(
         "Examples:\n"
         "  defocus bench popping --fish 6 --fish-triangles 20000 -o popping\n"

@@ -27,9 +27,10 @@ namespace fs = std::filesystem;
 
 struct ScalingArguments {
     ScalingOptions options;
-    Request request;  // its cache folder alone
-    fs::path folder;  // empty: only the table
-    fs::path report;  // empty: none
+    Request request;      // its cache folder alone
+    fs::path folder;      // empty: only the table
+    fs::path report;      // empty: none
+    bool scenes = false;  // the two large ones too
     bool allowChanged = false;
 };
 
@@ -53,11 +54,12 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
     // Each row is kept as it comes: a run that is cut off loses nothing.
     std::vector<ScalingRow> rows;
     std::vector<ScalingLeftOut> leftOut;
+    std::vector<LargeSceneRow> scenes;
     const auto write = [&] {
         std::fflush(stdout);
         if (folder.empty()) return;
         writeFile(folder / "scaling.csv", scalingCsv(rows));
-        writeFile(folder / "scaling.json", scalingJson(rows, leftOut, subject));
+        writeFile(folder / "scaling.json", scalingJson(rows, leftOut, scenes, subject));
     };
     const ScalingVisitor visitor = {[&](const ScalingRow& row) {
                                         rows.push_back(row);
@@ -71,6 +73,12 @@ void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) 
                                     }};
     measureScaling(options, visitor, progress);
     fmt::print("{}", scalingSummary(rows));
+    if (arguments.scenes) fmt::print("{}", largeSceneHeader());
+    for (const LargeScene& scene : arguments.scenes ? largeScenes() : std::vector<LargeScene>()) {
+        scenes.push_back(measureLargeScene(scene, {options.runs, options.cacheFolder, options.renderer}, progress));
+        fmt::print("{}", largeSceneLine(scenes.back()));
+        write();
+    }
     drawReport(arguments.report, arguments.report);
 }
 
@@ -92,6 +100,12 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
     command
         ->add_flag("--large", options.large,
                    "Triangles up to 50 million instead of 10, as far as memory allows; their pyramids take minutes")
+        ->group(group);
+    command
+        ->add_flag(
+            "--scenes", arguments->scenes,
+            "Also two large scenes, 100 million triangles in instances and 10,000 different objects: time of the "
+            "plan, memory, and the first image; their pyramids take minutes")
         ->group(group);
     addWhole(*command, "--runs", options.runs, 1, 1000, "Runs of each frame; the median counts")->group(group);
     addSettings(*command, arguments->request, {"cacheFolder"});

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -22,6 +21,7 @@
 #include "cli/command.h"
 #include "cli/option_text.h"
 #include "cli/request_options.h"
+#include "cli/stop_signal.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
@@ -56,20 +56,6 @@ struct CaptureArguments {
     bool overwrite = false;
     bool dryRun = false;
 };
-
-// ---- Ctrl-C
-// ----------------------------------------------------------------------------------------------------------
-
-volatile std::sig_atomic_t stopAsked = 0;
-
-// The first signal ends the work after the current frame, a second one at once.
-void stopAfterThisFrame() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { stopAsked = 1; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
 
 // ---- the work
 // --------------------------------------------------------------------------------------------------------
@@ -204,14 +190,14 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
     const std::unique_ptr<Renderer> renderer = use.method->make(prepared.world, rendererOptions);
     const std::optional<double> exposure =
         options.metered ? std::optional(film.front().write.exposure) : options.exposure;
-    stopAfterThisFrame();
+    stopWhenAsked();
     // With a time limit at least one frame is rendered, so that run after run ends some day.
     const Clock::time_point start = Clock::now();
     bool first = true;
     const auto stop = [&] {
         const std::optional<double> limit = arguments.request.stop.timeLimit;
         const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;
-        return stopAsked != 0 || late;
+        return stopAsked() || late;
     };
     return renderFilm(arguments.shot, base, prepared.world, *renderer, film, options,
                       metadataOf(arguments, prepared, use.text(), exposure), stop, progress);
@@ -382,7 +368,7 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
         ->type_name("FILE")
         ->group("Scene");
     addMethodSettings(*command, arguments->request);
-    addDeveloperSettings(*command, arguments->request);
+    addDeveloperSettings(*command, arguments->request, {"memory"});
     command->footer(
         "Options replace what the shot says.\n\n"
         "Examples:\n"

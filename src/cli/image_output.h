@@ -21,7 +21,7 @@ std::string shownOutput(const std::filesystem::path& output);
 // Throws Error for a format that there isn't, for what can't be written, for an image to a terminal, and for two
 // outputs to standard output. `more`: others that are written beside them, such as figures.
 void checkImageOutputs(const std::vector<std::filesystem::path>& images,
-                  const std::vector<std::filesystem::path>& more = {});
+                       const std::vector<std::filesystem::path>& more = {});
 
 // writeImage of a file, or of standard output.
 void writeOutput(const std::filesystem::path& output, const Image& image, const Metadata& metadata,

@@ -1,4 +1,4 @@
-// defocus merge: parts of a frame's samples to the frame.
+// defocus merge: parts of a frame, of its samples or of its rows, to the frame.
 
 #include <fmt/format.h>
 
@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "capture/partial.h"
+#include "capture/tile_files.h"
 #include "cli/command.h"
 #include "cli/image_output.h"
 #include "cli/option_text.h"
+#include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
 #include "gl/context.h"
@@ -34,26 +36,46 @@ double ownExposure(const Metadata& metadata) {
     return value != nullptr ? *value : 0;
 }
 
+std::string shownOutputs(const MergeArguments& arguments) {
+    std::string names;
+    for (const std::filesystem::path& path : arguments.outputs)
+        names += (names.empty() ? "" : ", ") + shownOutput(path);
+    return names;
+}
+
+void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
+    const std::vector<TileFile> tiles = completeTiles(arguments.parts);
+    Metadata metadata = tiles.front().header.metadata;
+    metadata.try_emplace("capDate", std::string());  // as the frames of a film: no time of writing
+    std::vector<TileOutput> outputs;
+    for (const std::filesystem::path& path : arguments.outputs) {
+        if (isStandardOutput(path)) throw UsageError("tiles are joined to files alone");
+        outputs.push_back({path, {arguments.toneMap, arguments.exposure.value_or(ownExposure(metadata))}});
+    }
+    joinTiles(tiles, outputs, metadata);
+    if (!global.quiet)
+        printMessage("{}: {}x{}, {} tiles\n", shownOutputs(arguments), tiles.front().header.width,
+                     tiles.front().header.height, tiles.size());
+}
+
 void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
     checkImageOutputs(arguments.outputs);
+    if (isTileFile(arguments.parts.front())) return mergeTiles(arguments, global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const MergedFrame merged = mergeParts(arguments.parts);
     const WriteOptions write{arguments.toneMap, arguments.exposure.value_or(ownExposure(merged.metadata))};
-    std::string names;
-    for (const std::filesystem::path& path : arguments.outputs) {
-        writeOutput(path, merged.image, merged.metadata, write);
-        names += (names.empty() ? "" : ", ") + shownOutput(path);
-    }
+    for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, merged.image, merged.metadata, write);
     if (!global.quiet)
-        printMessage("{}: {}x{}, {} parts\n", names, merged.image.width, merged.image.height, arguments.parts.size());
+        printMessage("{}: {}x{}, {} parts\n", shownOutputs(arguments), merged.image.width, merged.image.height,
+                     arguments.parts.size());
 }
 
 }  // namespace
 
 void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
     auto arguments = std::make_shared<MergeArguments>();
-    CLI::App* command =
-        program.add_subcommand("merge", "Add up parts of a frame's samples (render or capture with --sample-range)");
+    CLI::App* command = program.add_subcommand(
+        "merge", "Put a frame together from its parts (render or capture with --sample-range, render with --tile)");
     command->add_option("PART", arguments->parts, "The parts of one frame, in any order")
         ->required()
         ->type_name("FILE…");
@@ -74,7 +96,10 @@ void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
         "Example:\n"
         "  defocus render scene.glb --samples 256 --sample-range 0:128 -o a.exr\n"
         "  defocus render scene.glb --samples 256 --sample-range 128:256 -o b.exr\n"
-        "  defocus merge a.exr b.exr -o out.exr");
+        "  defocus merge a.exr b.exr -o out.exr\n"
+        "  defocus render scene.glb --tile 0/2 -o upper.exr\n"
+        "  defocus render scene.glb --tile 1/2 -o lower.exr\n"
+        "  defocus merge upper.exr lower.exr -o out.exr");
     command->callback([arguments, &global] { runMerge(*arguments, global); });
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 // Options of the commands' own that few people need.
 constexpr auto rarelyUsed = std::to_array<std::string_view>(
-    {"--aov", "--sample-range", "--stats", "--set", "--speed", "--animate-seed", "--shard", "--allow-changed",
+    {"--aov", "--sample-range", "--tile", "--stats", "--set", "--speed", "--animate-seed", "--shard", "--allow-changed",
      "--shader-dir", "--points", "--start-exposure", "--stop-exposure", "--exposures"});
 
 std::string longName(const CLI::Option& option) {

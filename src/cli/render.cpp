@@ -13,14 +13,15 @@
 #include <vector>
 
 #include "capture/partial.h"
-#include "capture/settings_hash.h"
 #include "cli/command.h"
 #include "cli/image_output.h"
 #include "cli/option_text.h"
+#include "cli/render_tiles.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
 #include "frame/exposure.h"
+#include "frame/memory_budget.h"
 #include "frame/picture_warnings.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
@@ -68,6 +69,16 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
     addParsed(command, "--sample-range", "FIRST:END",
               "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
               [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
+        ->group(group);
+    addParsed(command, "--tile", "I/N",
+              "Render part I (0 to N-1) of the image's rows, to an EXR file for 'defocus merge'",
+              [&arguments](const std::string& text) { arguments.tile = parseTileShare(text); })
+        ->group(group);
+    command
+        .add_flag(
+            "--resume", arguments.resume,
+            "Keep what an interrupted run of the same settings has finished: tiles of an image that doesn't fit into "
+            "memory, which lie beside the first output in out.tiles, or the file of a --tile")
         ->group(group);
     addParsed(command, "--stats", "FILE",
               "Write times, triangles, memory and what was asked for as JSON; - is standard output",
@@ -122,14 +133,7 @@ Image renderImage(FrameRun& run, Renderer& renderer, const RenderArguments& argu
 // Part of the samples: their sums, block by block, to one file.
 void writeSums(const RenderArguments& arguments, FramePart part, const PreparedFrame& frame,
                const std::filesystem::path& shaderFolder, const Metadata& metadata) {
-    SequenceFrame single;
-    single.time = arguments.request.time;
-    single.pose = frame.world.pose;
-    single.shutter = frame.world.shutter;
-    single.lights = frame.world.lights;
-    single.view = frame.view;
-    single.settings = frame.settings;
-    part.settings = settingsHash(filmSettings(frame, arguments.request, shaderFolder), single);
+    part.settings = frameSettings(arguments, frame, shaderFolder);
     part.metadata = metadata;
     part.metadata["defocus:samples"] = static_cast<int>(part.frameSamples);
     writePart(arguments.outputs.front(), part);
@@ -180,6 +184,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const Method& method = *use.method;
     checkStop(arguments.request);
     checkOutputs(arguments);
+    checkTileOptions(arguments, method);
     Progress progress = terminalProgress(global);
     PreparedFrame frame = placeFrame(arguments.request, progress);
     std::unique_ptr<GlContext> context;
@@ -199,9 +204,12 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     progress = terminalProgress(global);
 
     // Plan and render.
+    const std::uint64_t limit = memoryLimit(arguments.request);
+    const bool inTiles = drawsInTiles(arguments, frame, method, limit);
     RendererOptions options;
     options.layerFormat = arguments.request.layerFormat;
     options.wave = arguments.request.wave;
+    options.waveBytes = waveBytesWithin(limit);
     options.shaderFolder = global.shaderDir;
     options.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
@@ -209,7 +217,15 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     FramePlan plan;
     Image image;
     FramePart part;
-    if (arguments.sampleRange) {
+    std::optional<TiledFrame> tiled;
+    const auto metadataOf = [&](const FramePlan& drawn, const RenderStats& drawnStats) {
+        return renderMetadata({arguments.request, use.text(), frame, drawn, drawnStats});
+    };
+    if (inTiles) {
+        tiled = renderTiles(arguments, frame, *renderer, limit, frameSettings(arguments, frame, global.shaderDir),
+                            metadataOf, progress);
+        plan = tiled->plan;
+    } else if (arguments.sampleRange) {
         plan = planFrame(frame.world, frame.view, frame.settings);
         part = renderPart(*renderer, plan, *arguments.sampleRange,
                           [&] { report(progress, "samples", renderer->samples(), renderer->sampleTotal()); });
@@ -217,7 +233,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
         image = renderImage(run, *renderer, arguments, frame, progress);
         plan = run.plan();
     }
-    const RenderStats stats = arguments.sampleRange ? renderer->stats() : run.stats();
+    const RenderStats stats = tiled ? tiled->stats : arguments.sampleRange ? renderer->stats() : run.stats();
     progress = {};
     if (!counted) warnOfPlan(plan, stats.samples);
 
@@ -227,16 +243,27 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     if (metersExposure(arguments.request, *frame.scene, frame.view.lens) && !context) context = createHeadlessContext();
     const double exposure =
         chosenExposure(arguments.request, frame.world, frame.view, frame.settings, global.shaderDir);
-    const RenderReport report{
-        arguments.request, use.text(), frame, plan, stats, software, milliseconds, exposure, commandLine(global.words)};
+    const RenderReport report{.options = arguments.request,
+                              .method = use.text(),
+                              .frame = frame,
+                              .plan = plan,
+                              .stats = stats,
+                              .softwareDriver = software,
+                              .totalMilliseconds = milliseconds,
+                              .exposure = exposure,
+                              .command = commandLine(global.words),
+                              .memoryLimit = limit,
+                              .tiles = tiled ? tiled->tiles : 1};
     const Metadata metadata = renderMetadata(report);
     const auto hasCurve = [](const std::filesystem::path& path) {
         return !path.string().starts_with("exr:") && path.extension() != ".exr";
     };
-    if (!arguments.sampleRange && std::ranges::any_of(arguments.outputs, hasCurve))
+    if (!image.empty() && std::ranges::any_of(arguments.outputs, hasCurve))
         printWarnings(clippingWarnings(image, {arguments.request.toneMap, exposure}), global);
     if (arguments.sampleRange)
         writeSums(arguments, std::move(part), frame, global.shaderDir, metadata);
+    else if (tiled)
+        joinRenderedTiles(arguments, metadata, {arguments.request.toneMap, exposure});
     else
         for (const std::filesystem::path& path : arguments.outputs)
             writeOutput(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});
@@ -246,6 +273,8 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     if (!arguments.stats.empty()) writeOutput(arguments.stats, statsJson(report));
     if (global.verbose) printChoices(context.get(), plan, report);
     if (!global.quiet) printSummary(arguments, report);
+    if (!global.quiet && tiled && tiled->rowsKept > 0)
+        printMessage("{} of {} rows there before\n", tiled->rowsKept, plan.view.height);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "capture/partial.h"
+#include "capture/tile_files.h"
 #include "cli/request_options.h"
 #include "image/tone_map.h"
 
@@ -26,6 +27,8 @@ struct RenderArguments {
     std::filesystem::path stats;
     AovRequest aovs;
     std::optional<SampleRange> sampleRange;  // only these, for `merge`
+    std::optional<TileShare> tile;           // only these rows, for `merge`
+    bool resume = false;                     // keeps what an interrupted run has finished
 };
 
 // All options of the command. `arguments` must outlive the parse.

@@ -46,7 +46,7 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
         ->group(group);
     addSettings(*command, options->request, settingsOf(pictureGroups, {"timeLimit"}));
     addMethodSettings(*command, options->request);
-    addDeveloperSettings(*command, options->request);
+    addDeveloperSettings(*command, options->request, {"memory"});
     command->footer(
         "Press ? in the window for the keys.\n\nExamples:\n"
         "  defocus view scene.glb --fstop 1.4\n"

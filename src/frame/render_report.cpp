@@ -49,7 +49,8 @@ glm::dmat4 ndcFromWorld(const FramePlan& plan) {
 void addSettings(Metadata& metadata, const Request& request) {
     for (const Setting& setting : settings()) {
         const bool elsewhere = setting.lensField || setting.group == SettingGroup::camera;
-        const bool samePicture = setting.name == "wave" || setting.name == "noCache" || setting.name == "keepAll";
+        const bool samePicture = setting.name == "wave" || setting.name == "memory" || setting.name == "noCache" ||
+                                 setting.name == "keepAll";
         const std::optional<std::string> text = setting.text(request);
         if (elsewhere || samePicture || setting.kind == SettingKind::path || !text) continue;
         const std::string name = fmt::format("defocus:{}", setting.name);
@@ -165,6 +166,8 @@ std::string statsJson(const RenderReport& report) {
         {"trianglesOutside", report.plan.trianglesOutside},
         {"trianglesAtFullDetail", report.plan.trianglesAtFullDetail},
         {"peakBytes", peakMemory()},
+        {"memoryLimit", report.memoryLimit},
+        {"tiles", report.tiles},
         {"gpuBytes", stats.peakBytes},
         {"wave", stats.wave},
         {"layerFormat", stats.layerFormat},

@@ -21,6 +21,8 @@ struct RenderReport {
     double totalMilliseconds = 0;         // of the whole command so far
     std::optional<double> exposure = {};  // EV of its 8-bit images; none: the lens's
     std::string command = {};             // the command line, as a shell would take it
+    std::uint64_t memoryLimit = 0;        // bytes that the process might take
+    int tiles = 1;                        // that were drawn one after the other; 1: the image in one piece
 };
 
 // EXR's standard names where there are any: aperture (f-number), focus (m), nominalFocalLength (mm), worldToCamera,

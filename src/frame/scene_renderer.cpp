@@ -7,6 +7,7 @@
 #include "core/stopwatch.h"
 #include "defocus/renderer.h"
 #include "frame/exposure.h"
+#include "frame/memory_budget.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
@@ -35,7 +36,7 @@ bool sameSurroundings(const Request& a, const Request& b) {
 // Would both be drawn with the same resources?
 bool sameRenderer(const Request& a, const Request& b) {
     return chosenMethod(a).text() == chosenMethod(b).text() && a.layerFormat == b.layerFormat && a.wave == b.wave &&
-           sameSurroundings(a, b);
+           a.memory == b.memory && sameSurroundings(a, b);
 }
 
 // The kinds of pyramids that a request may need: full detail alone, or levels of any sort of vertices.
@@ -158,6 +159,7 @@ void SceneRenderer::State::makeRenderer() {
     RendererOptions options;
     options.layerFormat = request_.layerFormat;
     options.wave = request_.wave;
+    options.waveBytes = waveBytesWithin(memoryLimit(request_));
     options.settings = use.settings;
     renderer_ = use.method->make(frame_.world, options);
     run_.emplace(frame_.world, *renderer_);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/memory_limits.h"
 #include "frame/presets.h"
 #include "frame/setting_kinds.h"
 #include "lens/lens_fields.h"
@@ -499,6 +500,20 @@ Rows displayRows() {
     };
 }
 
+Setting memorySetting() {
+    Setting setting = other(
+        "memory", "--memory", "SIZE",
+        [](Request& request, const std::string& text) { request.memory = parseBytes(text); },
+        [](const Request& request) -> std::optional<std::string> {
+            return request.memory ? std::optional(fmt::format("{}B", *request.memory)) : std::nullopt;
+        },
+        "Memory that the program may take, such as 2GiB: as many samples are drawn at once, and the image in one piece "
+        "or "
+        "in tiles, as it allows (same image). Without it, three quarters of what is free");
+    setting.clear = [](Request& request) { request.memory.reset(); };
+    return setting;
+}
+
 // What only those need who measure or mend the program.
 Rows developerRows() {
     return {
@@ -534,6 +549,7 @@ Rows developerRows() {
                  "px"),
         truth("keepAll", "--keep-all", MEMBER(settings.keepAll),
               "Leave out nothing, not even what cannot be seen (same image, slower)"),
+        memorySetting(),
         whole("wave", "--wave", 0, 64, MEMBER(wave), "Samples drawn at once; 0: as memory allows (same image)"),
     };
 }

@@ -1,3 +1,5 @@
+#include "image/image_read.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -25,6 +27,9 @@ namespace {
 
 // 268 million pixels: a 16384 × 16384 texture. More is a damaged header or more than a float image should take.
 constexpr std::uint64_t maximumPixels = 1ull << 28;
+// A byte of a JPEG file: each block of 8 × 8 has a code of a bit or more. What a short file claims beyond that, libjpeg
+// would make up, for as long as it takes.
+constexpr std::uint64_t mostJpegPixels = 2 * 8 * 8 * 8;
 
 struct Format {
     std::string_view magic;
@@ -80,6 +85,10 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     if (std::uint64_t(spec.width) * std::uint64_t(spec.height) > maximumPixels)
         fail("{}: {}x{} pixels are more than the {} million that can be read", name, spec.width, spec.height,
              maximumPixels / 1000000);
+    if (format == "jpeg" &&
+        std::uint64_t(spec.width) * std::uint64_t(spec.height) > mostJpegPixels * image.bytes.size())
+        fail("{}: cannot be read: its {} bytes are too few for {}x{} pixels", name, image.bytes.size(), spec.width,
+             spec.height);
     return image;
 }
 
@@ -159,6 +168,8 @@ std::optional<MetadataValue> metadataValue(const OIIO::ParamValue& attribute) {
     return std::nullopt;
 }
 
+}  // namespace
+
 Metadata metadataOf(const OIIO::ImageSpec& spec) {
     Metadata metadata;
     for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
@@ -168,8 +179,6 @@ Metadata metadataOf(const OIIO::ImageSpec& spec) {
     }
     return metadata;
 }
-
-}  // namespace
 
 Image readImage(const std::filesystem::path& path, Metadata& metadata) {
     // The whole file, and what it is.

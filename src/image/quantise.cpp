@@ -16,7 +16,7 @@ double gradientNoise(int x, int y) {
 
 }  // namespace
 
-std::vector<std::uint8_t> quantised(const Image& display) {
+std::vector<std::uint8_t> quantised(const Image& display, int firstRow) {
     constexpr int betweenChannels = 47;  // px, so that the pattern isn't grey
     constexpr double ownValue = 1e-3;    // of a step: rounding of floats
     std::vector<std::uint8_t> bytes;
@@ -27,7 +27,8 @@ std::vector<std::uint8_t> quantised(const Image& display) {
                 const double value = 255 * double{display.pixels[bytes.size()]};
                 const double nearest = std::round(value);
                 const bool exact = c == 3 || std::abs(value - nearest) < ownValue;
-                const double shown = exact ? nearest : std::floor(value + gradientNoise(x + c * betweenChannels, y));
+                const double shown =
+                    exact ? nearest : std::floor(value + gradientNoise(x + c * betweenChannels, firstRow + y));
                 bytes.push_back(static_cast<std::uint8_t>(std::clamp(shown, 0.0, 255.0)));
             }
     return bytes;

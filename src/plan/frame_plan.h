@@ -10,6 +10,7 @@
 
 #include "lens/circle_of_confusion.h"
 #include "lens/lens_samples.h"
+#include "plan/tiles.h"
 #include "plan/view.h"
 
 namespace defocus {
@@ -88,6 +89,7 @@ struct LeftOut {
 
 struct FramePlan {
     View view;
+    std::optional<Tile> tile;  // the part of the image that is drawn; none: all of it
     RenderSettings settings;
     LodThresholds thresholds;  // of settings, what they leave open by the number of samples
     double tanHalfHorizontal = 0;

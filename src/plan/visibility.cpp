@@ -264,14 +264,23 @@ CocBox cocBoxOf(const Bounds& viewBox, double scaleLeast, double scaleMost, cons
     return box;
 }
 
-// All corners lie outside one plane of the frustum: for the left one while x/tan + w + |C| < 0 (half a pixel added for
-// the jitter). The thin lens's |C(w)| is convex, so corners bound it; otherwise |C|/w is at most `largest` px over the
-// image's width.
-bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest) {
+// All corners lie outside one plane of the frustum: for the left one, at the place −1 in the image, while x/tan + w +
+// |C| < 0 (half a pixel added for the jitter). The thin lens's |C(w)| is convex, so corners bound it; otherwise |C|/w
+// is at most `largest` px over the image's width. Within the image a further pixel makes up for rounded corners of
+// triangles.
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest, const PixelRectangle& area) {
     const View& view = plan.view;
     const ClipCircleOfConfusion& coc = plan.coc;
     const double tanX = plan.tanHalfHorizontal;
     const double tanY = tanX * view.height / view.width;
+    const auto border = [](int pixel, int pixels, int rounded) {
+        if (pixel <= 0) return -1.0;
+        return pixel >= pixels ? 1.0 : 2.0 * (pixel + rounded) / pixels - 1;
+    };
+    const double left = border(area.left, view.width, -1);
+    const double right = border(area.left + area.width, view.width, 1);
+    const double upper = -border(area.top, view.height, -1);
+    const double lower = -border(area.top + area.height, view.height, 1);
     bool outside[5] = {true, true, true, true, true};
     for (const glm::dvec3& corner : viewBox.corners()) {
         const double w = -corner.z;
@@ -281,13 +290,17 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double 
         const double y = corner.y / tanY;
         const double marginX = std::abs(w) / view.width + reach;
         const double marginY = std::abs(w) / view.height + reach * view.width / view.height;
-        outside[0] &= x + w + marginX < 0;
-        outside[1] &= w - x + marginX < 0;
-        outside[2] &= y + w + marginY < 0;
-        outside[3] &= w - y + marginY < 0;
+        outside[0] &= x - left * w + marginX < 0;
+        outside[1] &= right * w - x + marginX < 0;
+        outside[2] &= y - lower * w + marginY < 0;
+        outside[3] &= upper * w - y + marginY < 0;
         outside[4] &= w < view.nearPlane;
     }
     return std::any_of(std::begin(outside), std::end(outside), [](bool value) { return value; });
+}
+
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest) {
+    return outsideWidenedFrustum(viewBox, plan, largest, {0, 0, plan.view.width, plan.view.height});
 }
 
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan) {

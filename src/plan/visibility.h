@@ -34,6 +34,8 @@ CocBox cocBoxOf(const Bounds& viewBox, double scaleLeast, double scaleMost, cons
 
 // Returns whether no lens sample sees any part of the box. No CoC in the box is larger than `largest` px.
 bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest);
+// The same of a part of the image.
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest, const PixelRectangle& area);
 
 // Fills object.visible and lowers the triangle counts of its draws. The vertices of the object must not move against
 // each other.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "lens/wavelengths.h"
 #include "render/environment_light.h"
+#include "render/layer_window.h"
 
 namespace defocus {
 
@@ -32,6 +33,7 @@ struct GpuFrame {
     glm::vec4 coc;
     glm::vec4 cocField;
     glm::vec4 cocLimits;
+    glm::vec4 window;
     glm::mat4 worldFromView;
     std::array<glm::vec4, mostLights> lightPositions;
 };
@@ -169,6 +171,8 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     block.cocField = {coc.tilt, coc.curvature, coc.gain};
     block.cocLimits = {std::min(coc.foregroundLimit, unlimitedBlur), std::min(coc.backgroundLimit, unlimitedBlur),
                        1 / (coc.aspect * coc.aspect), plan.settings.cocTolerance};
+    const LayerWindow window = layerWindow(plan);
+    block.window = {window.imageLeft, window.imageBottom, window.imageWidth, window.imageHeight};
     block.worldFromView = glm::mat4(glm::mat3(view.worldFromCamera));
     const glm::dvec3 camera(view.worldFromCamera[3]);
     for (std::size_t i = 0; i < world.lights.size(); ++i)

@@ -24,6 +24,7 @@ std::vector<Method>& table() {
         {.name = "accumulation",
          .description = "lens samples accumulated from a pyramid of levels (Jeong, Kim and Lee 2011)",
          .sumsBlocks = true,
+         .drawsTiles = true,
          .settings = {},
          .make = makeAccumulationRenderer},
         {.name = "multirate",

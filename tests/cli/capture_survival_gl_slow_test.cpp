@@ -72,7 +72,7 @@ protected:
     if (!(child).traced()) GTEST_SKIP() << "processes can't be traced here (ptrace)"
 
 // Killed before a write into one of the next frames, or before one gets its name.
-TEST_F(Survival, killedTwentyTimesAndResumed) {
+TEST_F(Survival, killedFiftyTimesAndResumed) {
     const Outcome whole = capture({"--range", "0:23", "-o", "whole/####.exr"});
     ASSERT_EQ(whole.exitCode, 0) << whole.err;
     TracedChild undisturbed = startTraced();
@@ -84,7 +84,7 @@ TEST_F(Survival, killedTwentyTimesAndResumed) {
 
     std::mt19937 random(7);
     int before = 0;
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 50; ++i) {
         // More than half is still to be done.
         TracedChild child = startTraced();
         EXPECT_EQ(child.end(std::uniform_int_distribution(1, calls / 3)(random), SIGKILL), 128 + SIGKILL) << i;

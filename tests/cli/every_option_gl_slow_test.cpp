@@ -30,6 +30,8 @@ std::string saidOfPyramids(const Folder&, const Outcome& outcome) {
 std::string seenOfRender(const Folder& folder, const Outcome&) {
     const json stats = jsonIn(folder / "stats.json");
     std::string text = pixelsIn(folder / "a.exr") + pixelsIn(folder / "a.png");
+    // The limit that option_cases.h gives; without one it is what the machine has free just then.
+    if (stats.at("memoryLimit") == std::uint64_t{3} << 30) text += "limited ";
     for (const char* key : {"wave", "layerFormat", "trianglesFacingAway", "trianglesOutside", "samples"})
         text += stats.at(key).dump() + " ";
     return text;

@@ -32,6 +32,7 @@ const std::set<std::string> triedAlone = {
     "bench scaling --axes",
     "bench scaling --large",
     "bench scaling --runs",
+    "bench scaling --scenes",
     "bench scaling --output",
     "bench scaling --report",
     "bench stability --output",

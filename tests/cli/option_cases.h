@@ -173,6 +173,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"cocTolerance", {{"--coc-tolerance", "0.01"}, {"--fstop", "0.5", "--field-curvature", "2"}}},
         {"keepAll", {{"--keep-all"}, {"--focal-length", "1500", "--lod", "off"}, true}},
         {"wave", {{"--wave", "1"}, {}, true}},
+        {"memory", {{"--memory", "3GiB"}, {}, true}},
         {"toneMap", {{"--tonemap", "agx"}, {}}},
         {"exposure", {{"--exposure", "1"}, {}}},
     };

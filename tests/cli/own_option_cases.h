@@ -82,6 +82,11 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"render --output", {.words = {"-o", "other.png"}}},
         {"render --aov", {.words = {"--aov", "depth"}}},
         {"render --sample-range", {.words = {"--sample-range", "0:64"}, .more = {"--samples", "128"}}},
+        {"render --tile", {.words = {"--tile", "1/3"}}},
+        {"render --resume",
+         {.words = {"--resume"},
+          .more = {"--tile", "0/2"},
+          .before = {{"render", "ball.glb", "--size", "16x12", "--fstop", "0.5", "--samples", "4", "--tile", "0/2"}}}},
         {"render --stats", {.words = {"--stats", "stats.json"}}},
 
         {"capture SHOT", {.words = {"other.json"}}},

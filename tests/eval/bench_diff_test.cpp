@@ -210,7 +210,7 @@ TEST(BenchDiff, readsScaling) {
     BenchSubject subject;
     subject.runs = 3;
     const BenchDifference difference =
-        differenceOf(scalingCsv(std::vector{row}), scalingJson(std::vector{slower}, {}, subject));
+        differenceOf(scalingCsv(std::vector{row}), scalingJson(std::vector{slower}, {}, {}, subject));
     ASSERT_EQ(difference.rows.size(), 1u);
     EXPECT_EQ(difference.rows[0].time->change, TimeChange::slower);
     EXPECT_TRUE(difference.rows[0].errors.empty());

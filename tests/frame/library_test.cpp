@@ -118,6 +118,7 @@ TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
         {"sequence", [](Request& r) { r.settings.sequence = static_cast<Sequence>(-1); }},
         {"layerFormat", [](Request& r) { r.layerFormat = static_cast<LayerFormat>(99); }},
         {"wave", [](Request& r) { r.wave = 65; }},
+        {"memory", [](Request& r) { r.memory = 0; }},
         {"time", [](Request& r) { r.time = infinity; }},
         {"shutter", [](Request& r) { r.shutter.seconds = -1; }},
         {"motionSegments", [](Request& r) { r.shutter.motionSegments = 0; }},

@@ -34,6 +34,7 @@ std::string otherValue(const Setting& setting) {
         {"method", "circular:far-components=5"},
         {"bladeCount", "7"},
         {"wave", "3"},
+        {"memory", "3000000000B"},
     };
     if (const auto found = own.find(setting.name); found != own.end()) return found->second;
     switch (setting.kind) {

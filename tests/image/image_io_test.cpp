@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -362,6 +364,24 @@ TEST(Texture, anInvalidJpegIsRefused) {
     DEFOCUS_MODEL_OR_SKIP(path, "invalid/invalid_image_data.jpg");
     expectClearFault(messageOf<Error>([&] { decodeTexture(readFile(path), "image"); }), "image");
     expectClearFault(readFault(path), path.string());
+}
+
+// A header of 16,000 × 16,000 px over the data of 8 × 8: libjpeg would make up the rest for half a minute.
+TEST(ImageFiles, aJpegTooShortForItsPixelsIsRefused) {
+    const ScratchFolder folder;
+    const fs::path path = folder / "a.jpg";
+    writeImage(path, Image(8, 8, 3));
+    std::vector<std::byte> bytes = readFile(path);
+    const std::array frame = {std::byte{0xff}, std::byte{0xc0}};  // SOF0: length (2), precision (1), height, width
+    const auto found = std::ranges::search(bytes, frame);
+    ASSERT_FALSE(found.empty());
+    for (const std::ptrdiff_t at : {5, 7}) {
+        found.begin()[at] = std::byte{16'000 >> 8};
+        found.begin()[at + 1] = std::byte{16'000 & 0xff};
+    }
+    writeFile(path, bytes);
+    const std::string said = messageOf<Error>([&] { readImage(path); });
+    EXPECT_NE(said.find("too few for 16000x16000 pixels"), std::string::npos) << said;
 }
 
 }  // namespace

@@ -106,6 +106,7 @@ protected:
         return -1;
     }
     [[nodiscard]] bool running() const { return alive(); }
+    [[nodiscard]] pid_t process() const { return program_; }
 
     [[nodiscard]] nlohmann::json state() const {
         std::ifstream file(folder_ / "state.json");

@@ -85,6 +85,20 @@ ordered_json rowJson(const ScalingRow& row) {
         {"pyramidBytes", row.pyramidBytes}};
 }
 
+ordered_json sceneJson(const LargeSceneRow& row) {
+    return {{"scene", row.scene.name},
+            {"objects", row.scene.objects},
+            {"meshes", row.meshes},
+            {"triangles", row.triangles},
+            {"worldMilliseconds", row.worldMilliseconds},
+            {"planMilliseconds", spreadJson(row.planMilliseconds)},
+            {"firstImageMilliseconds", row.firstImageMilliseconds},
+            {"frameMilliseconds", row.frameMilliseconds},
+            {"trianglesDrawn", row.trianglesDrawn},
+            {"residentBytes", row.residentBytes},
+            {"gpuBytes", row.gpuBytes}};
+}
+
 ordered_json curveJson(std::span<const ScalingRow> curve) {
     return {{"axis", scalingAxisName(curve.front().axis)},
             {"lod", lodModeName(curve.front().mode)},
@@ -172,7 +186,7 @@ std::string scalingCsv(std::span<const ScalingRow> rows) {
 }
 
 std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,
-                        const BenchSubject& subject) {
+                        std::span<const LargeSceneRow> scenes, const BenchSubject& subject) {
     ordered_json document = subjectJson("scaling", subject);
     document["heldEqual"] =
         "along an axis: scene, camera, lens, lens samples, image size but for what the axis names, and the process; "
@@ -185,6 +199,7 @@ std::string scalingJson(std::span<const ScalingRow> rows, std::span<const Scalin
     for (const ScalingLeftOut& entry : leftOut)
         document["leftOut"].push_back(
             {{"axis", scalingAxisName(entry.point.axis)}, {"value", entry.point.value}, {"reason", entry.reason}});
+    for (const LargeSceneRow& row : scenes) document["scenes"].push_back(sceneJson(row));
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

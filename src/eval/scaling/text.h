@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "eval/bench_subject.h"
+#include "eval/scaling/large_scenes.h"
 #include "eval/scaling/scaling.h"
 
 namespace defocus {
@@ -30,6 +31,6 @@ std::string scalingLine(const ScalingLeftOut& leftOut);  // one line
 
 std::string scalingCsv(std::span<const ScalingRow> rows);
 std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,
-                        const BenchSubject& subject);
+                        std::span<const LargeSceneRow> scenes, const BenchSubject& subject);
 
 }  // namespace defocus

@@ -40,10 +40,15 @@ void surround(ScalingWorld& result) {
 }  // namespace
 
 ScalingWorld schoolOf(std::uint64_t triangles, const std::filesystem::path& cacheFolder, const Progress& progress) {
+    return differentFish(fishCount, static_cast<int>(triangles / fishCount), cacheFolder, progress);
+}
+
+ScalingWorld differentFish(int count, int triangles, const std::filesystem::path& cacheFolder,
+                           const Progress& progress) {
     ScalingWorld result;
     Request request;
-    request.fishCount = fishCount;
-    request.trianglesPerFish = static_cast<int>(triangles / fishCount);
+    request.fishCount = count;
+    request.trianglesPerFish = triangles;
     *result.scene = loadScene(request, progress);
     surround(result);
     result.world.pyramids = cachedPyramids(result.scene->meshes, cacheFolder, {}, progress).pyramids;

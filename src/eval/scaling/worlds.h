@@ -20,6 +20,10 @@ struct ScalingWorld {
 // places don't depend on the number of triangles. Pyramids are kept in `cacheFolder`, unless it is empty.
 ScalingWorld schoolOf(std::uint64_t triangles, const std::filesystem::path& cacheFolder, const Progress& progress = {});
 
+// Returns `count` fish of the built-in school with about `triangles` each, every one with a mesh of its own.
+ScalingWorld differentFish(int count, int triangles, const std::filesystem::path& cacheFolder,
+                           const Progress& progress = {});
+
 // Returns `instances` copies of one fish of about `triangles`, before the same camera. They stand on a grid with as
 // many columns and rows as layers behind each other, which always fills the same part of the view. Each fish is as
 // large as its cell, so a fish covers fewer pixels as their number grows, and a layer covers about as many as before.

@@ -19,12 +19,18 @@ namespace {
 // As many layers as the memory allows, at most a block.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
                          LayerFormat format) {
-    const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
-                                     static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format) *
+    const LayerWindow window = layerWindow(plan);
+    const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
+                                     static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
                                      (plan.usesTransmission ? 2 : 1);  // with the backdrop
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
+}
+
+bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {
+    return a.width == b.width && a.height == b.height && a.layers == b.layers && a.sumWidth == b.sumWidth &&
+           a.sumHeight == b.sumHeight;
 }
 
 class AccumulationRenderer final : public Renderer {
@@ -101,20 +107,27 @@ private:
     // The sums and the pass that fills them, made anew only when size or format change.
     void prepareTarget() {
         const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
-        const LayerSumInfo info{plan_.view.width, plan_.view.height, chosenWave(plan_, options_, wave_, format), format,
-                                options_.shaderFolder};
-        const bool same = sum_ && sum_->info().width == info.width && sum_->info().height == info.height &&
-                          sum_->info().layers == info.layers && sum_->info().format == info.format;
-        if (!same) {
+        const LayerWindow window = layerWindow(plan_);
+        const LayerSumInfo info{.width = window.layerWidth,
+                                .height = window.layerHeight,
+                                .layers = chosenWave(plan_, options_, wave_, format),
+                                .format = format,
+                                .shaderFolder = options_.shaderFolder,
+                                .sumWidth = window.width,
+                                .sumHeight = window.height};
+        const bool sameFormat = sum_ && sum_->info().format == format;
+        if (!sum_ || !sameSizes(sum_->info(), info) || !sameFormat) {
             sum_.reset();  // before the new one is made: both may not fit
             sum_.emplace(info);
+        }
+        if (!sameFormat) {
             surfaces_.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
                                                       .defines = layerFormatDefines(format),
                                                       .vertexShaderLayers =
                                                           vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
                                                       .shaderFolder = options_.shaderFolder});
         }
-        sum_->reset();
+        sum_->reset(plan_.tile ? std::optional(window) : std::nullopt);
     }
 
     // Simpler skies are composed when layers are added, unless something shows them through itself.

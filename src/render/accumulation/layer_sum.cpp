@@ -31,8 +31,8 @@ LayerSum::LayerSum(const LayerSumInfo& info)
       layers_(layerTexture(info, layerTextureFormat(info.format))),
       depth_(layerTexture(info, TextureFormat::depth32f)),
       layerTarget_({&layers_}, &depth_),
-      block_(info.width, info.height),
-      frame_(info.width, info.height) {
+      block_(sumWidth(), sumHeight()),
+      frame_(sumWidth(), sumHeight()) {
     const auto pass = [&](const char* fragment) {
         return Program({{fullscreenShader, fragment}, layerFormatDefines(info.format), info.shaderFolder});
     };
@@ -40,12 +40,19 @@ LayerSum::LayerSum(const LayerSumInfo& info)
     resolve_ = pass("accumulation/resolve.frag");
 }
 
-void LayerSum::reset() {
+void LayerSum::reset(const std::optional<LayerWindow>& window) {
     samples_ = 0;
+    window_ = window;
+    assert(!window || (window->width == sumWidth() && window->height == sumHeight()));
 }
 
 void LayerSum::beginWave() {
     layerTarget_.bind();
+    if (window_) glViewport(-window_->imageLeft, -window_->imageBottom, window_->imageWidth, window_->imageHeight);
+    if (window_ && window_->cut) {
+        glScissor(window_->left, window_->bottom, window_->width, window_->height);
+        glEnable(GL_SCISSOR_TEST);
+    }
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
     constexpr float farthest = 0;  // reversed depth
@@ -65,6 +72,7 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
         for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
         addLayers_ = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     }
+    glDisable(GL_SCISSOR_TEST);
     block_.target[1 - block_.current].bind();
     frame.bind(first);
     layers_.attach(0);
@@ -72,6 +80,7 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
     block_.compensation[block_.current].attach(2);
     glProgramUniform1i(addLayers_.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(samples_ % blockSamples));
+    glProgramUniform2i(addLayers_.name(), 2, window_ ? window_->left : 0, window_ ? window_->bottom : 0);
     fullscreen_.draw(addLayers_);
     block_.flip();
     countsInAlpha_ = frame.countsInAlpha();
@@ -121,7 +130,7 @@ const GlTexture& LayerSum::meanTexture() {
     const int latest = unfinished ? 1 - frame_.current : frame_.current;
 
     if (!mean_) {
-        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = info_.width, .height = info_.height});
+        mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = sumWidth(), .height = sumHeight()});
         mean_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
         meanTarget_ = Target({&mean_});
     }

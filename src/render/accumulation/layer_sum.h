@@ -6,30 +6,36 @@
 // block borders. The sum is divided when it is read, never in place.
 
 #include <cstdint>
+#include <optional>
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
 #include "image/image.h"
 #include "render/frame_uniforms.h"
 #include "render/layer_format.h"
+#include "render/layer_window.h"
 #include "render/renderer.h"
 
 namespace defocus {
 
 struct LayerSumInfo {
-    int width = 1;
+    int width = 1;  // px, of the layers and the sums
     int height = 1;
     std::uint32_t layers = 1;                   // K, 1 … 64
     LayerFormat format = LayerFormat::rgba16f;  // not automatic
     std::filesystem::path shaderFolder;
+    // px, of sums that hold a part of the layers alone (see reset); 0: they are as large as the layers.
+    int sumWidth = 0;
+    int sumHeight = 0;
 };
 
 class LayerSum {
 public:
     explicit LayerSum(const LayerSumInfo& info);
 
-    // Forgets everything summed.
-    void reset();
+    // Forgets everything summed. `window`: which pixels of the layers are drawn and summed from now on, as many as the
+    // sums have; none: all of them.
+    void reset(const std::optional<LayerWindow>& window = {});
     // Clears the layers to nothing (black, transparent, infinitely far) and makes them the render target.
     void beginWave();
     // The layers as a target, which beginWave makes current.
@@ -66,7 +72,11 @@ private:
     };
     void addBlockTo(Sum& frame, bool startsFrame);
 
+    [[nodiscard]] int sumWidth() const { return info_.sumWidth > 0 ? info_.sumWidth : info_.width; }
+    [[nodiscard]] int sumHeight() const { return info_.sumHeight > 0 ? info_.sumHeight : info_.height; }
+
     LayerSumInfo info_;
+    std::optional<LayerWindow> window_;
     GlTexture layers_;
     GlTexture depth_;
     Target layerTarget_;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "eval/scaling/large_scenes.h"
 #include "eval/scaling/scaling.h"
 #include "gl/context.h"
 
@@ -35,6 +36,23 @@ TEST(Scaling, measuresEachPointOfAnAxisInBothModes) {
     }
     // Full detail draws each instance whole, for each sample.
     EXPECT_EQ(rows[2].triangles, 10 * rows[0].triangles);
+}
+
+// What the two large ones tell, of small ones.
+TEST(LargeScenes, areMeasuredAsTheyAre) {
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    const LargeSceneRow instances = measureLargeScene({"instances", 30, 300, true}, {});
+    EXPECT_EQ(instances.meshes, 1u);
+    const LargeSceneRow different = measureLargeScene({"different", 30, 300, false}, {});
+    EXPECT_EQ(different.meshes, 30u);
+    for (const LargeSceneRow& row : {instances, different}) {
+        EXPECT_GT(row.triangles, 30u * 200);
+        EXPECT_LT(row.triangles, 30u * 400);
+        EXPECT_GT(row.planMilliseconds.median, 0);
+        EXPECT_GT(row.firstImageMilliseconds, 0);
+        EXPECT_GT(row.trianglesDrawn, 0u);
+        EXPECT_GT(row.residentBytes, row.gpuBytes / 2);
+    }
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(ScalingFiles, csvJsonAndSummaryHoldEveryCurve) {
     EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 7 * commas);
 
     const ScalingLeftOut leftOut{scalingPoints(ScalingAxis::triangles, true).back(), "no memory"};
-    const auto json = nlohmann::json::parse(scalingJson(rows, std::vector{leftOut}, {}));
+    const auto json = nlohmann::json::parse(scalingJson(rows, std::vector{leftOut}, {}, {}));
     EXPECT_EQ(json["rows"].size(), 6u);
     ASSERT_EQ(json["curves"].size(), 2u);
     EXPECT_NEAR(json["curves"][0]["time"]["exponent"].get<double>(), 1, 1e-9);

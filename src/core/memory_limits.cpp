@@ -1,0 +1,105 @@
+#include "core/memory_limits.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, double>, 9> units = {{{"B", 1},
+                                                                       {"kB", 1e3},
+                                                                       {"MB", 1e6},
+                                                                       {"GB", 1e9},
+                                                                       {"TB", 1e12},
+                                                                       {"KiB", 0x1p10},
+                                                                       {"MiB", 0x1p20},
+                                                                       {"GiB", 0x1p30},
+                                                                       {"TiB", 0x1p40}}};
+
+// The number that a file consists of; none where there is no file, or another text ("max").
+std::optional<std::uint64_t> numberIn(const std::string& path) {
+    std::ifstream file(path);
+    std::uint64_t number = 0;
+    return file >> number ? std::optional(number) : std::nullopt;
+}
+
+std::optional<std::uint64_t> availableOfMachine() {
+    std::ifstream file("/proc/meminfo");
+    std::string name, unit;
+    for (std::uint64_t kibibytes = 0; file >> name >> kibibytes; std::getline(file, unit))
+        if (name == "MemAvailable:") return kibibytes * 1024;
+    return {};
+}
+
+// What the process's control group, and those that it is in, leave (cgroup v2; v1 keeps its own files).
+std::uint64_t leftByControlGroups() {
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    const auto consider = [&](const std::string& limitFile, const std::string& usedFile) {
+        const auto limit = numberIn(limitFile);
+        const auto used = numberIn(usedFile);
+        if (limit && used) least = std::min(least, *limit > *used ? *limit - *used : 0);
+    };
+    std::ifstream file("/proc/self/cgroup");
+    for (std::string line; std::getline(file, line);) {
+        const std::size_t colon = line.rfind(':');
+        if (colon == std::string::npos) continue;
+        const bool unified = line.starts_with("0::");
+        if (!unified && line.find(":memory:") == std::string::npos) continue;
+        const std::string root = unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+        for (std::string group = line.substr(colon + 1);; group.erase(group.rfind('/'))) {
+            const std::string folder = root + group + "/";
+            if (unified)
+                consider(folder + "memory.max", folder + "memory.current");
+            else
+                consider(folder + "memory.limit_in_bytes", folder + "memory.usage_in_bytes");
+            if (group.empty() || group.rfind('/') == std::string::npos) break;
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+std::uint64_t freeMemory() {
+    return std::min(availableOfMachine().value_or(0), leftByControlGroups());
+}
+
+std::uint64_t residentMemory() {
+    std::ifstream file("/proc/self/statm");
+    std::uint64_t size = 0, resident = 0;
+    file >> size >> resident;
+    return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t parseBytes(std::string_view text) {
+    double number = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+    while (unit.starts_with(' ')) unit.remove_prefix(1);
+    const auto found = std::ranges::find(units, unit, &std::pair<std::string_view, double>::first);
+    if (fault != std::errc() || found == units.end()) fail("'{}' is not an amount of memory, such as 2GiB", text);
+    const double bytes = std::floor(number * found->second);
+    if (!(bytes >= 1 && bytes <= 0x1p62)) fail("'{}': an amount of memory from 1 B to 4 EiB", text);
+    return static_cast<std::uint64_t>(bytes);
+}
+
+std::string bytesText(std::uint64_t bytes) {
+    std::string_view unit = "B";
+    double size = 1;
+    for (const auto& [name, factor] : units)
+        if (name.size() == 3 && static_cast<double>(bytes) >= factor) std::tie(unit, size) = std::pair(name, factor);
+    return fmt::format("{:.3g} {}", static_cast<double>(bytes) / size, unit);
+}
+
+}  // namespace defocus

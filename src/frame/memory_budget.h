@@ -1,0 +1,31 @@
+#pragma once
+// What a frame may take of memory, and whether it is drawn in one piece.
+
+#include <cstdint>
+
+#include "frame/request.h"
+#include "plan/frame_plan.h"
+#include "render/methods.h"
+#include "render/tiling.h"
+
+namespace defocus {
+
+// Bytes that the process may take in all: those that the request gives, or what it has and three quarters of what is
+// free.
+std::uint64_t memoryLimit(const Request& request);
+
+// Bytes of layers that are worth drawing at once, where the frame is drawn in one piece: the renderer's own default, or
+// a quarter of what the limit leaves.
+std::uint64_t waveBytesWithin(std::uint64_t limit);
+
+// What drawing `rows` of the plan needs and has, as the process is now; `drawn` bytes of it are layers and sums that
+// will be replaced. On a GPU, `heldByDevice` bytes are taken there by the scene. Needs a current GL context.
+TilingNeeds tilingNeeds(const World& world, const FramePlan& plan, const RowRange& rows, const Request& request,
+                        std::uint64_t limit, std::uint64_t drawn = 0, std::uint64_t heldByDevice = 0);
+
+// A row of the plan's first cell, which costs all that a tile costs beside its own pixels.
+Tile trialTile(const FramePlan& plan);
+// Bytes of the layer and the sums that the trial draws.
+std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial);
+
+}  // namespace defocus

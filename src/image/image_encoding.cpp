@@ -1,0 +1,102 @@
+#include "image/image_encoding.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "core/error.h"
+#include "image/oiio_names.h"
+#include "image/quantise.h"
+
+namespace defocus {
+
+namespace {
+
+Image copyOf(const ImageView& view) {
+    Image image(view.width, view.height, view.channels);
+    std::ranges::copy(view.pixels, image.pixels.begin());
+    return image;
+}
+
+// Colours divided by their coverage; where nothing covers, nothing can be stored.
+Image withStraightAlpha(const ImageView& premultiplied) {
+    Image image = copyOf(premultiplied);
+    for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+        float* pixel = image.pixels.data() + i;
+        const float scale = pixel[3] > 0 ? 1 / std::min(pixel[3], 1.0f) : 0.0f;
+        for (int c = 0; c < 3; ++c) pixel[c] *= scale;
+    }
+    return image;
+}
+
+Image withoutAlpha(const ImageView& image) {
+    Image opaque(image.width, image.height, 3);
+    for (std::size_t i = 0; i < opaque.pixels.size() / 3; ++i)
+        std::copy_n(image.pixels.data() + 4 * i, 3, opaque.pixels.data() + 3 * i);
+    return opaque;
+}
+
+// Adds the metadata in EXR's types, or as text for PNG, which has no other.
+struct MetadataWriter {
+    OIIO::ImageSpec& spec;
+    FileKind kind;
+    std::string name;
+
+    void operator()(int value) const {
+        if (kind == FileKind::png) return (*this)(std::to_string(value));
+        spec.attribute(oiioNameOf(name), value);
+    }
+    void operator()(double value) const {
+        if (kind == FileKind::png) return (*this)(fmt::format("{}", value));
+        const bool standard = name.find(':') == std::string::npos;
+        if (standard)
+            spec.attribute(oiioNameOf(name), static_cast<float>(value));
+        else
+            spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::DOUBLE), &value);
+    }
+    void operator()(const std::string& value) const {
+        spec.attribute(kind == FileKind::png ? name : oiioNameOf(name), value);
+    }
+    void operator()(const glm::mat4& value) const {
+        if (kind != FileKind::png) spec.attribute(oiioNameOf(name), OIIO::TypeMatrix, &value);
+    }
+};
+
+}  // namespace
+
+FileKind fileKind(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    if (extension == ".exr") return FileKind::exr;
+    if (extension == ".png") return FileKind::png;
+    if (extension == ".jpg" || extension == ".jpeg") return FileKind::jpeg;
+    fail("{}: unknown image type \"{}\"; use .exr, .png, .jpg or .jpeg", path.string(), extension);
+}
+
+const char* formatName(FileKind kind) {
+    return kind == FileKind::exr ? "openexr" : kind == FileKind::png ? "png" : "jpeg";
+}
+
+OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, const Metadata& metadata) {
+    const bool floats = kind == FileKind::exr;
+    const int kept = kind == FileKind::jpeg && channels == 4 ? 3 : channels;
+    OIIO::ImageSpec spec(width, height, kept, floats ? OIIO::TypeFloat : OIIO::TypeUInt8);
+    spec.attribute("oiio:ColorSpace", floats ? "Linear" : "sRGB");
+    if (kind == FileKind::exr) spec.attribute("compression", "zip");
+    if (kind == FileKind::png) spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (kind == FileKind::jpeg) spec.attribute("Compression", "jpeg:95");
+    for (const auto& [attribute, value] : metadata)
+        if (kind != FileKind::jpeg || attribute == "comments") std::visit(MetadataWriter{spec, kind, attribute}, value);
+    return spec;
+}
+
+std::vector<std::uint8_t> displayBytes(FileKind kind, const ImageView& image, const WriteOptions& options,
+                                       int firstRow) {
+    const auto display = [&](const ImageView& linear) {
+        return quantised(displayEncoded(linear, options.toneMap, options.exposure), firstRow);
+    };
+    if (image.channels != 4) return display(image);
+    return display(kind == FileKind::png ? withStraightAlpha(image) : withoutAlpha(image));
+}
+
+}  // namespace defocus

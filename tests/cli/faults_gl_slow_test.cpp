@@ -1,0 +1,292 @@
+// Whatever happens to the program, nothing that was whole is lost, nothing half has a name, and what is said is one
+// line.
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+#include <set>
+
+#include "cli/shots.h"
+#include "cli/traced_child.h"
+#include "image/image_io.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kills = 50;
+
+using Words = std::vector<std::string>;
+
+class Faults : public Capture {
+protected:
+    // Becomes the program, in a process of its own, with faults (tests/faults) as the environment asks for them.
+    void become(Words words, const std::vector<std::pair<std::string, std::string>>& environment = {},
+                int out = -1) const {
+        const int nothing = out >= 0 ? out : ::open("/dev/null", O_WRONLY);
+        const int said = ::open((folder() / "said").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+        if (::chdir(folder().c_str()) != 0 || ::dup2(nothing, 1) < 0 || ::dup2(said, 2) < 0) ::_exit(99);
+        ::setenv("XDG_CACHE_HOME", cacheFolder().parent_path().c_str(), 1);
+        if (!environment.empty()) ::setenv("LD_PRELOAD", DEFOCUS_FAULTS, 1);
+        for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
+        words.insert(words.begin(), DEFOCUS_PROGRAM);
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        ::execv(DEFOCUS_PROGRAM, arguments.data());
+        ::_exit(98);
+    }
+    [[nodiscard]] TracedChild traced(const Words& words, const std::string& writesInto) const {
+        return {[this, words] { become(words); }, writesInto};
+    }
+    // 128 + the signal's number, or the exit code.
+    int ran(const Words& words, const std::vector<std::pair<std::string, std::string>>& environment = {},
+            int out = -1) const {
+        const pid_t child = ::fork();
+        if (child == 0) become(words, environment, out);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+    [[nodiscard]] std::string said() const { return withoutProgress(bytesOf("said")); }
+    void expectSaidOneLine(const std::string& about) const {
+        const std::string text = said();
+        EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
+        EXPECT_NE(text.find(about), std::string::npos) << text;
+    }
+
+    // Kills `words` before one of its calls that write into `folder`, again and again, and looks after each.
+    template <typename Look>
+    void killed(const Words& words, const std::string& writesInto, const Look& look) const {
+        TracedChild undisturbed = traced(words, writesInto);
+        if (!undisturbed.traced()) GTEST_SKIP() << "processes can't be traced here (ptrace)";
+        ASSERT_EQ(undisturbed.end(), 0) << said();
+        const int calls = undisturbed.calls();
+        ASSERT_GT(calls, 0);
+        look();
+        std::mt19937 random(11);
+        for (int i = 0; i < kills; ++i) {
+            TracedChild child = traced(words, writesInto);
+            // What is in the cache meanwhile, or kept, isn't written anew: then it ends by itself.
+            const int code = child.end(std::uniform_int_distribution(1, calls)(random), SIGKILL);
+            ASSERT_TRUE(code == 128 + SIGKILL || code == 0) << code << said();
+            look();
+            if (testing::Test::HasFailure()) return;
+        }
+    }
+};
+
+TEST_F(Faults, aMergeThatIsKilledLeavesTheFileOfBeforeOrTheNewOne) {
+    const Words render = {"render", "quads.gltf", "--quiet", "--size", "64x48", "--samples", "128"};
+    const auto with = [&](const Words& more) {
+        Words words = render;
+        words.insert(words.end(), more.begin(), more.end());
+        ASSERT_EQ(run(words).exitCode, 0);
+    };
+    with({"--sample-range", "0:64", "-o", "a.exr"});
+    with({"--sample-range", "64:128", "-o", "b.exr"});
+    with({"--tile", "0/2", "-o", "upper.exr"});
+    with({"--tile", "1/2", "-o", "lower.exr"});
+    with({"-o", "whole.exr"});
+    fs::create_directory(folder() / "merged");
+    for (const Words& parts : {Words{"a.exr", "b.exr"}, {"upper.exr", "lower.exr"}}) {
+        const std::vector<float> whole = readImage(folder() / "whole.exr").pixels;
+        writeImage(folder() / "merged/out.exr", Image(3, 2, 4));
+        killed({"merge", "--quiet", parts[0], parts[1], "-o", "merged/out.exr"}, "merged", [&] {
+            const Image now = readImage(folder() / "merged/out.exr");
+            EXPECT_TRUE(now.width == 3 || now.pixels == whole);
+            writeImage(folder() / "merged/out.exr", Image(3, 2, 4));
+        });
+    }
+}
+
+// A pyramid's file is whole or isn't there.
+TEST_F(Faults, aProgramThatIsKilledLeavesTheCacheSound) {
+    std::set<std::string> whole;
+    const auto clear = [&] { fs::remove_all(cacheFolder()); };
+    const auto look = [&] {
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(cacheFolder())) {
+            if (!entry.is_regular_file() || entry.path().filename().string().front() == '.') continue;
+            const std::string bytes = textOf(entry.path());
+            if (whole.size() < 2)
+                whole.insert(bytes);
+            else
+                EXPECT_TRUE(whole.contains(bytes)) << entry.path();
+        }
+        clear();
+    };
+    killed({"render", "--quiet", "--fish", "2", "--fish-triangles", "200", "--size", "16x12", "--samples", "1", "-o",
+            "a.exr"},
+           "defocus", look);
+    EXPECT_EQ(whole.size(), 2u);
+    EXPECT_EQ(run({"cache", "list"}).exitCode, 0);
+}
+
+TEST_F(Faults, aBenchThatIsKilledLeavesWholeReports) {
+    killed({"bench", "popping", "quads.gltf", "--quiet", "--size", "16x12", "--fstop", "0.5", "--counts", "2",
+            "--frames", "2", "--path-frames", "6", "-o", "result", "--allow-changed"},
+           "result", [&] {
+               for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "result"))
+                   if (entry.path().extension() == ".json" && entry.path().filename().string().front() != '.') {
+                       const auto json = nlohmann::json::parse(textOf(entry.path()), nullptr, false);
+                       EXPECT_FALSE(json.is_discarded()) << entry.path();
+                   }
+           });
+}
+
+// Tiles that are finished stay, whatever ends the run, and the frame is the one of an undisturbed run.
+TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
+    const Words line = {"render", "quads.gltf", "--quiet", "--size", "1600x1200", "--samples",
+                        "3",      "--memory",   "350MiB",  "-o",     "out.exr",   "--resume"};
+    Words whole = line;
+    whole[10] = "whole.exr";
+    ASSERT_EQ(run(whole).exitCode, 0);
+    const std::vector<float> pixels = readImage(folder() / "whole.exr").pixels;
+    for (const int signal : {SIGKILL, SIGTERM, SIGINT}) {
+        TracedChild child = traced(line, "out.tiles");
+        if (!child.traced()) GTEST_SKIP() << "processes can't be traced here (ptrace)";
+        const int code = child.end(8, signal);
+        if (signal == SIGKILL) {
+            EXPECT_EQ(code, 128 + SIGKILL);
+        } else {
+            EXPECT_EQ(code, 1);
+            expectSaidOneLine("rows are kept in out.tiles; the same command with --resume goes on");
+        }
+        EXPECT_FALSE(fs::exists(folder() / "out.exr"));
+        EXPECT_TRUE(fs::exists(folder() / "out.tiles"));
+        ASSERT_EQ(run(line).exitCode, 0);
+        EXPECT_TRUE(readImage(folder() / "out.exr").pixels == pixels);
+        EXPECT_FALSE(fs::exists(folder() / "out.tiles"));
+        fs::remove(folder() / "out.exr");
+    }
+}
+
+TEST_F(Faults, aReaderThatGoesAwayIsNoCrash) {
+    for (const Words& words : {Words{"info", "quads.gltf"},
+                               {"plan", "quads.gltf", "--json"},
+                               {"render", "quads.gltf", "--size", "64x48", "--samples", "2", "-o", "-"}}) {
+        int ends[2];
+        ASSERT_EQ(::pipe(ends), 0);
+        ::close(ends[0]);
+        const int code = ran(words, {}, ends[1]);
+        ::close(ends[1]);
+        EXPECT_TRUE(code == 1 || code == 128 + SIGPIPE) << code;
+        if (code == 1) expectSaidOneLine("standard output");
+    }
+}
+
+#ifdef DEFOCUS_FAULTS_LOADABLE
+
+// Two at once, and files of before: what is whole is used, what is damaged is made anew.
+TEST_F(Faults, aCacheOnAFileSystemWithoutLocksServesAllTheSame) {
+    const Words words = {"render", "--quiet",   "--fish", "2", "--fish-triangles", "400", "--size",
+                         "16x12",  "--samples", "1",      "-o"};
+    const auto to = [&](const char* output) {
+        Words line = words;
+        line.emplace_back(output);
+        return line;
+    };
+    const pid_t other = ::fork();
+    if (other == 0) become(to("b.exr"), {{"FAULT_LOCKS", "1"}});
+    EXPECT_EQ(ran(to("a.exr"), {{"FAULT_LOCKS", "1"}}), 0) << said();
+    int status = 0;
+    ::waitpid(other, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_EQ(ran(to("c.exr"), {{"FAULT_LOCKS", "1"}}), 0) << said();
+    for (const char* name : {"b.exr", "c.exr"})
+        EXPECT_TRUE(readImage(folder() / name).pixels == readImage(folder() / "a.exr").pixels) << name;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(cacheFolder()))
+        EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+}
+
+TEST_F(Faults, aClockThatGoesBackChangesNothing) {
+    const Words film = {"capture", "shot.json", "--quiet", "--range", "0:3", "-o"};
+    const auto to = [&](const char* pattern) {
+        Words line = film;
+        line.emplace_back(pattern);
+        return line;
+    };
+    ASSERT_EQ(ran(to("true/#.exr")), 0);
+    EXPECT_EQ(ran(to("false/#.exr"), {{"FAULT_CLOCK", "1"}}), 0) << said();
+    for (int i = 0; i < 4; ++i)
+        EXPECT_TRUE(bytesOf(fmt::format("true/{}.exr", i)) == bytesOf(fmt::format("false/{}.exr", i))) << i;
+    EXPECT_EQ(ran({"render", "quads.gltf", "--quiet", "--size", "64x48", "--samples", "256", "--time-limit", "5", "-o",
+                   "a.exr"},
+                  {{"FAULT_CLOCK", "1"}}),
+              0)
+        << said();
+}
+
+// The driver runs out of memory at any of its allocations: one line, and the frames before are kept.
+TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
+    const Words film = {"capture", "shot.json", "--quiet", "--range", "0:7", "--resume"};
+    ASSERT_EQ(run({"capture", "shot.json", "--quiet", "--range", "0:7", "-o", "whole/####.exr"}).exitCode, 0);
+    int partly = 0;
+    for (const int calls : {1, 5, 20, 40, 60, 80, 100, 130, 160, 200}) {
+        fs::remove_all(folder() / "frames");
+        const int code = ran(film, {{"FAULT_GL_MEMORY", std::to_string(calls)}});
+        EXPECT_TRUE(code == 1 || code == 0) << code;
+        if (code == 1) expectSaidOneLine("memory");
+        int there = 0;
+        for (int i = 0; i < 8; ++i) {
+            const std::string name = fmt::format("{:04}.exr", i);
+            if (!fs::exists(folder() / "frames" / name)) continue;
+            ++there;
+            EXPECT_TRUE(bytesOf("frames/" + name) == bytesOf("whole/" + name)) << name;
+        }
+        partly += there > 0 && there < 8 ? 1 : 0;
+        EXPECT_EQ(ran(film), 0) << said();
+        EXPECT_TRUE(bytesOf("frames/0007.exr") == bytesOf("whole/0007.exr"));
+    }
+    EXPECT_GT(partly, 0) << "it never failed in the middle";
+}
+
+#endif
+
+// Mounted so that nobody may write there, root included.
+TEST_F(Faults, aReadOnlyFolderIsOneLineAndNeverACrash) {
+    fs::create_directory(folder() / "locked");
+    writeImage(folder() / "locked/0.exr", Image(3, 2, 4));
+    std::ofstream(folder() / "inside.sh")
+        << "mount --bind locked locked && mount -o remount,ro,bind locked || exit 9\n"
+           "run() { '" DEFOCUS_PROGRAM
+           "' \"$@\" --quiet; echo \"code $?\"; }\n"
+           "run render quads.gltf --size 16x12 --samples 1 -o locked/0.exr\n"
+           "run render quads.gltf --size 16x12 --samples 1 -o a.exr --cache-dir locked\n"
+           "run capture shot.json --range 0:1 -o 'locked/#.exr'\n"
+           "run merge locked/0.exr -o locked/1.exr\n"
+           "run bench popping quads.gltf --size 16x12 --counts 2 --frames 2 --path-frames 6 -o locked "
+           "--allow-changed\n";
+    const std::string command = "cd '" + folder().string() + "' && XDG_CACHE_HOME='" +
+                                cacheFolder().parent_path().string() +
+                                "' unshare --map-root-user --user --mount sh inside.sh > out 2>&1";
+    if (std::system(command.c_str()) != 0) GTEST_SKIP() << "nothing can be mounted here (unshare)";
+    std::vector<std::string> lines;
+    std::ifstream file(folder() / "out");
+    for (std::string line; std::getline(file, line);)
+        if (!withoutProgress(line + "\n").empty()) lines.push_back(line);
+    std::string all;
+    for (const std::string& line : lines) all += line + "\n";
+    int codes = 0;
+    bool lastWasCode = true;
+    for (const std::string& line : lines) {
+        const bool code = line.starts_with("code ");
+        codes += code ? 1 : 0;
+        if (code) {
+            EXPECT_TRUE(line == "code 1" || line == "code 0") << all;
+        } else {
+            EXPECT_TRUE(lastWasCode) << "more than one line\n" << all;
+            EXPECT_NE(line.find("ead-only"), std::string::npos) << all;
+        }
+        lastWasCode = code;
+    }
+    EXPECT_EQ(codes, 5) << all;
+}
+
+}  // namespace
+}  // namespace defocus

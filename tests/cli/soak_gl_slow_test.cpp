@@ -1,0 +1,108 @@
+// Long work takes no more as it goes on, and programs side by side don't get in each other's way. scripts/soak runs
+// these with more rounds.
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "cli/shots.h"
+#include "image/image_io.h"
+#include "process_memory.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Soak : public Capture {
+protected:
+    [[nodiscard]] pid_t start(std::vector<std::string> words) const {
+        const pid_t child = ::fork();
+        if (child != 0) return child;
+        const int said = ::open((folder() / "said").c_str(), O_CREAT | O_APPEND | O_WRONLY, 0600);
+        if (::chdir(folder().c_str()) != 0 || ::dup2(said, 1) < 0 || ::dup2(said, 2) < 0) ::_exit(99);
+        ::setenv("XDG_CACHE_HOME", cacheFolder().parent_path().c_str(), 1);
+        words.insert(words.begin(), DEFOCUS_PROGRAM);
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        ::execv(DEFOCUS_PROGRAM, arguments.data());
+        ::_exit(98);
+    }
+};
+
+// What the process held while it rendered the frames from 90 to 110, and while it rendered the last 20: the median of
+// its memory, and the fewest handles, as files of frames are open now and then.
+TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
+    const int frames = roundsOr("DEFOCUS_SOAK_FRAMES", 300);
+    nlohmann::json document = shot();
+    document["range"] = {0, frames - 1};
+    document["lens"] = {{"fStop", {{"keys", {{{"frame", 0}, {"value", 1.4}}, {{"frame", frames}, {"value", 2.8}}}}}}};
+    document["focus"] = {{"keys", {{{"frame", 0}, {"node", "Near"}}, {{"frame", frames}, {"distance", 8}}}}};
+    writeShot(document);
+    const pid_t child = start({"capture", "shot.json", "--quiet", "--size", "32x24", "-o", "frames/####.exr"});
+    std::vector<double> early, late;
+    std::vector<int> earlyHandles, lateHandles;
+    int frame = 0;
+    siginfo_t ended{};
+    while (ended.si_pid == 0) {
+        while (fs::exists(folder() / "frames" / fmt::format("{:04}.exr", frame))) ++frame;
+        const Held held = heldBy(child);
+        if (frame >= 90 && frame < 110) {
+            early.push_back(held.megabytes);
+            earlyHandles.push_back(held.handles);
+        }
+        if (frame >= frames - 20 && frame < frames) {
+            late.push_back(held.megabytes);
+            lateHandles.push_back(held.handles);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_EQ(status, 0) << bytesOf("said");
+    ASSERT_FALSE(early.empty() || late.empty());
+    const auto median = [](auto values) {
+        std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+        return values[values.size() / 2];
+    };
+    const double before = median(early), after = median(late);
+    const int fewestBefore = std::ranges::min(earlyHandles), fewestAfter = std::ranges::min(lateHandles);
+    fmt::print("{} frames: {:.1f} MB about frame 100, {:.1f} MB at the end; {} and {} handles\n", frames, before, after,
+               fewestBefore, fewestAfter);
+    EXPECT_LE(after, 1.02 * before);
+    EXPECT_LE(fewestAfter, fewestBefore);
+}
+
+// Each builds or reads the same pyramids; all draw the same picture, and nothing half is left.
+TEST_F(Soak, eightProgramsShareACacheFolder) {
+    for (int round = 0; round < roundsOr("DEFOCUS_SOAK_ROUNDS", 2); ++round) {
+        fs::remove_all(cacheFolder());
+        std::vector<pid_t> children;
+        for (int i = 0; i < 8; ++i)
+            children.push_back(start({"render", "--quiet", "--size", "32x24", "--samples", "4", "--fish", "3",
+                                      "--fish-triangles", "2000", "-o", fmt::format("{}.exr", i)}));
+        for (const pid_t child : children) {
+            int status = 0;
+            ::waitpid(child, &status, 0);
+            EXPECT_EQ(status, 0) << bytesOf("said");
+        }
+        for (int i = 1; i < 8; ++i)
+            EXPECT_TRUE(readImage(folder() / fmt::format("{}.exr", i)).pixels == readImage(folder() / "0.exr").pixels);
+        int files = 0;
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(cacheFolder())) {
+            EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+            files += entry.is_regular_file() ? 1 : 0;
+        }
+        EXPECT_GT(files, 0);
+    }
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,136 @@
+// Frames in tiles by the program: the bits of one piece, whether machines share the rows or memory is short; what
+// doesn't belong together is refused; memory stays within what was asked for.
+
+#include "cli/shots.h"
+#include "image/image_io.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TileCommand : public Capture {
+protected:
+    static std::vector<std::string> line(const std::vector<std::string>& more, const char* size = "64x48",
+                                         const char* samples = "70") {
+        std::vector<std::string> words = {"render", "quads.gltf", "--quiet", "--size",           size, "--fstop",
+                                          "1",      "--samples",  samples,   "--focus-distance", "3"};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    Outcome tile(const std::string& share, const std::string& output, std::vector<std::string> more = {}) const {
+        more.insert(more.end(), {"--tile", share, "-o", output});
+        return run(line(more));
+    }
+    [[nodiscard]] std::vector<float> pixelsOf(const std::string& name) const {
+        return readImage(folder() / name).pixels;
+    }
+    void expectRefused(const Outcome& outcome, int exitCode, const std::string& why) const {
+        expectOneLine(outcome, exitCode);
+        EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    }
+};
+
+TEST_F(TileCommand, mergedTilesAreTheBitsOfOnePiece) {
+    for (const std::string background : {"environment", "none"}) {
+        const std::vector<std::string> more = {"--background", background, "--lod", "continuous"};
+        std::vector<std::string> parts = {"merge", "--quiet", "-o", "merged.exr", "-o", "merged.png"};
+        for (const std::string index : {"2", "0", "1"}) {
+            const std::string name = "tile" + index + ".exr";
+            const Outcome outcome = tile(index + "/3", name, more);
+            ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+            parts.push_back(name);
+        }
+        std::vector<std::string> whole = line(more);
+        whole.insert(whole.end(), {"-o", "whole.exr", "-o", "whole.png"});
+        ASSERT_EQ(run(whole).exitCode, 0);
+        const Outcome merged = run(parts);
+        ASSERT_EQ(merged.exitCode, 0) << merged.err;
+        EXPECT_TRUE(pixelsOf("merged.exr") == pixelsOf("whole.exr")) << background;
+        EXPECT_TRUE(pixelsOf("merged.png") == pixelsOf("whole.png")) << background;
+        Metadata metadata;
+        readImage(folder() / "merged.exr", metadata);
+        EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 70);
+        EXPECT_FALSE(metadata.contains("defocus:tile"));
+    }
+}
+
+// Without a number of samples each tile takes those that the whole frame's blur asks for.
+TEST_F(TileCommand, tilesAgreeOnTheNumberOfSamples) {
+    std::vector<std::string> parts = {"merge", "--quiet", "-o", "merged.exr"};
+    for (const std::string index : {"0", "1"}) {
+        const std::string name = "tile" + index + ".exr";
+        ASSERT_EQ(
+            run({"render", "quads.gltf", "--quiet", "--size", "64x48", "--tile", index + "/2", "-o", name}).exitCode,
+            0);
+        parts.push_back(name);
+    }
+    EXPECT_EQ(run(parts).exitCode, 0);
+}
+
+TEST_F(TileCommand, whatIsMissingOrForeignIsNamed) {
+    for (const std::string index : {"0", "1", "2"}) ASSERT_EQ(tile(index + "/3", index + ".exr").exitCode, 0);
+    ASSERT_EQ(tile("1/3", "other.exr", {"--seed", "1"}).exitCode, 0);
+    ASSERT_EQ(tile("0/2", "half.exr").exitCode, 0);
+    const auto merged = [&](std::vector<std::string> parts) {
+        parts.insert(parts.begin(), {"merge", "-o", "merged.exr"});
+        const Outcome outcome = run(parts);
+        EXPECT_FALSE(fs::exists(folder() / "merged.exr"));
+        return outcome;
+    };
+    expectRefused(merged({"0.exr", "2.exr"}), 1, "tile 1/3 of the frame is missing: rows 16 to 31 of 48 (--tile 1/3)");
+    expectRefused(merged({"1.exr", "2.exr"}), 1, "tile 0/3");
+    expectRefused(merged({"0.exr", "1.exr"}), 1, "tile 2/3");
+    expectRefused(merged({"0.exr", "gone.exr", "2.exr"}), 1, "gone.exr: cannot be read: No such file");
+    expectRefused(merged({"0.exr", "0.exr", "1.exr", "2.exr"}), 1, "overlap: both hold row 0");
+    expectRefused(merged({"half.exr", "1.exr", "2.exr"}), 1, "overlap");
+    expectRefused(merged({"0.exr", "other.exr", "2.exr"}), 1, "other settings");
+    expectRefused(merged({"0.exr", "quads.gltf", "2.exr"}), 1, "quads.gltf: ");
+    ASSERT_EQ(run(line({"-o", "whole.exr"})).exitCode, 0);
+    expectRefused(merged({"0.exr", "whole.exr"}), 1, "whole.exr: not a tile of a frame");
+}
+
+TEST_F(TileCommand, whatDoesNotGoWithTilesIsRefused) {
+    expectOneLine(tile("3/3", "x.exr"), 2);
+    expectOneLine(tile("1", "x.exr"), 2);
+    expectOneLine(tile("0/0", "x.exr"), 2);
+    expectRefused(tile("0/49", "x.exr"), 1, "the image has 48 rows");
+    expectRefused(tile("0/2", "x.png"), 2, "EXR");
+    for (const char* method : {"circular", "scheuermann", "multirate", "line", "stochastic"})
+        expectRefused(tile("0/2", "x.exr", {"--method", method}), 2, std::string("'") + method + "'");
+    expectRefused(tile("0/2", "x.exr", {"--target-error", "0.01"}), 2, "--target-error");
+    expectRefused(tile("0/2", "x.exr", {"--aov", "depth"}), 2, "--aov");
+    expectRefused(run(line({"--resume"})), 2, "one piece");
+}
+
+// More pixels than the memory holds at once.
+class ShortOfMemory : public TileCommand {
+protected:
+    static constexpr const char* size = "2400x1800";
+    // In one piece this takes 880 MB for its pixels alone, and 50 MB for one layer.
+    static std::vector<std::string> inTiles(std::vector<std::string> more, const char* memory = "350MiB") {
+        more.insert(more.end(), {"--memory", memory});
+        return line(more, size, "3");
+    }
+};
+
+TEST_F(ShortOfMemory, theFrameHasTheBitsOfOnePiece) {
+    const Outcome outcome = run(inTiles({"-o", "tiles.exr", "-o", "tiles.png", "--stats", "stats.json"}));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder() / "tiles.tiles"));
+    ASSERT_EQ(run(line({"-o", "whole.exr", "-o", "whole.png"}, size, "3")).exitCode, 0);
+    EXPECT_TRUE(pixelsOf("tiles.exr") == pixelsOf("whole.exr"));
+    EXPECT_TRUE(pixelsOf("tiles.png") == pixelsOf("whole.png"));
+    const auto stats = nlohmann::json::parse(textOf(folder() / "stats.json"));
+    EXPECT_LE(stats.at("peakBytes").get<double>(), 1.1 * (350 << 20));
+    EXPECT_GT(stats.at("tiles").get<int>(), 1);
+}
+
+TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
+    expectRefused(run(inTiles({"-o", "x.exr", "--method", "circular"}, "300MiB")), 1, "'circular'");
+    expectRefused(run(inTiles({"-o", "x.exr", "--aov", "depth"}, "300MiB")), 1, "--aov");
+    expectRefused(run(inTiles({"-o", "x.exr"}, "1MiB")), 1, "at least");
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,115 @@
+// Files written by rows are those that are written whole; files of some rows lie in their place.
+
+#include "image/image_rows.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "scratch_folder.h"
+
+namespace defocus {
+namespace {
+
+namespace fs = std::filesystem;
+
+Image pattern(int width, int height) {
+    Image image(width, height, 4);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            float* pixel = image.at(x, y);
+            const float alpha = static_cast<float>((x + y) % 5) / 4;
+            for (int c = 0; c < 3; ++c) pixel[c] = alpha * static_cast<float>((x * 7 + y * 13 + c * 31) % 97) / 60;
+            pixel[3] = alpha;
+        }
+    return image;
+}
+
+Image rowsOf(const Image& image, int first, int count) {
+    Image rows(image.width, count, image.channels);
+    std::copy_n(image.at(0, first), rows.pixels.size(), rows.pixels.begin());
+    return rows;
+}
+
+class ImageRows : public testing::Test {
+protected:
+    [[nodiscard]] const fs::path& folder() const { return folder_.path(); }
+
+private:
+    ScratchFolder folder_;
+};
+
+TEST_F(ImageRows, giveThePixelsOfAWholeFile) {
+    const Image image = pattern(53, 201);
+    const Metadata metadata = {{"comments", std::string("said")}, {"defocus:samples", 3}};
+    WriteOptions options;
+    options.exposure = 0.3;
+    options.toneMap = ToneMap::agx;
+    for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+        writeImage(folder() / name, image, metadata, options);
+        const fs::path other = folder() / (std::string("rows-") + name);
+        ImageRowWriter writer(other, 53, 201, 4, metadata, options);
+        for (int first = 0; first < 201; first += 90) writer.write(rowsOf(image, first, std::min(90, 201 - first)));
+        EXPECT_FALSE(fs::exists(other)) << "a file has its name before it is whole";
+        writer.finish();
+        Metadata known, written;
+        EXPECT_TRUE(readImage(other, written).pixels == readImage(folder() / name, known).pixels) << name;
+        EXPECT_EQ(written.at("comments"), known.at("comments"));
+    }
+}
+
+TEST_F(ImageRows, ofAPartLieInTheirPlace) {
+    const Image image = pattern(53, 201);
+    ImageRowWriter writer(folder() / "part.exr", 53, 70, 4, {{"defocus:samples", 3}}, {}, {100, 201});
+    writer.write(rowsOf(image, 100, 70));
+    writer.finish();
+    ImageRowReader reader(folder() / "part.exr");
+    EXPECT_EQ(reader.place().firstRow, 100);
+    EXPECT_EQ(reader.place().imageHeight, 201);
+    EXPECT_EQ(reader.width(), 53);
+    EXPECT_EQ(reader.height(), 70);
+    EXPECT_EQ(std::get<int>(reader.metadata().at("defocus:samples")), 3);
+    EXPECT_TRUE(reader.read(0, 30).pixels == rowsOf(image, 100, 30).pixels);
+    EXPECT_TRUE(reader.read(30, 40).pixels == rowsOf(image, 130, 40).pixels);
+}
+
+TEST_F(ImageRows, unfinishedFilesAreRemoved) {
+    { ImageRowWriter(folder() / "a.exr", 53, 201, 4, {}).write(pattern(53, 100)); }
+    EXPECT_TRUE(fs::is_empty(folder()));
+}
+
+TEST_F(ImageRows, whatIsNoFileOfRowsIsRefused) {
+    writeImage(folder() / "a.png", pattern(8, 8));
+    writeFile(folder() / "b.exr", "not an image");
+    for (const char* name : {"a.png", "b.exr", "missing.exr", "."}) {
+        const std::string said = messageOf<Error>([&] { ImageRowReader reader(folder() / name); });
+        EXPECT_TRUE(said.starts_with((folder() / name).string())) << said;
+    }
+}
+
+// Writes beyond a limit of a file's size fail, as on a full disk.
+TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{20'000, before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    for (const std::string name : {"a.exr", "a.png", "a.jpg"}) {
+        const std::string said = messageOf<Error>([&] {
+            ImageRowWriter writer(folder() / name, 530, 201, 4, {});
+            writer.write(pattern(530, 201));
+            writer.finish();
+        });
+        EXPECT_NE(said.find(name + ": cannot be written: File too large"), std::string::npos) << said;
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_TRUE(fs::is_empty(folder()));
+}
+
+}  // namespace
+}  // namespace defocus

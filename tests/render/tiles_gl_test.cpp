@@ -1,0 +1,161 @@
+// Frames drawn tile by tile: the bits of one piece, whatever the tiles, the levels, the movement and the controls.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gl/context.h"
+#include "plan/tiles.h"
+#include "render/methods.h"
+#include "rendered.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class Tiles : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> Tiles::context_;
+
+PixelRectangle wholeOf(const FramePlan& plan) {
+    return {0, 0, plan.view.width, plan.view.height};
+}
+
+// The image of the areas, each by a start of its own; NaN where none is.
+Image joined(Renderer& renderer, const FramePlan& plan, const std::vector<Tile>& tiles) {
+    Image image(plan.view.width, plan.view.height, 4);
+    std::ranges::fill(image.pixels, std::numeric_limits<float>::quiet_NaN());
+    for (const Tile& tile : tiles) {
+        const Image part = imageOf(renderer, tileOf(plan, tile));
+        if (part.width != tile.area.width || part.height != tile.area.height) {
+            ADD_FAILURE() << part.width << " x " << part.height;
+            return image;
+        }
+        for (int y = 0; y < part.height; ++y)
+            std::copy_n(part.at(0, y), 4 * part.width, image.at(tile.area.left, tile.area.top + y));
+    }
+    return image;
+}
+
+// Of uneven sizes, in one cell.
+std::vector<Tile> unevenTiles(const FramePlan& plan) {
+    const int columns[] = {0, 37, 101, plan.view.width};
+    const int rows[] = {0, 13, 64, plan.view.height};
+    std::vector<Tile> tiles;
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < 3; ++x)
+            tiles.push_back({{columns[x], rows[y], columns[x + 1] - columns[x], rows[y + 1] - rows[y]}, wholeOf(plan)});
+    return tiles;
+}
+
+void expectTheBitsOfOnePiece(const SmallWorld& small, const FramePlan& plan, const char* what) {
+    RendererOptions options;
+    const auto whole = methodNamed("accumulation").make(small.world, options);
+    options.wave = 3;
+    const auto parts = methodNamed("accumulation").make(small.world, options);
+    const Image expected = imageOf(*whole, plan);
+    EXPECT_TRUE(joined(*parts, plan, unevenTiles(plan)).pixels == expected.pixels) << what;
+}
+
+FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = LodMode::fractional,
+                   std::uint32_t samples = 70) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = mode;
+    settings.thresholds = {0.5, 2};
+    return planFrame(small.world, view, settings);
+}
+
+TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
+    const auto small = fiveSpheres();
+    for (const LodMode mode : {LodMode::off, LodMode::fractional, LodMode::continuous})
+        expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode), lodModeName(mode));
+}
+
+TEST_F(Tiles, haveTheBitsOfOnePieceWithControlsOfTheBlur) {
+    const auto small = fiveSpheres();
+    View view = small->view;
+    view.lens.catEye = 0.7;
+    expectTheBitsOfOnePiece(*small, planWith(*small, view), "cat's eye");
+    view = small->view;
+    view.lens.axialChromaticAberration = 0.3;
+    expectTheBitsOfOnePiece(*small, planWith(*small, view), "wavelengths");
+    view = small->view;
+    view.lens.fieldCurvature = 1;
+    expectTheBitsOfOnePiece(*small, planWith(*small, view), "curved focus");
+}
+
+TEST_F(Tiles, haveTheBitsOfOnePieceWhileObjectsAndCameraMove) {
+    const auto small = fiveSpheres();
+    View view = small->view;
+    Pose& pose = small->world.pose;
+    small->world.shutter.poses = {pose, pose};
+    for (std::size_t i = 0; i < pose.objects.size(); ++i)
+        small->world.shutter.poses[1].objects[i].worldFromObject =
+            glm::translate(glm::dmat4(1), glm::dvec3(0.2, 0.1, 0.05)) * pose.objects[i].worldFromObject;
+    view.shutterCameras = {view.worldFromCamera, glm::rotate(view.worldFromCamera, 0.05, glm::dvec3(0, 1, 0))};
+    const FramePlan plan = planWith(*small, view);
+    ASSERT_FALSE(plan.moments.empty());
+    ASSERT_FALSE(plan.middleFromView.empty());
+    expectTheBitsOfOnePiece(*small, plan, "motion");
+}
+
+TEST_F(Tiles, haveTheBitsOfOnePieceBeforeAMapAndBeforeNothing) {
+    const auto small = fiveSpheres();
+    auto map = std::make_shared<Image>(16, 8, 3);
+    for (std::size_t i = 0; i < map->pixels.size(); ++i) map->pixels[i] = static_cast<float>(i * 37 % 101) / 50;
+    small->world.environment.type = EnvironmentType::map;
+    small->world.environment.map = map;
+    expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "map");
+    small->world.environment = {};
+    small->world.environment.type = EnvironmentType::none;
+    expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "no background");
+}
+
+// What transmits shows other pixels of the image, which may lie outside the tile.
+TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
+    const auto small = fiveSpheres();
+    Material glass;
+    glass.transmissionFactor = 1;
+    glass.thicknessFactor = 1;
+    glass.roughnessFactor = 0.3f;
+    small->scene.materials.front() = glass;
+    const FramePlan plan = planWith(*small, small->view);
+    ASSERT_TRUE(plan.usesTransmission);
+    expectTheBitsOfOnePiece(*small, plan, "glass");
+}
+
+// An image of cells: each rounds window coordinates in its own way, and nothing else differs.
+TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
+    const auto small = fiveSpheres();
+    const FramePlan plan = planWith(*small, small->view, LodMode::continuous);
+    const PixelRectangle cells[] = {{0, 0, 80, 64}, {80, 0, 80, 64}, {0, 64, 80, 56}, {80, 64, 80, 56}};
+    std::vector<Tile> tiles, halves;
+    for (const PixelRectangle& cell : cells) {
+        tiles.push_back({cell, cell});
+        halves.push_back({{cell.left, cell.top, cell.width, 20}, cell});
+        halves.push_back({{cell.left, cell.top + 20, cell.width, cell.height - 20}, cell});
+    }
+    const auto renderer = methodNamed("accumulation").make(small->world, {});
+    const Image whole = imageOf(*renderer, plan);
+    const Image parts = joined(*renderer, plan, tiles);
+    EXPECT_TRUE(joined(*renderer, plan, halves).pixels == parts.pixels) << "tiles of a cell";
+    double largest = 0, squared = 0;
+    for (std::size_t i = 0; i < whole.pixels.size(); ++i) {
+        const double difference = whole.pixels[i] - parts.pixels[i];
+        largest = std::max(largest, std::abs(difference));
+        squared += difference * difference;
+    }
+    // One of 70 samples may round a silhouette's corner to another pixel.
+    EXPECT_LT(largest, 2.0 / 70);
+    EXPECT_LT(std::sqrt(squared / static_cast<double>(whole.pixels.size())), 1e-4);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,101 @@
+// How a frame is cut: bands cover it once, and what they take is what there is.
+
+#include "render/tiling.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+
+namespace defocus {
+namespace {
+
+TilingNeeds needsOf(int width, int height, std::uint64_t memory) {
+    TilingNeeds needs;
+    needs.width = width;
+    needs.height = height;
+    needs.rows = {0, height};
+    needs.waveBytes = std::uint64_t{256} << 20;
+    needs.deviceMemory = needs.hostMemory = memory;
+    return needs;
+}
+
+// Bytes of the largest tile with its layers, and of its band.
+std::uint64_t bytesOf(const TilingNeeds& needs, const Tiling& tiling) {
+    std::uint64_t most = 0;
+    for (const Band& band : tiling.bands)
+        for (const Tile& tile : band.tiles) {
+            const auto pixels = [](const PixelRectangle& area) {
+                return static_cast<std::uint64_t>(area.width) * static_cast<std::uint64_t>(area.height);
+            };
+            most = std::max(most, pixels(tile.cell) * needs.layerPixel * tiling.wave +
+                                      pixels(tile.area) * (sumPixelBytes + tilePixelBytes) +
+                                      static_cast<std::uint64_t>(needs.width) *
+                                          static_cast<std::uint64_t>(band.rows.end - band.rows.first) * bandPixelBytes);
+        }
+    return most;
+}
+
+TEST(Tiling, coversTheRowsOnceWithinTheMemory) {
+    for (const auto& [width, height, memory] :
+         {std::tuple{640, 480, 20ull << 20}, {4000, 3000, 400ull << 20}, {16384, 16384, 2500ull << 20}}) {
+        TilingNeeds needs = needsOf(width, height, memory);
+        needs.rows = {height / 10, height - 3};
+        const Tiling tiling = chosenTiling(needs);
+        EXPECT_LE(bytesOf(needs, tiling), memory);
+        EXPECT_GT(tiling.bands.size(), 1u);
+        int next = needs.rows.first;
+        for (const Band& band : tiling.bands) {
+            EXPECT_EQ(band.rows.first, next);
+            next = band.rows.end;
+            int column = 0;
+            for (const Tile& tile : band.tiles) {
+                EXPECT_EQ(tile.area.left, column);
+                column += tile.area.width;
+                EXPECT_EQ(tile.area.top, band.rows.first);
+                EXPECT_EQ(tile.area.height, band.rows.end - band.rows.first);
+                EXPECT_LE(tile.cell.top, tile.area.top);
+                EXPECT_GE(tile.cell.top + tile.cell.height, tile.area.top + tile.area.height);
+            }
+            EXPECT_EQ(column, width);
+        }
+        EXPECT_EQ(next, needs.rows.end);
+    }
+}
+
+TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
+    const std::uint64_t pixel = 12 + sumPixelBytes + wholePixelBytes;
+    EXPECT_TRUE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel)));
+    EXPECT_FALSE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel - 1)));
+    // An image of several cells is never one piece, so that its bits don't depend on the memory.
+    EXPECT_FALSE(fitsInOnePiece(needsOf(16384, 16, 1ull << 50)));
+    TilingNeeds oneCell = needsOf(16384, 16, 1ull << 50);
+    oneCell.mayUseCells = false;
+    EXPECT_TRUE(fitsInOnePiece(oneCell));
+}
+
+TEST(Tiling, aDeviceWithMemoryOfItsOwnIsLookedAtApart) {
+    TilingNeeds needs = needsOf(1000, 1000, 100 << 20);
+    needs.shared = false;
+    const Tiling plenty = chosenTiling(needs);
+    needs.hostMemory = 1000 * (tilePixelBytes + bandPixelBytes) * 20;  // twenty rows
+    EXPECT_GT(chosenTiling(needs).bands.size(), plenty.bands.size());
+    EXPECT_EQ(chosenTiling(needs).bands.size(), 50u);
+}
+
+TEST(Tiling, tooLittleMemorySaysWhatIsNeeded) {
+    try {
+        chosenTiling(needsOf(4096, 4096, 50 << 20));
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("50 MiB is left"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Tiling, theSamplesAtOnceAreThoseAskedFor) {
+    TilingNeeds needs = needsOf(640, 480, 200 << 20);
+    needs.askedWave = 3;
+    EXPECT_EQ(chosenTiling(needs).wave, 3u);
+}
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,43 @@
+// Scene after scene in one window: it takes no more memory for it, and leaves no file open. scripts/soak opens more.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/two_quads.h"
+#include "process_memory.h"
+#include "view/view_program.h"
+
+#ifdef DEFOCUS_XCB
+#include "view/drop_source.h"
+
+namespace defocus {
+namespace {
+
+class ViewSoak : public ViewProgram {};
+
+TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
+    const int scenes = roundsOr("DEFOCUS_SOAK_SCENES", 40);
+    const int early = std::max(scenes / 10, 10);
+    for (int i = 0; i < 2; ++i) writeTwoQuads(folder() / fmt::format("scene{}.gltf", i));
+    start({"scene0.gltf", "--size", "320x240"});
+    ASSERT_TRUE(showsScene("scene0.gltf")) << state();
+    DropSource hand(display());
+    Held before, after;
+    for (int i = 1; i <= scenes; ++i) {
+        const std::string name = fmt::format("scene{}.gltf", i % 2);
+        ASSERT_TRUE(hand.drop("file://" + (folder() / name).string() + "\r\n", 120, 100)) << i;
+        ASSERT_TRUE(showsScene(name)) << i << " " << state();
+        if (i == early) before = heldBy(process());
+        if (i == scenes) after = heldBy(process());
+    }
+    fmt::print("{} scenes: {:.1f} MB after {}, {:.1f} MB at the end; {} and {} handles\n", scenes, before.megabytes,
+               early, after.megabytes, before.handles, after.handles);
+    EXPECT_LE(after.megabytes, 1.02 * before.megabytes);
+    EXPECT_LE(after.handles, before.handles);
+}
+
+}  // namespace
+}  // namespace defocus
+
+#endif
