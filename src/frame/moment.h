@@ -8,6 +8,9 @@ namespace defocus {
 
 // Returns the pose of the scene in the middle of the exposure. Throws Error for an animation that the scene doesn't
 // have.
+// The number of the clip that the request names. Throws Error for one that the scene doesn't have.
+int clipOf(const Request& request, const Scene& scene);
+
 Pose exposedPose(const Request& request, const Scene& scene);
 
 // Calls openShutter (plan/shutter.h) for the request's animation and for `camera`, which belongs to the world's scene.

@@ -126,13 +126,14 @@ SceneRenderer::State::~State() {
 // The scene with the units and the blur of nodes that the request gives: a copy, as others may render the scene too.
 std::shared_ptr<Scene> SceneRenderer::State::scaledScene(const Request& request) const {
     const double metresPerUnit = request.metresPerUnit.value_or(scene_->metresPerUnit);
-    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit) return scene_;
-    if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur &&
+    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit && !request.ground) return scene_;
+    if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur && request.ground == request_.ground &&
         metresPerUnit == frame_.scene->metresPerUnit)
         return frame_.scene;
     auto scaled = std::make_shared<Scene>(*scene_);
     setNodeBlur(request, *scaled);
     scaled->metresPerUnit = metresPerUnit;
+    setGround(request, *scaled);
     return scaled;
 }
 
