@@ -63,7 +63,7 @@ struct GivenThresholds {
 
 // Whether lights and surroundings cast shadows.
 enum class Shadows {
-    automatic,  // on where Request::ground asks for a ground to catch them
+    automatic,  // on where there is a ground to catch them (Request::ground)
     on,
     off,
 };

@@ -3,8 +3,8 @@
 //
 // A texel holds one depth of all that it covers, so a plane would shadow itself. A place is therefore moved along the normal n of its
 // facet: half a texel's diagonal, r, off its middle a plane lies r·tan θ nearer to the light, θ the angle between n and the light, and
-// a way d along n brings a place d/cos θ nearer: d = r·sin θ is enough for any slope, and never more than r. Levels of detail lie off
-// the surface by their error, which is added.
+// a way d along n brings a place d/cos θ nearer: d = r·sin θ is enough for any slope, and never more than r. With a quarter of a texel
+// for hollows, that is a texel at most. Levels of detail lie off the surface by their error, which is added.
 
 #include "include/shadow_projection.glsl"
 
@@ -23,7 +23,7 @@ float litAt(int slot, Facet facet, vec3 toLight) {
     int texel = shadowTexel(gl_Layer, slot);
     float cosine = dot(facet.normal, toLight);
     float width = texelFetch(shadowProjections, texel + 4).w * dot(texelFetch(shadowProjections, texel + 3), vec4(facet.place, 1.0));
-    float away = width * (0.05 + 0.75 * sqrt(max(1.0 - cosine * cosine, 0.0))) + object.levels.x + SHADOW_ERROR;
+    float away = width * (0.25 + 0.75 * sqrt(max(1.0 - cosine * cosine, 0.0))) + object.levels.x + SHADOW_ERROR;
     vec4 clip = shadowPosition(texel, facet.place + facet.normal * away);
     if (!all(lessThan(abs(clip.xy), vec2(clip.w)))) return 1.0;
     ivec2 at = min(ivec2((0.5 + 0.5 * clip.xy / clip.w) * float(SHADOW_SIZE)), ivec2(SHADOW_SIZE - 1));

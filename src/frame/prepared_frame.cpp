@@ -229,8 +229,6 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
         environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
     setLightSizes(request, frame.world.lights);
     frame.settings = request.settings;
-    if (frame.settings.shadows == Shadows::automatic)
-        frame.settings.shadows = request.ground ? Shadows::on : Shadows::off;
     if (frame.settings.sampleCount == automaticSamples) frame.settings.sampleCount = RenderSettings{}.sampleCount;
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
     // Levels of full detail are not worth storing.

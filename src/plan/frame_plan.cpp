@@ -181,9 +181,11 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     const bool still = plan.moments.empty() && plan.shadows.maps.empty();
     const std::uint32_t kept =
         still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
-    plan.leftOut.push_back({"lens samples", fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} {} "
-                                                        "samples remain",
-                                                        blur, kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
+    plan.leftOut.push_back(
+        {"lens samples",
+         fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} {} "
+                     "samples remain",
+                     blur, kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
     plan.usesLens = false;
     plan.coc = {};
     plan.apertureDiameter = 0;
@@ -197,6 +199,12 @@ bool scalesBlur(const FramePlan& plan, const World& world) {
         const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
         return object.cocScale != 1 || mesh.cocScaleLeast != 1 || mesh.cocScaleMost != 1;
     });
+}
+
+// Shadows that nobody asked for come with a ground to catch them.
+bool drawsShadows(const World& world, const RenderSettings& settings) {
+    return settings.shadows == Shadows::on ||
+           (settings.shadows == Shadows::automatic && std::ranges::any_of(world.pose.objects, &Object::ground));
 }
 
 void noteUnusedPaths(FramePlan& plan, const World& world) {
@@ -215,8 +223,9 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
         plan.leftOut.push_back({"transmission path", "no drawn material shows what lies behind it"});
     if (!plan.usesCocControls)
         plan.leftOut.push_back({"controls of the blur", "the lens and the objects have none: C(w) = a + b·w"});
-    if (plan.shadows.maps.empty() && plan.settings.shadows == Shadows::on)
-        plan.leftOut.push_back({"shadow maps", "nothing that casts light has something to hide it"});
+    if (plan.shadows.maps.empty())
+        plan.leftOut.push_back({"shadow maps", drawsShadows(world, plan.settings) ? "no light has anything before it"
+                                                                                  : "nothing asks for shadows"});
     if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});
 }
 
@@ -295,7 +304,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
 
     // Place every object and drop those that cannot be seen.
     const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
-    const bool shadows = settings.shadows == Shadows::on;
+    const bool shadows = drawsShadows(world, settings);
     std::vector<ObjectPlan> mayCast;
     for (std::size_t i = 0; i < world.pose.objects.size(); ++i) {
         ObjectPlan object = placedObject(world, plan, i, viewFromWorld);

@@ -47,6 +47,7 @@ struct Method {
     bool shadesAsLit = true;      // false: only unlit, opaque surfaces look as with the other methods
     bool showsThrough = true;     // false: what transmits is drawn opaque
     bool sumsBlocks = false;      // Renderer::continueWith adds to the sum: the number of samples may be left open
+    bool drawsShadows = true;     // false: lights shine through whatever stands before them
     bool drawsMotion = true;      // false: everything stands still while the shutter is open
     std::vector<MethodSetting> settings;
     // Throws Error for settings that the method doesn't take.

@@ -9,10 +9,10 @@ namespace defocus {
 
 namespace {
 
-constexpr double reach = 12;            // radii of what stands on it
+constexpr double reach = 30;  // radii of what stands on it
 constexpr float reflectance = 0.36f;
-constexpr std::uint32_t sectors = 96;   // a polygon that a blurred horizon shows as a circle
-constexpr std::uint32_t rings = 12;     // so that no triangle is large where a lens's blur is curved
+constexpr std::uint32_t sectors = 96;  // a polygon that a blurred horizon shows as a circle
+constexpr std::uint32_t rings = 12;    // so that no triangle is large where a lens's blur is curved
 
 // The disk of radius 1 in the plane y = 0, facing +y: rings that are denser towards the middle.
 Mesh disk(int material) {
@@ -46,6 +46,14 @@ Mesh disk(int material) {
 
 bool hasGround(const Scene& scene) {
     return std::ranges::any_of(scene.nodes, &Node::ground);
+}
+
+void removeGround(Scene& scene) {
+    if (!hasGround(scene)) return;
+    scene.roots.pop_back();
+    scene.nodes.pop_back();
+    scene.meshes.pop_back();
+    scene.materials.pop_back();
 }
 
 void addGround(Scene& scene, const Pose& pose) {

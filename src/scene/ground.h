@@ -6,9 +6,12 @@
 namespace defocus {
 
 // Adds a mesh, a material and a node (Node::ground): a level, matt, grey disk at the lowest point
-// of `pose`, the scene's own at some time, and about its middle. It reaches 12 times as far as what stands on it, so that
-// cameras that frame the scene see it up to the horizon. Nothing is added where the pose shows nothing.
+// of `pose`, the scene's own at some time, and about its middle. It reaches 30 times as far as what stands on it, so
+// that cameras that frame the scene see it up to the horizon. Nothing is added where the pose shows nothing.
 void addGround(Scene& scene, const Pose& pose);
+
+// Takes the ground away again, the last mesh, material and node of the scene.
+void removeGround(Scene& scene);
 
 // Has it been added?
 bool hasGround(const Scene& scene);
