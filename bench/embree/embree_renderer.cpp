@@ -46,6 +46,7 @@ struct WaveSample {
     // One point for all pixels: in the pixel ([0, 1)² px, right and down) and on the lens (unit disk).
     glm::dvec2 pixel{0};
     glm::dvec2 lens{0};
+    glm::vec2 light{0.5f};  // on every light
     // Of pixels that have points of their own.
     ReversedLanes ownPixel;
     ReversedLanes ownLens;
@@ -117,6 +118,8 @@ private:
     [[nodiscard]] TileSeeds tileSeeds(const Tile& tile) const;
     [[nodiscard]] PacketPoints ownPoints(const Tile& tile, int place, const TileSeeds& seeds,
                                          const WaveSample& sample) const;
+    [[nodiscard]] std::array<glm::vec2, packetSize> lightPointsOf(const Tile& tile, int place,
+                                                                  const WaveSample& sample) const;
     [[nodiscard]] LaneMask lanesInside(const Tile& tile, int place) const;
     void traceLimited(const Tile& tile, int place, const PacketPoints& points, const LaneMask& mask,
                       RTCRayHit16& packet) const;
@@ -127,6 +130,7 @@ private:
     EmbreeSampling sampling_;
     View view_;
     RenderSettings settings_;
+    bool castsShadows_ = false;
     std::vector<LensSample> planned_;  // EmbreeSampling::planned only
     LensCamera camera_;
     std::optional<ApertureMask> mask_;  // of apertures that need one
@@ -145,6 +149,7 @@ void EmbreeRenderer::start(const FramePlan& plan) {
     checkTraceable(plan.view.lens);
     view_ = plan.view;
     settings_ = plan.settings;
+    castsShadows_ = !plan.shadows.maps.empty();
     if (sampling_ == EmbreeSampling::planned) planned_ = plan.samples;
     camera_ = lensCamera(view_);
     mask_.reset();
@@ -174,6 +179,9 @@ std::uint32_t EmbreeRenderer::sampleCount() const {
 WaveSample EmbreeRenderer::waveSample(std::uint32_t number) const {
     WaveSample sample;
     sample.index = settings_.firstSample + number;
+    sample.light = sampling_ == EmbreeSampling::planned
+                       ? planned_[number].light
+                       : glm::vec2(sequencePoint(Sequence::sobol, sample.index, settings_.seed).light);
     if (sampling_ == EmbreeSampling::planned) {
         const LensSample& planned = planned_[number];
         sample.pixel = {0.5 + planned.pixel.x, 0.5 - planned.pixel.y};
@@ -224,6 +232,20 @@ PacketPoints EmbreeRenderer::ownPoints(const Tile& tile, int place, const TileSe
         const glm::vec2 lens(mask_->lensPoint(sample.index, stream, settings_.seed));
         points.lensX[i] = lens.x;
         points.lensY[i] = lens.y;
+    }
+    return points;
+}
+
+// One for all pixels, or in each pixel the same set shifted by an amount of its own (Cranley and Patterson 1976).
+std::array<glm::vec2, packetSize> EmbreeRenderer::lightPointsOf(const Tile& tile, int place,
+                                                                const WaveSample& sample) const {
+    std::array<glm::vec2, packetSize> points;
+    points.fill(sample.light);
+    if (!ownSamples()) return points;
+    for (int i = 0; i < packetSize; ++i) {
+        const std::uint32_t stream = firstStream(tile, place) + static_cast<std::uint32_t>(i);
+        const glm::vec2 shift(glm::dvec2(radicalInverse(2, stream), radicalInverse(3, stream)));
+        points[static_cast<std::size_t>(i)] = glm::fract(sample.light + shift);
     }
     return points;
 }
@@ -286,7 +308,12 @@ void EmbreeRenderer::traceSample(const Tile& tile, const TileSeeds& seeds, const
                 makeRays(rays, place, packet);
             scene_->trace(mask, infinitelyFar, packet);
         }
-        addTo(tile.sums[place], shading_->radiance(packet));
+        if (castsShadows_) {
+            const std::array<glm::vec2, packetSize> lightPoints = lightPointsOf(tile, place, sample);
+            addTo(tile.sums[place], shading_->radiance(packet, &lightPoints));
+        } else {
+            addTo(tile.sums[place], shading_->radiance(packet));
+        }
     }
 }
 

@@ -104,7 +104,8 @@ DEFOCUS_VECTOR_CLONES void PacketShading::skyColors(const Sky& sky, std::uint32_
     }
 }
 
-PacketColors PacketShading::radiance(const RTCRayHit16& packet) const {
+PacketColors PacketShading::radiance(const RTCRayHit16& packet,
+                                     const std::array<glm::vec2, packetSize>* lightPoints) const {
     PacketColors colors;
     baseColors(surfaces_, packet, colors);
     const unsigned* ids = packet.hit.geomID;
@@ -113,13 +114,16 @@ PacketColors PacketShading::radiance(const RTCRayHit16& packet) const {
     if (!anyRayByRay_) return colors;
     for (int i = 0; i < packetSize; ++i) {
         if (ids[i] >= surfaces_.miss || !rayByRay_[ids[i]]) continue;
-        const glm::vec3 color =
-            surfaceRadiance(world_, scene_.geometry(ids[i]),
-                            {.triangle = packet.hit.primID[i],
-                             .u = packet.hit.u[i],
-                             .v = packet.hit.v[i],
-                             .facet = {packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]},
-                             .direction = {packet.ray.dir_x[i], packet.ray.dir_y[i], packet.ray.dir_z[i]}});
+        const glm::vec3 color = surfaceRadiance(
+            world_, scene_.geometry(ids[i]),
+            {.triangle = packet.hit.primID[i],
+             .u = packet.hit.u[i],
+             .v = packet.hit.v[i],
+             .facet = {packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]},
+             .direction = {packet.ray.dir_x[i], packet.ray.dir_y[i], packet.ray.dir_z[i]},
+             .distance = packet.ray.tfar[i],
+             .origin = {packet.ray.org_x[i], packet.ray.org_y[i], packet.ray.org_z[i]}},
+            lightPoints != nullptr ? ShadowRays{&scene_, (*lightPoints)[static_cast<std::size_t>(i)]} : ShadowRays{});
         colors.red[i] = color.r;
         colors.green[i] = color.g;
         colors.blue[i] = color.b;

@@ -16,7 +16,9 @@ public:
     PacketShading(const World& world, const TracedScene& scene, const glm::dmat3& worldFromCamera);
 
     // Radiance of all lanes, whether they were in use or not. Rays that met nothing see the surroundings.
-    [[nodiscard]] PacketColors radiance(const RTCRayHit16& packet) const;
+    // `lightPoints`: as ShadowRays has it, one a lane; null: nothing casts a shadow.
+    [[nodiscard]] PacketColors radiance(const RTCRayHit16& packet,
+                                        const std::array<glm::vec2, packetSize>* lightPoints = nullptr) const;
     [[nodiscard]] std::uint64_t bytes() const;
 
 private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <limits>
 
 #include "core/error.h"
 #include "plan/object_pose.h"
@@ -149,6 +150,23 @@ void TracedScene::trace(const LaneMask& mask, float farthest, RTCRayHit16& packe
     context.filter = cullBackFaces;
     forgetHits(back, farthest, packet);
     rtcIntersect16(back.values.data(), scene_, &context, &packet);
+}
+
+bool TracedScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float nearest) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = nearest;
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = ~0u;
+    rtcOccluded1(scene_, &context, &ray);
+    return ray.tfar < 0;
 }
 
 }  // namespace defocus

@@ -104,9 +104,30 @@ glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, 
     return length > 0 ? front * ((behind > 0 ? -1.0f : 1.0f) / length) : glm::vec3(0);
 }
 
+// Does something stand between the hit and the point of the light's disk?
+bool hidden(const PlacedLight& placed, const TracedGeometry& geometry, const SurfaceHit& hit,
+            const ShadowRays& shadows) {
+    // Polar coordinates of a uniform disk across the way to the light.
+    const glm::vec3 toMiddle = -glm::vec3(placed.direction);
+    const glm::vec3 aside =
+        glm::normalize(glm::cross(toMiddle, std::abs(toMiddle.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1)));
+    const float radius = std::tan(0.5f * placed.light.angularDiameter) * std::sqrt(shadows.lightPoint.x);
+    const float angle = 2 * std::numbers::pi_v<float> * shadows.lightPoint.y;
+    const glm::vec3 toPoint =
+        toMiddle + radius * (std::cos(angle) * aside + std::sin(angle) * glm::cross(toMiddle, aside));
+
+    // From just above the facet, on the side that is seen.
+    const glm::vec3 place = hit.origin + hit.distance * hit.direction;
+    const glm::vec3 facet = glm::normalize(hit.facet);
+    const float lift = 1e-5f * std::max(1.0f, glm::length(place));
+    const glm::vec3 above = place + (glm::dot(facet, hit.direction) > 0 ? -lift : lift) * facet;
+    return shadows.scene->occluded(above, glm::transpose(geometry.worldFromCamera) * toPoint, 0);
+}
+
 }  // namespace
 
-glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, const SurfaceHit& hit) {
+glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, const SurfaceHit& hit,
+                          const ShadowRays& shadows) {
     const Corners corners = cornersOf(geometry, hit);
     const glm::vec3 base = baseColor(*world.scene, geometry, corners);
     if (geometry.material->unlit) return base;
@@ -117,6 +138,7 @@ glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, co
     for (const PlacedLight& light : world.lights) {
         if (light.light.type != LightType::directional) continue;
         const float cosine = std::max(0.0f, -glm::dot(normal, glm::vec3(light.direction)));
+        if (!(cosine > 0) || (shadows.scene != nullptr && hidden(light, geometry, hit, shadows))) continue;
         radiance += albedo * light.light.color * light.light.intensity * cosine;
     }
     return radiance;

@@ -40,6 +40,9 @@ struct Request {
     double environmentRotation = 0;       // degrees counter-clockwise, seen from above
     Background background = Background::environment;
     std::array<float, 3> backgroundColor{};
+    bool ground = false;                     // a neutral ground beneath what the scene holds
+    std::optional<double> lightAngle;        // degrees that every directional light measures across; none: its own
+    std::optional<double> lightRadius;       // m, of every point and spot light; none: its own
 
     // Camera and image.
     std::string camera;                     // a name; empty: the file's first; "auto": one that frames the scene

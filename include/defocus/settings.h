@@ -61,6 +61,13 @@ struct GivenThresholds {
     std::optional<double> light = {};  // ≥ 0; of LodMetric::measured alone, which has neither of the others
 };
 
+// Whether lights and surroundings cast shadows.
+enum class Shadows {
+    automatic,  // on where there is a ground to catch them (Request::ground)
+    on,
+    off,
+};
+
 struct RenderSettings {
     std::uint32_t sampleCount = 64;  // lens samples, 1 … mostSamples; of a request also automaticSamples
     Sequence sequence = Sequence::sobol;
@@ -72,6 +79,7 @@ struct RenderSettings {
     bool lodCocAtCentre = false;  // c at the box's centre (the paper) instead of the smallest over the box
     LevelVertices levelVertices = LevelVertices::fitted;
     GivenThresholds thresholds = {};
+    Shadows shadows = Shadows::automatic;
     double cocTolerance = 0.5;  // px by which C may differ from its interpolation inside a triangle, > 0
     bool keepAll = false;       // leave nothing out: the image must be the same
 };

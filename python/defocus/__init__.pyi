@@ -31,6 +31,10 @@ class Keywords(TypedDict, total=False):
     environment: Optional[Path]
     environment_rotation: Optional[float]  # degrees
     background: Optional[Union[str, Point]]
+    ground: Optional[bool]
+    shadows: Optional[Literal["auto", "on", "off"]]
+    light_angle: Optional[float]  # degrees
+    light_radius: Optional[float]  # m
     camera: Optional[str]
     camera_position: Optional[Union[Point, str]]  # m
     camera_target: Optional[Union[Point, str]]  # m

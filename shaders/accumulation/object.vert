@@ -34,6 +34,10 @@ layout(location = 14) in float bandShiftIn;     // an instance
 #ifdef VERTEX_COLOR_RANGES
 layout(location = 15) in vec4 colorRangeIn;
 #endif
+#ifdef SHADOW_CASTER
+#include "include/shadow_projection.glsl"
+layout(location = 3) uniform int shadowSlot;
+#endif
 #ifdef POSED
 #include "include/posing.glsl"
 #endif
@@ -102,7 +106,7 @@ void main() {
     STAGE_OUT.normal = worldFromView * viewNormal;
     STAGE_OUT.toEye = worldFromView * (eye - viewPosition);
 #endif
-#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION)
+#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION) || (defined(SHADOWS) && !defined(UNLIT))
     STAGE_OUT.position = worldFromView * viewPosition;
 #endif
 #ifdef TRANSMISSION
@@ -126,7 +130,11 @@ void main() {
 #ifdef CHROMATIC
     bandShift = bandShiftIn;
 #endif
-#ifdef REFINED
+    int layer = int(eyeAndDitherIn.w);
+#ifdef SHADOW_CASTER
+    gl_Position = shadowPosition(shadowTexel(layer, shadowSlot), mat3(frame.worldFromView) * viewPosition);
+    layer = layer * (SHADOW_POINTS * SHADOW_MAPS) + shadowSlot;
+#elif defined(REFINED)
     gl_Position = vec4(pinhole, 1.0);
     unsheared.pinhole = pinhole;
     unsheared.cocScale = cocScale;
@@ -135,11 +143,13 @@ void main() {
     unsheared.bandShift = bandShift;
 #else
     gl_Position = throughLens(pinhole, cocScale, lensAndJitterIn);
+#endif
+#ifndef REFINED
 #ifdef VERTEX_LAYER
     ditherOffset = eyeAndDitherIn.z;
-    gl_Layer = int(eyeAndDitherIn.w);
+    gl_Layer = layer;
 #else
-    ditherAndLayer = eyeAndDitherIn.zw;
+    ditherAndLayer = vec2(eyeAndDitherIn.z, float(layer));
 #endif
 #endif
 }

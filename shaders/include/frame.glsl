@@ -17,6 +17,7 @@ layout(std140, binding = 1) uniform ObjectBlock {
     vec4 values;          // fractional level λ, share of its boundary sample that draws the coarser level, its number,
                           // scale of its blur
     ivec4 posing;         // texels a pose, joints, morph targets that count, texels an attribute of a morph target
+    vec4 levels;          // x: m by which what is drawn lies off full detail
 } object;
 
 layout(std140, binding = 2) uniform MaterialBlock {

@@ -40,6 +40,10 @@ struct SurfacePoint {
     float coatRoughness;  // perceptual
     vec3 coatNormal;      // unit
 #endif
+#ifdef SHADOWS
+    float lightShares[LIGHT_COUNT + 1];   // of each light, what reaches the point
+    vec3 hidden;          // irradiance over π of the surroundings that doesn't
+#endif
 };
 
 struct LightSums {
@@ -197,6 +201,9 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
     vec3 diffuse = lighting.environment[0].rgb;
     vec3 reflection = diffuse;
 #endif
+#ifdef SHADOWS
+    diffuse -= point.hidden;
+#endif
     vec3 specular = specularAlbedo(point, nv);
     vec3 light = point.diffuse * remaining(specular) * diffuse + specular * reflection;
 #ifdef SHEEN
@@ -227,6 +234,9 @@ vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
 #ifdef LOCAL_LIGHTS
         if (lighting.lights[i].directionType.w != 0.0)
             illuminance = localLight(lighting.lights[i], frame.lightPositions[i], position, toLight);
+#endif
+#ifdef SHADOWS
+        illuminance *= point.lightShares[i];
 #endif
 #ifdef SHEEN
         float nl = max(dot(point.normal, toLight), 0.0);

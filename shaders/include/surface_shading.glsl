@@ -174,6 +174,24 @@ vec3 emittedRadiance() {
 }
 #endif
 
+#ifdef SHADOWS
+#include "include/shadows.glsl"
+
+void addShadows(inout SurfacePoint point, vec3 place) {
+    vec3 across = cross(dFdx(place), dFdy(place));
+    float across2 = dot(across, across);
+    Facet facet = Facet(place, across2 > 0.0 ? across * inversesqrt(across2) : point.normal);
+    for (int i = 0; i < LIGHT_COUNT; ++i) {
+        vec3 toLight = -lighting.lights[i].directionType.xyz;
+#ifdef LOCAL_LIGHTS
+        if (lighting.lights[i].directionType.w != 0.0) toLight = normalize(frame.lightPositions[i].xyz - place);
+#endif
+        point.lightShares[i] = lightShare(i, facet, toLight);
+    }
+    point.hidden = hiddenIrradiance(facet, point.normal);
+}
+#endif
+
 vec3 shaded(vec3 baseColor) {
     float metallic = material.surface.x;
     float roughness = material.surface.y;
@@ -208,6 +226,9 @@ vec3 shaded(vec3 baseColor) {
 #endif
 #ifdef SHEEN
     addSheen(point);
+#endif
+#ifdef SHADOWS
+    addShadows(point, surface.position);
 #endif
 #ifdef TRANSMISSION
     addTransmission(point, baseColor, metallic);

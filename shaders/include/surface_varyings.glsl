@@ -11,7 +11,7 @@
 #endif
     vec3 toEye;           // to this sample's point on the lens
 #endif
-#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION)
+#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION) || (defined(SHADOWS) && !defined(UNLIT))
     vec3 position;        // from the camera
 #endif
 #ifdef TRANSMISSION

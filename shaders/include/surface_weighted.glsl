@@ -16,7 +16,7 @@ void writeSurface(vec3 weights) {
 #endif
     SURFACE_OUT.toEye = SURFACE_WEIGHTED(toEye);
 #endif
-#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION)
+#if defined(LOCAL_LIGHTS) || defined(TRANSMISSION) || (defined(SHADOWS) && !defined(UNLIT))
     SURFACE_OUT.position = SURFACE_WEIGHTED(position);
 #endif
 #ifdef TRANSMISSION

@@ -88,7 +88,7 @@ std::string settingsHash(const FilmSettings& film, const SequenceFrame& frame) {
         hashed.add(placed.position);
         hashed.add(placed.direction);
         hashed.add(light.color.r, light.color.g, light.color.b, light.intensity, light.range, light.innerConeAngle,
-                   light.outerConeAngle);
+                   light.outerConeAngle, light.angularDiameter, light.radius);
     }
     hashed.add(frame.view.worldFromCamera);
     hashed.add(frame.view.nearPlane, frame.view.width, frame.view.height);

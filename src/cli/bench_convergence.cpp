@@ -176,7 +176,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     options.renderer.layerFormat = scene.layerFormat;
     options.renderer.wave = scene.wave;
     options.renderer.shaderFolder = global.shaderDir;
-    const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer};
+    const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer, frame.settings.shadows};
     const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
     // Runs of other seeds aren't to be mixed.
     const std::array<std::uint64_t, 2> subjectAndSeeds = {

@@ -4,11 +4,11 @@
 
 namespace defocus {
 
-namespace {
-
 int clipOf(const Request& request, const Scene& scene) {
     return request.clip.empty() ? 0 : clipNamed(scene, request.clip);
 }
+
+namespace {
 
 // Where `time` lies in the animation.
 double animationTime(const Request& request, const Scene& scene, double time) {

@@ -62,6 +62,8 @@ std::vector<std::string> planWarnings(const FramePlan& plan, const Method& metho
     if (plan.usesTransmission && !method.showsThrough)
         lines.push_back(
             fmt::format("method {}: materials that transmit are drawn opaque; choose accumulation", method.name));
+    if (!plan.shadows.maps.empty() && !method.drawsShadows)
+        lines.push_back(fmt::format("method {}: nothing casts a shadow; choose accumulation", method.name));
     if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
     if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
     const double blur = largestBoundedBlur(plan);

@@ -26,6 +26,7 @@
 #include "lod/pyramid/finish.h"
 #include "scene/built_in_environment.h"
 #include "scene/gltf/gltf.h"
+#include "scene/ground.h"
 #include "school/fish_school.h"
 
 namespace defocus {
@@ -46,6 +47,13 @@ std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path, 
 void brighten(Environment& environment, double scale) {
     for (glm::vec3* radiance : {&environment.zenith, &environment.horizon, &environment.nadir})
         *radiance *= static_cast<float>(scale);
+}
+
+void setLightSizes(const Request& request, std::vector<PlacedLight>& lights) {
+    for (PlacedLight& placed : lights) {
+        if (request.lightAngle) placed.light.angularDiameter = static_cast<float>(glm::radians(*request.lightAngle));
+        if (request.lightRadius) placed.light.radius = static_cast<float>(*request.lightRadius);
+    }
 }
 
 // ---- camera and lens
@@ -182,6 +190,7 @@ PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     const auto scene = std::make_shared<Scene>(loadScene(request, progress));
     setNodeBlur(request, *scene);
     setScale(request, *scene);
+    setGround(request, *scene);
     PreparedFrame frame = placeFrame(scene, request);
     frame.loadMilliseconds = millisecondsSince(begin);
     return frame;
@@ -191,6 +200,10 @@ RenderSettings runSettings(const PreparedFrame& frame, const Request& request) {
     RenderSettings settings = frame.settings;
     if (isAutomatic(request)) settings.sampleCount = automaticSamples;
     return settings;
+}
+
+void setGround(const Request& request, Scene& scene) {
+    if (request.ground && !hasGround(scene)) addGround(scene, poseAt(scene, 0, clipOf(request, scene)));
 }
 
 void setNodeBlur(const Request& request, Scene& scene) {
@@ -214,6 +227,7 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
         request.environment.empty() ? lightsOrDefault(*frame.scene, frame.world.pose, placed) : frame.world.pose.lights;
     frame.world.environment =
         environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
+    setLightSizes(request, frame.world.lights);
     frame.settings = request.settings;
     if (frame.settings.sampleCount == automaticSamples) frame.settings.sampleCount = RenderSettings{}.sampleCount;
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);

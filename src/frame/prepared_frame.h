@@ -51,6 +51,10 @@ RenderSettings runSettings(const PreparedFrame& frame, const Request& request);
 // Scales the blur of the nodes that the request names. Throws Error for a name that the scene doesn't have.
 void setNodeBlur(const Request& request, Scene& scene);
 
+// Adds the ground that the request asks for, unless the scene has it: beneath the scene as it is when its animation
+// begins, so that all frames of a film stand on the same one. The scene's units must be set.
+void setGround(const Request& request, Scene& scene);
+
 // Sets camera and lens of a placed frame anew, for a request with another camera. The lights stay.
 void placeCamera(PreparedFrame& frame, const Request& request);
 

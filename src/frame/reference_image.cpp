@@ -103,6 +103,7 @@ Part rendered(const World& world, const View& view, const ReferenceOptions& opti
     settings.sequence = referenceSequence;
     settings.firstSample = referenceOffset + half.first;
     settings.lod = LodMode::off;
+    settings.shadows = options.shadows;
     settings.keepAll = true;  // brute force: nothing that a plan decides can be wrong in it
     RendererOptions precise = options.renderer;
     precise.layerFormat = LayerFormat::rgba32f;
@@ -157,7 +158,8 @@ std::string belowReferenceText(bool psnr, bool flip) {
 }
 
 std::uint64_t referenceHash(const World& world, const View& view, const ReferenceOptions& options) {
-    const std::array<std::uint64_t, 2> samples = {options.samples, referenceOffset};
+    const std::array<std::uint64_t, 3> samples = {options.samples, referenceOffset,
+                                                  static_cast<std::uint64_t>(options.shadows)};
     return hashBytes(std::as_bytes(std::span(samples)), worldHash(world, view, options.renderer.shaderFolder));
 }
 

@@ -26,6 +26,7 @@ inline constexpr Sequence referenceSequence = Sequence::halton;
 struct ReferenceOptions {
     std::uint32_t samples = 4096;  // of both halves together, 2 … mostSamples
     RendererOptions renderer;      // its layer format is not used
+    Shadows shadows = Shadows::automatic;
 };
 
 struct ReferenceImage {

@@ -18,6 +18,7 @@
 #include "plan/plan_text.h"
 #include "render/aov/aov.h"
 #include "render/frame_run.h"
+#include "scene/ground.h"
 
 namespace defocus {
 
@@ -127,13 +128,14 @@ SceneRenderer::State::~State() {
 // The scene with the units and the blur of nodes that the request gives: a copy, as others may render the scene too.
 std::shared_ptr<Scene> SceneRenderer::State::scaledScene(const Request& request) const {
     const double metresPerUnit = request.metresPerUnit.value_or(scene_->metresPerUnit);
-    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit) return scene_;
+    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit && !request.ground) return scene_;
     if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur &&
-        metresPerUnit == frame_.scene->metresPerUnit)
+        request.ground == request_.ground && metresPerUnit == frame_.scene->metresPerUnit)
         return frame_.scene;
     auto scaled = std::make_shared<Scene>(*scene_);
     setNodeBlur(request, *scaled);
     scaled->metresPerUnit = metresPerUnit;
+    setGround(request, *scaled);
     return scaled;
 }
 
@@ -178,9 +180,10 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
     const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
     PreparedFrame next = placeFrame(scaledScene(request), request, known);
     const std::size_t kind = pyramidKind(request);
-    const bool samePyramids = kind == pyramidKind(request_);
+    const bool sameGround = hasGround(*next.scene) == hasGround(*frame_.scene);
+    const bool samePyramids = kind == pyramidKind(request_) && sameGround;
     const bool same = samePyramids && sameRenderer(request, request_);
-    if (!samePyramids && otherPyramids_[kind].empty()) {
+    if (!samePyramids && (!sameGround || otherPyramids_[kind].empty())) {
         addPyramids(next, progress);
         pyramidMilliseconds_ += next.pyramidMilliseconds;
     }
@@ -189,7 +192,10 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
 
     // From here on the frame is the request's.
     if (!same) dropRenderer();
-    handOnPyramids(next, kind);
+    if (sameGround)
+        handOnPyramids(next, kind);
+    else  // they are of a scene with one mesh more or less
+        otherPyramids_ = {};
     frame_ = std::move(next);
     request_ = std::move(asked);
     try {

@@ -294,6 +294,24 @@ Rows sceneRows() {
                   "'environment' (the default), 'none' for a transparent image, or R,G,B (linear) for one colour all "
                   "around"),
             "/background"),
+        inShot(truth("ground", "--ground", MEMBER(ground),
+                     "Put a grey ground beneath the scene, at its lowest point, which catches its shadows"),
+               "/ground"),
+        inShot(choice<Shadows>("shadows", "--shadows",
+                               {{"auto", Shadows::automatic}, {"on", Shadows::on}, {"off", Shadows::off}},
+                               MEMBER(settings.shadows),
+                               "Soft shadows of lights and surroundings, from a point of each in every lens sample; "
+                               "auto: with --ground"),
+               "/shadows"),
+        withUnit(inShot(number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
+                               "What a directional light measures across, which makes its shadows soft; without it, 0.53 "
+                               "as the sun"),
+                        "/lightAngle"),
+                 "degrees"),
+        withUnit(inShot(number("lightRadius", "--light-radius", "M", 0, 1e6, MEMBER(lightRadius),
+                               "Radius of point and spot lights, for their shadows; without it, 0.03"),
+                        "/lightRadius"),
+                 "m"),
     };
 }
 

@@ -19,6 +19,7 @@ constexpr std::string_view ofSamples[] = {"samples", "sequence", "seed", "lodCoc
 constexpr std::string_view ofTheAperture[] = {"bladeCount",          "bladeRotation", "bladeCurvature", "obstruction",
                                               "sphericalAberration", "catEye",        "apertureImage"};
 constexpr std::string_view ofAnOpenShutter[] = {"shutterPosition", "motionSegments"};
+constexpr std::string_view ofShadows[] = {"lightAngle", "lightRadius"};
 constexpr std::string_view ofTheShutter[] = {"shutter"};
 constexpr std::string_view ofAMap[] = {"environmentRotation"};
 constexpr std::string_view ofAnimation[] = {"time", "loop"};
@@ -64,6 +65,8 @@ std::vector<std::string> unusedSettings(const Request& request, const Scene& sce
         lines.add(ofSamples, fmt::format("the method {} draws no lens samples", method.name));
         lines.add(ofTheAperture, fmt::format("the method {} has a round aperture", method.name));
     }
+    if (request.settings.shadows == Shadows::off || (request.settings.shadows == Shadows::automatic && !request.ground))
+        lines.add(ofShadows, "without shadows (--shadows on, --ground) the size of a light shows nowhere");
     if (!method.drawsMotion) lines.add(ofTheShutter, fmt::format("the method {} draws no motion", method.name));
     if (request.shutter.seconds == 0) lines.add(ofAnOpenShutter, "without --shutter it is open for a moment");
     if (request.environment.empty())

@@ -98,7 +98,7 @@ void addLight(Hasher& hasher, const World& world) {
     for (const PlacedLight& placed : world.lights) {
         const Light& l = placed.light;
         hasher.add(placed.position, placed.direction, l.type, l.color, l.intensity, l.range, l.innerConeAngle,
-                   l.outerConeAngle);
+                   l.outerConeAngle, l.angularDiameter, l.radius);
     }
     const Environment& e = world.environment;
     hasher.add(e.type, e.zenith, e.horizon, e.nadir, e.visible, e.lighting, e.map != nullptr);

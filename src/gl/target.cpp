@@ -39,7 +39,11 @@ Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* dep
         height_ = color->info().height;
     }
     glNamedFramebufferDrawBuffers(name, count, drawBuffers.data());
-    if (depth != nullptr) glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+    if (depth != nullptr) {
+        glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+        width_ = depth->info().width;
+        height_ = depth->info().height;
+    }
     const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) fail("render target of {} x {} px: {}", width_, height_, inWords(status));
 }

@@ -11,7 +11,7 @@ namespace defocus {
 class Target {
 public:
     Target() = default;
-    // At most 8 colours. Throws Error in words when the driver can't render to this combination.
+    // At most 8 colours; none for depth alone. Throws Error in words when the driver can't render to this combination.
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
 
     // Makes it current with its whole area as viewport.

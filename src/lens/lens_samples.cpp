@@ -13,8 +13,8 @@ namespace defocus {
 
 namespace {
 
-// Dimensions: lens r and s, pixel x and y, time, band.
-constexpr std::size_t dimensionCount = 6;
+// Dimensions: lens r and s, pixel x and y, time, band, light x and y.
+constexpr std::size_t dimensionCount = 8;
 using Coordinates = std::array<double, dimensionCount>;
 
 constexpr double beforeOne = 1.0 - 0x1p-32;
@@ -42,7 +42,7 @@ double seedShift(std::uint32_t seed, std::size_t dimension) {
 
 // ---- Halton ---------------------------------------------------------------------------------------------------------
 
-constexpr std::array<std::uint32_t, dimensionCount> bases = {2, 3, 5, 7, 11, 13};
+constexpr std::array<std::uint32_t, dimensionCount> bases = {2, 3, 5, 7, 11, 13, 17, 19};
 
 // Point index + 1, as point 0 is a corner; shifted so that index 0 lies in the middle.
 double shiftedHalton(std::uint64_t index, std::size_t dimension, std::uint32_t seed) {
@@ -107,7 +107,7 @@ std::uint32_t owenScrambled(std::uint32_t x, std::uint32_t seed) {
 struct Direction {
     std::uint32_t degree = 0;
     std::uint32_t coefficients = 0;  // of the inner powers, highest first
-    std::array<std::uint32_t, 4> first{};
+    std::array<std::uint32_t, 5> first{};
 };
 
 using Columns = std::array<std::uint32_t, 32>;  // of the generator matrix; the first bit is the highest
@@ -127,10 +127,10 @@ constexpr Columns columnsOf(const Direction& direction) {
     return columns;
 }
 
-// Dimensions 2 to 6; the first is the index with its bits in reverse.
+// Dimensions 2 to 8; the first is the index with its bits in reverse.
 constexpr std::array<Columns, dimensionCount - 1> sobolColumns = {
     columnsOf({1, 0, {1}}), columnsOf({2, 1, {1, 3}}), columnsOf({3, 1, {1, 3, 1}}), columnsOf({3, 2, {1, 1, 1}}),
-    columnsOf({4, 1, {1, 1, 3, 3}})};
+    columnsOf({4, 1, {1, 1, 3, 3}}), columnsOf({4, 4, {1, 3, 5, 13}}), columnsOf({5, 2, {1, 1, 5, 5, 17}})};
 
 std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
     if (dimension == 0) return reversedBits(index);
@@ -154,15 +154,19 @@ double scrambledSobol(std::uint32_t index, std::size_t dimension, std::uint32_t 
 // ---- additive recurrences -------------------------------------------------------------------------------------------
 
 // The real root of x^(d + 1) = x + 1 gives the steps x⁻¹ … x⁻ᵈ of d dimensions: d = 2 for the lens, the last two of
-// d = 4 for the pixel, whose points must not follow the lens's; the golden ratio for time and √2 for the band.
+// d = 4 for the pixel, whose points must not follow the lens's; the golden ratio for time, √2 for the band, and the
+// last two of d = 6 for the lights.
 constexpr double plastic2 = 1.32471795724474602596;
 constexpr double plastic4 = 1.16730397826141868426;
+constexpr double plastic6 = 1.11277568427870547063;
 constexpr Coordinates r2Steps = {1 / plastic2,
                                  1 / (plastic2 * plastic2),
                                  1 / (plastic4 * plastic4 * plastic4),
                                  1 / (plastic4 * plastic4 * plastic4 * plastic4),
                                  0.61803398874989484820,
-                                 0.41421356237309504880};
+                                 0.41421356237309504880,
+                                 1 / (plastic6 * plastic6 * plastic6 * plastic6 * plastic6),
+                                 1 / (plastic6 * plastic6 * plastic6 * plastic6 * plastic6 * plastic6)};
 
 // Rounded to a float that is still below 1.
 float belowOne(double value) {
@@ -194,7 +198,7 @@ SequencePoint sequencePoint(Sequence sequence, std::uint64_t index, std::uint32_
         if (sequence == Sequence::r2)
             at[i] = fraction(static_cast<double>(index) * r2Steps[i] + 0.5 + seedShift(seed, i));
     }
-    return {{at[0], at[1]}, {at[2], at[3]}, at[4], at[5]};
+    return {{at[0], at[1]}, {at[2], at[3]}, at[4], at[5], {at[6], at[7]}};
 }
 
 double radicalInverse(std::uint32_t base, std::uint64_t index) {
@@ -208,7 +212,9 @@ double radicalInverse(std::uint32_t base, std::uint64_t index) {
 LensSample lensSample(const Aperture& aperture, Sequence sequence, std::uint64_t index, std::uint32_t seed) {
     const SequencePoint point = sequencePoint(sequence, index, seed);
     const glm::vec2 pixel(belowOne(point.pixel.x), belowOne(point.pixel.y));
-    return {glm::vec2(apertureSample(aperture, point.lens)), pixel - 0.5f, belowOne(point.time), belowOne(point.band)};
+    const glm::vec2 light(belowOne(point.light.x), belowOne(point.light.y));
+    return {glm::vec2(apertureSample(aperture, point.lens)), pixel - 0.5f, belowOne(point.time), belowOne(point.band),
+            light};
 }
 
 std::vector<LensSample> lensSamples(const Lens& lens, Sequence sequence, std::uint64_t first, std::uint32_t count,

@@ -1,6 +1,6 @@
 #pragma once
-// The points on the lens, in the pixel, in the shutter's time and in the spectrum that the accumulation visits: pure
-// functions of the sample index.
+// The points on the lens, in the pixel, in the shutter's time, in the spectrum and on the lights that the accumulation
+// visits: pure functions of the sample index.
 //
 // They come from points that fill a unit cube evenly, however many of them are taken. A prefix and a suffix of each are
 // well spread, as the split of the lens samples between two levels needs. With seed 0 the first point is the middle of
@@ -28,6 +28,7 @@ struct SequencePoint {  // each in [0, 1)
     glm::dvec2 pixel{0.5};
     double time = 0.5;
     double band = 0.5;
+    glm::dvec2 light{0.5};
 };
 
 // Point `index` < 2³².
@@ -41,6 +42,7 @@ struct LensSample {
     glm::vec2 pixel{0.0f};  // offset from the pixel centre in px, each in [−0.5, 0.5); +x right, +y up
     float time = 0.5f;      // [0, 1): from the shutter's opening to its closing
     float band = 0.5f;      // [0, 1): place in the chromatic band, from red to blue
+    glm::vec2 light{0.5f};  // each in [0, 1): the point of every light (plan/shadows.h) from which shadows fall
 };
 
 // Sample `index` of a sequence. With seed 0 the first is the middle of pixel, time and band, and the lens's centre

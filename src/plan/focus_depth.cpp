@@ -73,8 +73,11 @@ std::optional<double> depthOfMiddle(const Scene& scene, const Pose& pose, const 
     for (int y = 0; y < middlePoints; ++y)
         for (int x = 0; x < middlePoints; ++x)
             places.push_back(size * (1.0 + (glm::dvec2(x, y) + 0.5) / static_cast<double>(middlePoints)) / 3.0);
+    Pose subject;
+    std::ranges::copy_if(pose.objects, std::back_inserter(subject.objects),
+                         [](const Object& object) { return !object.ground; });
     std::vector<double> depths;
-    for (const auto& point : surfacesAt(scene, pose, view, unfocused(view.lens), places))
+    for (const auto& point : surfacesAt(scene, subject, view, unfocused(view.lens), places))
         if (point) depths.push_back(-point->z);
     if (depths.empty()) return {};
     const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);

@@ -13,6 +13,7 @@
 #include "plan/blurred_patches.h"
 #include "plan/motion.h"
 #include "plan/object_pose.h"
+#include "plan/shadows.h"
 #include "plan/visibility.h"
 #include "scene/posed_mesh.h"
 
@@ -77,6 +78,7 @@ ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t i
     result.object = static_cast<int>(index);
     result.mesh = object.mesh;
     result.name = object.name;
+    result.ground = object.ground;
     result.viewFromObject = viewFromWorld * object.worldFromObject;
     result.pose = objectPose(object, viewFromWorld);
     result.skinned = object.skinned();
@@ -176,12 +178,14 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     plan.largestBlur = largestBlur(plan, world);
     const double blur = plan.largestBlur;
     if (plan.settings.keepAll || blur >= leastBlur) return;
-    const bool still = plan.moments.empty();
+    const bool still = plan.moments.empty() && plan.shadows.maps.empty();
     const std::uint32_t kept =
         still ? std::min(plan.settings.sampleCount, antialiasingSamples) : plan.settings.sampleCount;
-    plan.leftOut.push_back({"lens samples", fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} {} "
-                                                        "samples remain",
-                                                        blur, kept, still ? "antialiasing" : "motion")});
+    plan.leftOut.push_back(
+        {"lens samples",
+         fmt::format("nothing is blurred by half a pixel (at most {:.2g} px); {} {} "
+                     "samples remain",
+                     blur, kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
     plan.usesLens = false;
     plan.coc = {};
     plan.apertureDiameter = 0;
@@ -195,6 +199,12 @@ bool scalesBlur(const FramePlan& plan, const World& world) {
         const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
         return object.cocScale != 1 || mesh.cocScaleLeast != 1 || mesh.cocScaleMost != 1;
     });
+}
+
+// Shadows that nobody asked for come with a ground to catch them.
+bool drawsShadows(const World& world, const RenderSettings& settings) {
+    return settings.shadows == Shadows::on ||
+           (settings.shadows == Shadows::automatic && std::ranges::any_of(world.pose.objects, &Object::ground));
 }
 
 void noteUnusedPaths(FramePlan& plan, const World& world) {
@@ -213,6 +223,9 @@ void noteUnusedPaths(FramePlan& plan, const World& world) {
         plan.leftOut.push_back({"transmission path", "no drawn material shows what lies behind it"});
     if (!plan.usesCocControls)
         plan.leftOut.push_back({"controls of the blur", "the lens and the objects have none: C(w) = a + b·w"});
+    if (plan.shadows.maps.empty())
+        plan.leftOut.push_back({"shadow maps", drawsShadows(world, plan.settings) ? "no light has anything before it"
+                                                                                  : "nothing asks for shadows"});
     if (plan.moments.empty()) plan.leftOut.push_back({"motion path", "nothing moves while the shutter is open"});
 }
 
@@ -240,6 +253,8 @@ void noteLevels(FramePlan& plan, const World& world) {
             plan.samples.size();
         whole += object.coarse.sampleCount == 0 ? 1 : 0;
     }
+    for (const ObjectPlan& caster : plan.shadows.casters)
+        plan.levelsUsed[static_cast<std::size_t>(caster.mesh)][caster.fine.level] = true;
     for (const auto& used : plan.levelsUsed)
         kept += static_cast<std::uint64_t>(std::count(used.begin(), used.end(), true));
     if (kept < all)
@@ -289,16 +304,20 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
 
     // Place every object and drop those that cannot be seen.
     const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
+    const bool shadows = drawsShadows(world, settings);
+    std::vector<ObjectPlan> mayCast;
     for (std::size_t i = 0; i < world.pose.objects.size(); ++i) {
         ObjectPlan object = placedObject(world, plan, i, viewFromWorld);
         std::string reason = reasonToLeaveOut(world, plan, object);
+        if (shadows) mayCast.push_back(object);
         if (reason.empty())
             plan.objects.push_back(std::move(object));
         else
             plan.leftOut.push_back({"object " + object.name, std::move(reason)});
     }
 
-    planMoments(plan, world);
+    planMoments(plan, world, mayCast);
+    if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
     // Decide on the lens first: levels depend on the blur that remains.
     leaveOutLens(plan, world);

@@ -80,6 +80,23 @@ struct ObjectPlan {
     bool mirrored = false;   // the transform flips the winding of triangles
     bool blended = false;    // it has alpha-blended primitives
     bool transmits = false;  // it has primitives that show what lies behind them
+    bool ground = false;     // it is what the scene stands on, and casts no shadow
+};
+
+// A shadow map that each lens sample has: of a light, and of a point light amid the scene one of six.
+struct ShadowMap {
+    int light = 0;  // into World::lights; surroundings: those
+    int face = -1;  // of a cube around the light: +x, −x, +y, −y, +z, −z; −1: one map shows all that can cast a shadow
+};
+
+// What casts shadows, and from which lights; see shadows.h.
+struct ShadowPlan {
+    std::vector<ShadowMap> maps;      // those of a light follow each other; empty: nothing casts a shadow
+    int size = 0;                     // px a side, of each map
+    std::uint32_t points = 1;         // on each light, for one lens sample
+    std::vector<ObjectPlan> casters;  // each drawn at one level, `fine`, for all samples
+    std::vector<glm::dvec3> corners;  // m from the camera along the world's axes: of boxes that hold all casters
+    double casterError = 0;           // m by which the casters' levels lie off full detail, at most
 };
 
 struct LeftOut {
@@ -103,6 +120,7 @@ struct FramePlan {
     // From the view at each moment of the shutter to the view in its middle; empty if the camera doesn't move.
     std::vector<glm::dmat4> middleFromView;
     std::vector<ObjectPlan> objects;  // the objects to draw, front to back
+    ShadowPlan shadows;
     std::vector<LeftOut> leftOut;
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: whether any object draws it
     bool usesLens = true;          // false: no blur reaches half a pixel, and the samples only smooth edges

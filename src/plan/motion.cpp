@@ -69,10 +69,9 @@ std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::
     return motion;
 }
 
-void planMoments(FramePlan& plan, const World& world) {
-    const bool moving = std::any_of(plan.objects.begin(), plan.objects.end(),
-                                    [](const ObjectPlan& object) { return !object.motion.empty(); });
-    if (!moving) return;
+void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPlan>& casters) {
+    const auto moves = [](const ObjectPlan& object) { return !object.motion.empty(); };
+    if (std::ranges::none_of(plan.objects, moves) && std::ranges::none_of(casters, moves)) return;
     const auto segments = static_cast<double>(momentCount(world, plan.view) - 1);
     for (std::size_t i = 0; i < plan.samples.size(); ++i) {
         if (world.shutter.perSample) {

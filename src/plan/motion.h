@@ -15,6 +15,6 @@ void checkShutter(const World& world, const View& view, const RenderSettings& se
 std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::size_t object, const ObjectPose& pose);
 
 // Fills plan.moments and plan.middleFromView. They stay empty if none of the plan's objects moves.
-void planMoments(FramePlan& plan, const World& world);
+void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPlan>& casters);
 
 }  // namespace defocus

@@ -158,6 +158,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     countsInAlpha_ = barrelCuts(plan);
     if (countsInAlpha_) defines_.emplace_back("CAT_EYE", fmt::format("{:.6f}", plan.view.lens.catEye));
     if (plan.usesCocControls) defines_.emplace_back("COC_CONTROLS", "1");
+    layerCount_ = layerCount;
     uploadLighting(world);
     uploadSamples(plan, layerCount);
 

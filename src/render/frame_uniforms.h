@@ -37,6 +37,7 @@ public:
     [[nodiscard]] const Buffer& bandShifts() const { return bandShifts_; }
     // Samples weigh differently from pixel to pixel: the sum's alpha counts those that a pixel has.
     [[nodiscard]] bool countsInAlpha() const { return countsInAlpha_; }
+    [[nodiscard]] std::uint32_t layerCount() const { return layerCount_; }  // K
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -55,6 +56,7 @@ private:
     Buffer bandShifts_;
     Buffer sampleBands_;  // of shaders/accumulation/add_layers.frag's SampleBlock
     bool countsInAlpha_ = false;
+    std::uint32_t layerCount_ = 1;
     GlTexture environmentMap_;
 };
 

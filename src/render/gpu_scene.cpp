@@ -106,7 +106,12 @@ const Material& GpuScene::material(int index) const {
 }
 
 void GpuScene::prepare(const FramePlan& plan) {
-    for (const ObjectPlan& object : plan.objects) {
+    prepareObjects(plan, plan.objects);
+    prepareObjects(plan, plan.shadows.casters);
+}
+
+void GpuScene::prepareObjects(const FramePlan& plan, const std::vector<ObjectPlan>& objects) {
+    for (const ObjectPlan& object : objects) {
         std::vector<bool> wanted = plan.levelsUsed[static_cast<std::size_t>(object.mesh)];
         const auto found = meshes_.find(object.mesh);
         if (found == meshes_.end()) {

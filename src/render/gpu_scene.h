@@ -115,6 +115,7 @@ public:
     [[nodiscard]] GpuMaterial materialBlock(int material) const;
 
 private:
+    void prepareObjects(const FramePlan& plan, const std::vector<ObjectPlan>& objects);
     void uploadDeformation(int mesh, std::size_t vertexCount, GpuMesh& target);
     void uploadMesh(int mesh, const std::vector<bool>& levels);
     const GlTexture* texture(const TextureUse& use, bool srgb);

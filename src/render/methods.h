@@ -48,6 +48,7 @@ struct Method {
     bool showsThrough = true;     // false: what transmits is drawn opaque
     bool sumsBlocks = false;      // Renderer::continueWith adds to the sum: the number of samples may be left open
     bool drawsTiles = false;      // FramePlan::tile is honoured; else the whole image is drawn, whatever the plan says
+    bool drawsShadows = true;     // false: lights shine through whatever stands before them
     bool drawsMotion = true;      // false: everything stands still while the shutter is open
     std::vector<MethodSetting> settings;
     // Throws Error for settings that the method doesn't take.

@@ -4,6 +4,8 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "plan/object_pose.h"
+
 namespace defocus {
 
 namespace {
@@ -21,6 +23,19 @@ std::size_t uniformStride(std::size_t bytes) {
     return (bytes + step - 1) / step * step;
 }
 
+namespace {
+
+// m by which what is drawn of the object lies off full detail, at most.
+double levelError(const World& world, const ObjectPlan& object) {
+    const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
+    double error = 0;
+    for (const LevelDraw& draw : {object.coarse, object.fine})
+        if (draw.sampleCount > 0) error = std::max(error, pyramid.levels[draw.level].error);
+    return error * largestScale(object.pose);
+}
+
+}  // namespace
+
 UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, std::vector<GpuPoses>& poses) {
     std::vector<GpuObject> blocks;
     blocks.reserve(plan.objects.size());
@@ -31,7 +46,7 @@ UniformBlocks<GpuObject> objectBlocks(const FramePlan& plan, GpuScene& scene, st
         blocks.push_back({glm::mat4(glm::translate(object.viewFromObject, mesh.origin)),
                           glm::mat4(glm::mat3(glm::inverseTranspose(glm::dmat3(object.viewFromObject)))),
                           glm::vec4(object.lambda, object.boundaryShare, object.object, object.cocScale),
-                          poses.back().layout});
+                          poses.back().layout, glm::vec4(levelError(scene.world(), object), 0, 0, 0)});
     }
     return UniformBlocks<GpuObject>(blocks);
 }
@@ -70,7 +85,7 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
                                                                          "SHEEN_ROUGHNESS_TEXTURE"};
     constexpr std::size_t normalSlots[] = {2, 11};
     constexpr std::size_t transmissionSlots[] = {7, 8};
-    const bool shaded = look != SurfaceLook::flat;
+    const bool shaded = look == SurfaceLook::lit || look == SurfaceLook::seenThrough;
     const Material& material = scene.material(materialIndex);
     ShaderDefines defines;
     const auto set = [&](bool condition, const char* name) {
@@ -78,7 +93,8 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     };
     const bool hasUv = static_cast<bool>(mesh.uv0) || static_cast<bool>(mesh.uv1);
     const GpuMaterialTextures& textures = scene.textures(materialIndex);
-    const bool masked = material.alphaMode == AlphaMode::mask;
+    const bool passes = look == SurfaceLook::caster && (material.transmits() || material.alphaMode == AlphaMode::blend);
+    const bool masked = material.alphaMode == AlphaMode::mask || passes;
     const bool transmits = look == SurfaceLook::seenThrough && material.transmits();
     const auto uses = textureUses(material);
     bool textured = false;
@@ -100,6 +116,7 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
     set(!lit, "UNLIT");
     set(lit && material.emissiveFactor != glm::vec3(0), "EMISSIVE");
     set(bumped, "TANGENTS");
+    set(look == SurfaceLook::caster && material.transmits(), "LETS_LIGHT_PASS");
     set(transmits, "TRANSMISSION");
     set(lit && material.hasOwnReflectance(), "OWN_REFLECTANCE");
     set(lit && material.hasClearcoat(), "CLEARCOAT");

@@ -18,6 +18,7 @@ struct GpuObject {
     glm::mat4 normalMatrix;
     glm::vec4 values;
     glm::ivec4 posing;
+    glm::vec4 levels;
 };
 
 // One for each object of the plan, whose meshes `scene` holds; `poses` as many.
@@ -35,6 +36,7 @@ std::vector<IndexRun> indexRuns(const World& world, const ObjectPlan& object, co
 
 enum class SurfaceLook {
     flat,         // neither lights nor textures beyond the alpha test
+    caster,       // as `flat`, and what lets light pass says how much
     lit,          // what transmits is opaque
     seenThrough,  // as `lit`, and what transmits shows what lies behind
 };

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 
+#include "render/shadow_maps.h"
+
 namespace defocus {
 
 namespace {
 
 constexpr std::size_t mostBackdrops = 8;  // a frame: each is a copy of all layers
 constexpr GLuint backdropUnit = 17;       // of shaders/accumulation/object.frag
+constexpr GLint shadowSlotLocation = 3;   // of shaders/accumulation/object.vert
 
 }  // namespace
 
-void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame) {
+void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows) {
     frame_ = &frame;
+    shadows_ = shadows != nullptr && !shadows->defines().empty() ? shadows : nullptr;
     objectBlocks_ = objectBlocks(plan, *scene_, poses_);
     addDraws(plan);
     uploadMaterials();
@@ -106,6 +110,8 @@ void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const Lev
 ShaderDefines SurfacePass::passDefines(bool vertexShaderLayers) const {
     ShaderDefines defines = frame_->defines();
     defines.insert(defines.end(), info_.defines.begin(), info_.defines.end());
+    if (shadows_ != nullptr) defines.insert(defines.end(), shadows_->defines().begin(), shadows_->defines().end());
+    if (info_.look == SurfaceLook::caster) defines.emplace_back("SHADOW_CASTER", "1");
     if (vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "1");
     return defines;
 }
@@ -117,14 +123,14 @@ const Program& SurfacePass::program(const Draw& draw) {
     const bool vertexShaderLayers = info_.vertexShaderLayers && !refined;
     ShaderDefines defines = passDefines(vertexShaderLayers);
     const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level,
-                                                 info_.shaded ? SurfaceLook::seenThrough : SurfaceLook::flat);
+                                                 info_.look);
     defines.insert(defines.end(), surface.begin(), surface.end());
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "1");
     };
     const bool colored = static_cast<bool>(mesh.colors);
-    set(colored && info_.shaded && draw.level == 0, "VERTEX_COLOR_RANGES");
-    set(colored && info_.shaded && draw.level > 0, "LEVEL_COLOR_RANGE");
+    set(colored && shaded() && draw.level == 0, "VERTEX_COLOR_RANGES");
+    set(colored && shaded() && draw.level > 0, "LEVEL_COLOR_RANGE");
     set(static_cast<bool>(mesh.cocScales), "VERTEX_COC_SCALES");
     set(refined, "REFINED");
     set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // other stages: a program of its own
@@ -172,9 +178,11 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
     if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
     scene_->textures(item.material).attach();
+    if (shadows_ != nullptr) shadows_->bind(begin);
+    if (info_.look == SurfaceLook::caster) glUniform1i(shadowSlotLocation, shadowSlot_);
     bindSamples(mesh);
     bindLevel(mesh, item.level);
-    if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && info_.shaded && item.level > 0) {
+    if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && shaded() && item.level > 0) {
         glUniform4fv(0, 1, &level.leastColor.x);
         glUniform4fv(1, 1, &level.mostColor.x);
     }
@@ -228,7 +236,7 @@ void SurfacePass::drawFronts(const std::vector<Draw>& items, std::uint32_t first
 
 // Both sides of what is double-sided.
 void SurfacePass::drawFront(const Draw& item, std::uint32_t first, std::uint32_t count) {
-    if (scene_->material(item.material).doubleSided)
+    if (scene_->material(item.material).doubleSided || info_.look == SurfaceLook::caster)
         glDisable(GL_CULL_FACE);
     else
         glEnable(GL_CULL_FACE);
@@ -243,6 +251,11 @@ void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
 void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
     drawSolid(opaque_, first, count);
     drawSolid(translucent_, first, count);
+}
+
+void SurfacePass::drawCasters(std::uint32_t first, std::uint32_t count, int slot) {
+    shadowSlot_ = slot;
+    drawSurfaces(first, count);
 }
 
 void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {

@@ -18,17 +18,20 @@ namespace defocus {
 struct SurfacePassInfo {
     std::string fragmentShader;      // under shaders/
     ShaderDefines defines;           // of the pass (layer format …)
-    bool shaded = true;              // false: neither lights nor textures beyond the alpha test
+    SurfaceLook look = SurfaceLook::seenThrough;
     bool vertexShaderLayers = true;  // false: a geometry shader picks the layer
     std::filesystem::path shaderFolder;
 };
+
+class ShadowMaps;
 
 class SurfacePass {
 public:
     SurfacePass(GpuScene& scene, SurfacePassInfo info) : scene_(&scene), info_(std::move(info)) {}
 
-    // Builds the draws and programs of `plan`. `frame` must outlive the drawing.
-    void prepare(const FramePlan& plan, const FrameUniforms& frame);
+    // Builds the draws and programs of `plan`. `frame` and `shadows` must outlive the drawing. `shadows`, of the same
+    // plan: the maps to be read, or of casters those to be drawn; null where there are none.
+    void prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows = nullptr);
     // Draws samples [first, first + count) of the opaque and alpha-tested surfaces, front to back.
     void drawOpaque(std::uint32_t first, std::uint32_t count);
     // The same for alpha-blended and transmitting surfaces, object by object and back to front. `colors` is what is
@@ -40,6 +43,8 @@ public:
     void drawTranslucentDepth(std::uint32_t first, std::uint32_t count);
     // All surfaces, translucent ones too, as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
+    // The same into the shadow map `slot` of each sample, both sides of each surface.
+    void drawCasters(std::uint32_t first, std::uint32_t count, int slot);
     // All of them, each fragment added to what is there: nothing hides anything.
     void drawTouched(std::uint32_t first, std::uint32_t count);
     // The environment behind everything, where no surface was drawn. (The accumulation composes skies that are simpler
@@ -84,6 +89,9 @@ private:
     void addDraws(const FramePlan& plan);
     void addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary);
     const Program& program(const Draw& draw);
+    [[nodiscard]] bool shaded() const {
+        return info_.look == SurfaceLook::lit || info_.look == SurfaceLook::seenThrough;
+    }
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
     void bindFrame();
     void bindSamples(GpuMesh& mesh);
@@ -103,6 +111,8 @@ private:
     ShaderDefines skyDefines_;  // that sky_ was built with
     VertexArray skyArray_;
     const FrameUniforms* frame_ = nullptr;
+    const ShadowMaps* shadows_ = nullptr;
+    int shadowSlot_ = 0;  // that casters are drawn into
     UniformBlocks<GpuObject> objectBlocks_;
     UniformBlocks<GpuMaterial> materialBlocks_;
     std::size_t commandBytes_ = 0;

@@ -145,6 +145,7 @@ bool everythingSelfLit(const Scene& scene, const Pose& pose) {
 PlacedLight placedAt(const StudioLight& studio, const PlacedCamera& camera, const glm::dvec3& position) {
     PlacedLight placed;
     placed.light = {studio.name, LightType::directional, studio.color, studio.illuminance};
+    placed.light.angularDiameter = static_cast<float>(studio.angularDiameter);
     placed.direction = -glm::normalize(glm::dvec3(camera.worldFromCamera * glm::dvec4(studio.toLight(), 0)));
     placed.position = position;
     return placed;
@@ -189,9 +190,9 @@ std::span<const StudioLight> studioLights() {
     // Illuminances are chosen together with the sky below: a diffuse ball of 18 % reflectance averages 18 % of display
     // white.
     static const std::array<StudioLight, 3> lights = {{
-        {"key", glm::radians(-42.0), glm::radians(38.0), {1.0f, 0.96f, 0.90f}, 2.6f},
-        {"fill", glm::radians(55.0), glm::radians(12.0), {0.88f, 0.94f, 1.0f}, 0.8f},
-        {"rim", glm::radians(155.0), glm::radians(35.0), {1.0f, 1.0f, 1.0f}, 2.2f},
+        {"key", glm::radians(-42.0), glm::radians(38.0), {1.0f, 0.96f, 0.90f}, 2.6f, glm::radians(12.0)},
+        {"fill", glm::radians(55.0), glm::radians(12.0), {0.88f, 0.94f, 1.0f}, 0.8f, glm::radians(30.0)},
+        {"rim", glm::radians(155.0), glm::radians(35.0), {1.0f, 1.0f, 1.0f}, 2.2f, glm::radians(10.0)},
     }};
     return lights;
 }

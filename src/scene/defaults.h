@@ -31,6 +31,7 @@ struct StudioLight {
     double elevation = 0;
     glm::vec3 color{1.0f};
     float illuminance = 1;  // lux
+    double angularDiameter = 0;  // rad, of the softbox
     // Unit, along the camera's right, up and back.
     [[nodiscard]] glm::dvec3 toLight() const;
 };

@@ -171,6 +171,7 @@ void placeObjects(const Scene& scene, const SceneState& state, int nodeIndex, do
     object.worldFromObject = worldFromNode;
     object.morphWeights = state.nodes[static_cast<std::size_t>(nodeIndex)].morphWeights;
     object.cocScale = cocScale;
+    object.ground = node.ground;
     if (node.instances.empty()) {
         if (node.skin >= 0 && !mesh.vertices.joints.empty()) {
             object.worldFromJoint = jointMatrices(scene.skins[static_cast<std::size_t>(node.skin)], pose.worldFromNode);
@@ -236,6 +237,7 @@ Pose poseAt(const Scene& scene, double time, int clip) {
     // The box around all objects; each mesh is measured once.
     std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
     for (const Object& object : pose.objects) {
+        if (object.ground) continue;
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
         std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
         if (!bounds) bounds = mesh.bounds();

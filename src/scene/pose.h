@@ -21,6 +21,8 @@ struct Object {  // a mesh instance with all its primitives
     // Each joint's place times its inverse bind matrix (the node's own place does not count); empty without a skin.
     std::vector<glm::dmat4> worldFromJoint;
     std::vector<double> morphWeights;  // one a morph target of the mesh
+    // What the scene stands on: no subject of cameras and focus, and below everything that could be in its shadow.
+    bool ground = false;
 
     [[nodiscard]] bool skinned() const { return !worldFromJoint.empty(); }
 };
@@ -36,7 +38,7 @@ struct Pose {
     std::vector<Object> objects;
     std::vector<PlacedLight> lights;
     std::vector<Camera> cameras;  // as many as Scene::cameras, with their values of the moment
-    Bounds bounds;                // of all objects, world space
+    Bounds bounds;                // of all objects but the ground, world space
 };
 
 // The scene in metres at `time` seconds into its clip `clip` (-1: no animation). Times outside the clip hold its ends.

@@ -125,6 +125,10 @@ struct Light {  // KHR_lights_punctual
     float range = 0.0f;           // m; 0: unlimited
     float innerConeAngle = 0.0f;  // rad
     float outerConeAngle = 0.785398163f;
+    // What casts soft shadows: a disk that faces whatever it shines on. glTF knows no sizes; these are the sun's and
+    // that of a bulb.
+    float angularDiameter = 0.00925f;  // rad, of a directional light
+    float radius = 0.03f;              // m, of a point or spot light
 };
 
 // What lies behind everything and lights it from all around. Radiance L(d) for a direction d with d.y up.
@@ -161,6 +165,7 @@ struct Node {
     int light = -1;
     std::vector<float> morphWeights;
     double cocScale = 1;                // factor on the blur of its subtree (extras), ≥ 0; 0: always sharp
+    bool ground = false;                // its mesh belongs to the surroundings (scene/ground.h)
     std::vector<glm::dmat4> instances;  // EXT_mesh_gpu_instancing: the mesh is drawn once for each, in the node's space
 };
 

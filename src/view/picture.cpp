@@ -34,6 +34,7 @@ std::vector<double> imageKey(const PictureRequest& request) {
                                static_cast<double>(settings.lodCocAtCentre),
                                static_cast<double>(settings.levelVertices),
                                static_cast<double>(settings.keepAll),
+                               static_cast<double>(settings.shadows),
                                static_cast<double>(request.fixedQuality.has_value()),
                                request.targetError.value_or(0)};
     for (const std::optional<double>& threshold :

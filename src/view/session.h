@@ -56,6 +56,7 @@ private:
     void exportStep();
     void chooseCamera(const std::string& name);
     void change(const Request& options);
+    void changeGround(const Request& options);
     void beginExport();
     void frameBounds(bool selection);
     void takeScreenshot(const std::filesystem::path& path);

@@ -9,6 +9,7 @@
 #include "frame/exposure.h"
 #include "frame/moment.h"
 #include "scene/animation.h"
+#include "scene/ground.h"
 #include "view/session.h"
 
 namespace defocus {
@@ -163,6 +164,27 @@ void ViewSession::chooseCamera(const std::string& name) {
     if (!frame_->scene->clips.empty()) poseScene();
 }
 
+// Puts a ground beneath the scene or takes it away, with its levels.
+void ViewSession::changeGround(const Request& options) {
+    if (draft_) {
+        say("a ground needs the scene's levels, which are still being made");
+        return;
+    }
+    picture_.reset();  // it has the scene on the GPU
+    state_.selected = -1;
+    Scene& scene = *frame_->scene;
+    if (options.ground)
+        setGround(options, scene);
+    else
+        removeGround(scene);
+    frame_->world.pyramids.resize(std::min(frame_->world.pyramids.size(), scene.meshes.size()));
+    while (frame_->world.pyramids.size() < scene.meshes.size())
+        frame_->world.pyramids.push_back(fullDetail(scene.meshes[frame_->world.pyramids.size()]));
+    state_.options = options;
+    poseScene();
+    makePicture();
+}
+
 // The blur of nodes becomes that of `options`, or surroundings and aperture image. Throws Error before anything has
 // changed.
 void ViewSession::change(const Request& options) {
@@ -171,6 +193,10 @@ void ViewSession::change(const Request& options) {
             frame_->scene->nodes[static_cast<std::size_t>(nodeNamed(*frame_->scene, name))].cocScale = scale;
         state_.options = options;
         poseScene();
+        return;
+    }
+    if (options.ground != hasGround(*frame_->scene)) {
+        changeGround(options);
         return;
     }
     const Environment environment = chosenEnvironment(options, *frame_->scene, frame_->world.pose);

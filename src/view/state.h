@@ -69,6 +69,7 @@ struct ViewState {
     double interfaceScale = 1;  // on top of the screen's own
     std::string openPath;       // as typed
     std::string environmentPath;
+    bool environmentOfFile = false;  // one is being chosen
     std::string aperturePath;
     std::string exportPath = "still.png";
     std::optional<glm::ivec2> exportSize;  // px; none: as the view is

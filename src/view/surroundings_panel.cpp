@@ -2,7 +2,58 @@
 
 #include <fmt/format.h>
 
+#include "scene/built_in_environment.h"
+#include "view/widgets.h"
+
 namespace defocus {
+
+namespace {
+
+// The scene's own surroundings, those that are built in, and a file.
+void environmentRows(ViewState& state, ViewActions& actions) {
+    const std::string current = state.options.environment.string();
+    std::vector<std::string> names = {"the scene's own"};
+    for (const std::string_view name : builtInEnvironments()) names.emplace_back(name);
+    names.emplace_back("a file");
+    const bool ofFile = state.environmentOfFile || (!current.empty() && !isBuiltInEnvironment(current));
+    rowLabel("Environment", "What lights the scene and lies behind it (--environment)");
+    const int chosen = combo("##environment", names, ofFile ? names.back() : current.empty() ? names[0] : current);
+    if (chosen >= 0) {
+        state.environmentOfFile = chosen + 1 == static_cast<int>(names.size());
+        if (!state.environmentOfFile) {
+            actions.changed = state.options;
+            actions.changed->environment = chosen == 0 ? "" : names[static_cast<std::size_t>(chosen)];
+        }
+    }
+    if (ofFile) {
+        rowLabel("File", "An equirectangular .hdr or .exr");
+        if (pathRow("environment", "sky.hdr", "Load", state.environmentPath)) {
+            actions.changed = state.options;
+            actions.changed->environment = state.environmentPath;
+        }
+    }
+    if (current.empty()) return;
+    rowLabel("Rotation", "Counter-clockwise, seen from above (--environment-rotation)");
+    const double least = -180, most = 180;
+    ImGui::SliderScalar("##rotation", ImGuiDataType_Double, &state.options.environmentRotation, &least, &most, "%.0f°",
+                        ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::IsItemDeactivatedAfterEdit()) actions.changed = state.options;
+}
+
+void shadowRows(ViewState& state, ViewActions& actions) {
+    rowLabel("Ground", "A grey ground beneath the scene, which catches its shadows (--ground)");
+    bool ground = state.options.ground;
+    if (ImGui::Checkbox("##ground", &ground)) {
+        actions.changed = state.options;
+        actions.changed->ground = ground;
+    }
+    rowLabel("Shadows", "Soft shadows of lights and surroundings (--shadows)");
+    const std::vector<std::string> names = {"with a ground", "on", "off"};
+    const int chosen = combo("##shadows", names, names[static_cast<std::size_t>(state.options.settings.shadows)]);
+    if (chosen >= 0) state.options.settings.shadows = static_cast<Shadows>(chosen);
+}
+
+}  // namespace
 
 void surroundingsSection(const PanelContext& context, ViewState& state, ViewActions& actions) {
     if (!section("Surroundings", false)) return;
@@ -20,12 +71,9 @@ void surroundingsSection(const PanelContext& context, ViewState& state, ViewActi
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoLabel);
         if (ImGui::IsItemDeactivatedAfterEdit()) actions.changed = state.options;
     } else {
-        rowLabel("Environment", "An equirectangular .hdr or .exr (--environment)");
-        if (pathRow("environment", "the scene's own", "Load", state.environmentPath)) {
-            changed.environment = state.environmentPath;
-            actions.changed = changed;
-        }
+        environmentRows(state, actions);
     }
+    shadowRows(state, actions);
     ImGui::EndDisabled();
 }
 

@@ -123,6 +123,7 @@ bool needsShading(const Scene& scene) {
 void checkComparable(const Method& method, const World& world, const FramePlan& plan) {
     if (!method.shadesAsLit && needsShading(*world.scene))
         fail("it shades otherwise than the reference; compare it with --shading unlit");
+    if (!method.drawsShadows && !plan.shadows.maps.empty()) fail("it draws no shadows, which the reference has");
     if (!method.drawsMotion && !plan.moments.empty())
         fail("it draws no motion, which the scene has while the shutter is open");
 }

@@ -10,6 +10,7 @@
 #include "gl/timer.h"
 #include "render/accumulation/layer_sum.h"
 #include "render/frame_clock.h"
+#include "render/shadow_maps.h"
 #include "render/surface_pass.h"
 
 namespace defocus {
@@ -21,8 +22,9 @@ std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, 
                          LayerFormat format) {
     const LayerWindow window = layerWindow(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
-                                     static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
-                                     (plan.usesTransmission ? 2 : 1);  // with the backdrop
+                                         static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
+                                         (plan.usesTransmission ? 2 : 1) +  // with the backdrop
+                                     shadowMapBytes(plan);
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
@@ -46,7 +48,7 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        for (GpuTimer* timer : {&opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_}) timer->reset();
+        for (GpuTimer* timer : {&shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_}) timer->reset();
         prepareDraws();
     }
 
@@ -87,7 +89,8 @@ public:
         clock_.fill(stats);
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
-        stats.passes = {{"opaque", opaqueTimer_.milliseconds()}};
+        if (!shadows_->defines().empty()) stats.passes.push_back({"shadows", shadowTimer_.milliseconds()});
+        stats.passes.push_back({"opaque", opaqueTimer_.milliseconds()});
         if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
         if (surfaces_->hasTranslucent()) stats.passes.push_back({"translucent", translucentTimer_.milliseconds()});
         stats.passes.push_back({"sum", sumTimer_.milliseconds()});
@@ -98,9 +101,10 @@ private:
     void prepareDraws() {
         scene_.prepare(plan_);
         frame_.upload(scene_.world(), plan_, sum_->info().layers);
-        surfaces_->prepare(plan_, frame_);
+        shadows_->prepare(plan_, frame_);
+        surfaces_->prepare(plan_, frame_, &*shadows_);
         stats_.peakBytes = std::max<std::uint64_t>(
-            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + sum_->bytes());
+            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + shadows_->bytes() + sum_->bytes());
         clock_.beginFrame();
     }
 
@@ -121,10 +125,11 @@ private:
             sum_.emplace(info);
         }
         if (!sameFormat) {
+            const bool vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers;
+            shadows_.emplace(scene_, vertexShaderLayers, options_.shaderFolder);
             surfaces_.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
                                                       .defines = layerFormatDefines(format),
-                                                      .vertexShaderLayers =
-                                                          vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
+                                                      .vertexShaderLayers = vertexShaderLayers,
                                                       .shaderFolder = options_.shaderFolder});
         }
         sum_->reset(plan_.tile ? std::optional(window) : std::nullopt);
@@ -143,6 +148,7 @@ private:
     }
 
     void drawWave(std::uint32_t first, std::uint32_t count) {
+        if (!shadows_->defines().empty()) timed(shadowTimer_, [&] { shadows_->draw(first, count); });
         timed(opaqueTimer_, [&] {
             sum_->beginWave();
             surfaces_->drawOpaque(first, count);
@@ -166,9 +172,10 @@ private:
     std::uint32_t samplesBefore_ = 0;  // in the sum when the plan was begun
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
+    std::optional<ShadowMaps> shadows_;
     std::optional<SurfacePass> surfaces_;
     mutable FrameClock clock_;
-    mutable GpuTimer opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
+    mutable GpuTimer shadowTimer_, opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
     RenderStats stats_;
 };
 

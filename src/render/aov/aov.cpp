@@ -19,10 +19,10 @@ AovPass::AovPass(const World& world, std::filesystem::path shaderFolder)
       scene_(world),
       surfaces_(scene_, {.fragmentShader = "aov/aov.frag",
                          .defines = {{"READS_COC_SCALE", "1"}},
-                         .shaded = false,
+                         .look = SurfaceLook::flat,
                          .shaderFolder = shaderFolder_}),
       edges_(scene_,
-             {.fragmentShader = "aov/wireframe.frag", .defines = {}, .shaded = false, .shaderFolder = shaderFolder_}) {}
+             {.fragmentShader = "aov/wireframe.frag", .defines = {}, .look = SurfaceLook::flat, .shaderFolder = shaderFolder_}) {}
 
 void AovPass::makeTargets(int width, int height) {
     if (depth_ && depth_.info().width == width && depth_.info().height == height) return;

@@ -17,7 +17,7 @@ WorkPass::WorkPass(const World& world, std::filesystem::path shaderFolder)
     : scene_(world),
       surfaces_(scene_, {.fragmentShader = "aov/work.frag",
                          .defines = {},
-                         .shaded = false,
+                         .look = SurfaceLook::flat,
                          .vertexShaderLayers = vertexShaderMayPickLayer(),
                          .shaderFolder = std::move(shaderFolder)}) {}
 

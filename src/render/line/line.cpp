@@ -300,6 +300,7 @@ Method lineMethod() {
     return {.name = "line",
             .description = "lens space: lines through the lens for each pixel (Tzeng et al. 2012)",
             .showsThrough = false,
+            .drawsShadows = false,
             .drawsMotion = false,
             .settings = settings,
             .make = [settings](const World& world, const RendererOptions& options) {

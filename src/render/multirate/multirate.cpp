@@ -9,6 +9,7 @@
 #include "render/accumulation/layer_sum.h"
 #include "render/frame_clock.h"
 #include "render/multirate/group_layers.h"
+#include "render/shadow_maps.h"
 #include "render/surface_pass.h"
 
 namespace defocus {
@@ -22,7 +23,8 @@ std::uint32_t chosenSampleLayers(const FramePlan& plan, const RendererOptions& o
                                  LayerFormat format) {
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
                                      static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format) *
-                                     (plan.usesTransmission ? 2 : 1);  // with the backdrop
+                                         (plan.usesTransmission ? 2 : 1) +  // with the backdrop
+                                     shadowMapBytes(plan);
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * 2 / 3;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
@@ -43,14 +45,16 @@ std::uint64_t trianglesDrawn(const FramePlan& plan, std::uint32_t first, std::ui
 struct BlockDraws {
     FramePlan plan;
     FrameUniforms frame;
+    std::optional<ShadowMaps> shadows;
     std::optional<SurfacePass> surfaces;
 
     void prepare(const World& world, FramePlan block, std::uint32_t layers) {
         plan = std::move(block);
         frame.upload(world, plan, layers);
-        surfaces->prepare(plan, frame);
+        shadows->prepare(plan, frame);
+        surfaces->prepare(plan, frame, &*shadows);
     }
-    [[nodiscard]] std::size_t bytes() const { return frame.bytes() + (surfaces ? surfaces->bytes() : 0); }
+    [[nodiscard]] std::size_t bytes() const { return frame.bytes() + (surfaces ? surfaces->bytes() + shadows->bytes() : 0); }
 };
 
 class MultirateRenderer final : public Renderer {
@@ -66,7 +70,7 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        for (GpuTimer* timer : {&groupTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
+        for (GpuTimer* timer : {&groupTimer_, &shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
             timer->reset();
         prepareFrame();
     }
@@ -109,7 +113,9 @@ public:
         clock_.fill(stats);
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
-        stats.passes = {{"groups", groupTimer_.milliseconds()}, {"opaque", opaqueTimer_.milliseconds()}};
+        stats.passes = {{"groups", groupTimer_.milliseconds()}};
+        if (!samples_.shadows->defines().empty()) stats.passes.push_back({"shadows", shadowTimer_.milliseconds()});
+        stats.passes.push_back({"opaque", opaqueTimer_.milliseconds()});
         if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
         if (samples_.surfaces->hasTranslucent())
             stats.passes.push_back({"translucent", translucentTimer_.milliseconds()});
@@ -154,12 +160,14 @@ private:
             groupLayers_.reset();  // both before the new ones are made, as all may not fit
             sum_.reset();
             sum_.emplace(info);
-            for (BlockDraws* draws : {&samples_, &groups_})
+            const bool vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers;
+            for (BlockDraws* draws : {&samples_, &groups_}) {
+                draws->shadows.emplace(scene_, vertexShaderLayers, options_.shaderFolder);
                 draws->surfaces.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
                                                                 .defines = layerFormatDefines(format),
-                                                                .vertexShaderLayers = vertexShaderMayPickLayer() &&
-                                                                                      !options_.geometryShaderLayers,
+                                                                .vertexShaderLayers = vertexShaderLayers,
                                                                 .shaderFolder = options_.shaderFolder});
+            }
         }
         sum_->reset();
     }
@@ -181,6 +189,7 @@ private:
         const std::uint32_t begin = std::max(groupsDrawn_, first / groupSize_);
         const std::uint32_t groupEnd = std::min((end + groupSize_ - 1) / groupSize_, groupsShare_);
         if (begin >= groupEnd) return;
+        groups_.shadows->draw(begin, groupEnd - begin);
         groupLayers_->begin(begin, groupEnd);
         groups_.surfaces->drawOpaque(begin, groupEnd - begin);
         stats_.trianglesDrawn += trianglesDrawn(groups_.plan, begin, groupEnd - begin);
@@ -199,6 +208,7 @@ private:
     // Samples [first, first + count) of the block.
     void drawWave(std::uint32_t first, std::uint32_t count) {
         if (groupsShare_ > 0) timed(groupTimer_, [&] { drawGroups(first, first + count); });
+        if (!samples_.shadows->defines().empty()) timed(shadowTimer_, [&] { samples_.shadows->draw(first, count); });
         timed(opaqueTimer_, [&] {
             beginWave(first, count);
             samples_.surfaces->drawOpaque(first, count);
@@ -226,7 +236,7 @@ private:
     std::optional<LayerSum> sum_;
     std::optional<GroupLayers> groupLayers_;
     mutable FrameClock clock_;
-    mutable GpuTimer groupTimer_, opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
+    mutable GpuTimer groupTimer_, shadowTimer_, opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
     RenderStats stats_;
 };
 

@@ -9,6 +9,8 @@ namespace defocus {
 
 namespace {
 
+constexpr std::uint32_t lightPoints = 16;  // of a pinhole's shadows, on each light
+
 GlTexture texture(int width, int height, TextureFormat format) {
     return GlTexture({.format = format, .width = width, .height = height});
 }
@@ -36,6 +38,9 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
     pinholes.view.lens.catEye = 0;
     pinholes.trianglesDrawn = 0;
     pinholes.moments.clear();
+    pinholes.shadows.points = lightPoints;
+    for (std::uint32_t i = 0; i < count; ++i)
+        pinholes.samples[i].light = glm::vec2(sequencePoint(Sequence::sobol, std::uint64_t{i} * lightPoints, 0).light);
     for (ObjectPlan& object : pinholes.objects) {
         object.motion.clear();
         const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
@@ -55,6 +60,7 @@ PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat for
       depth_(texture(width, height, TextureFormat::depth32f)),
       cocScale_(cocScales ? texture(width, height, TextureFormat::r32f) : GlTexture()),
       target_(cocScales ? Target({&color_, &cocScale_}, &depth_) : Target({&color_}, &depth_)),
+      shadows_(scene, vertexShaderMayPickLayer(), shaderFolder),
       surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
                         .defines = definesOf(format),
                         .vertexShaderLayers = vertexShaderMayPickLayer(),
@@ -68,10 +74,12 @@ void PinholePass::attachForBlur() const {
 }
 
 void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame) {
-    surfaces_.prepare(pinholes, frame);
+    shadows_.prepare(pinholes, frame);
+    surfaces_.prepare(pinholes, frame, &shadows_);
 }
 
 void PinholePass::draw(std::uint32_t index) {
+    shadows_.draw(index, 1);
     target_.bind();
     glDepthMask(GL_TRUE);
     constexpr float farthest = 0;  // reversed depth

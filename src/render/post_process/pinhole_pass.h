@@ -6,13 +6,14 @@
 
 #include "gl/target.h"
 #include "render/layer_format.h"
+#include "render/shadow_maps.h"
 #include "render/surface_pass.h"
 
 namespace defocus {
 
 // The objects of `plan`, each at the whole level nearest to its λ, for `count` samples in the middle of the lens. They
 // are spread over the pixel by Hammersley's points; one alone lies in its middle. The plan's lens (its CoC) is kept.
-// What moves is drawn as it is in the middle of the exposure.
+// What moves is drawn as it is in the middle of the exposure. A pinhole has 16 points on each light.
 FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t count);
 
 class PinholePass {
@@ -38,7 +39,7 @@ public:
     [[nodiscard]] int width() const { return color_.info().width; }
     [[nodiscard]] int height() const { return color_.info().height; }
     [[nodiscard]] std::size_t bytes() const {
-        return color_.bytes() + depth_.bytes() + cocScale_.bytes() + surfaces_.bytes();
+        return color_.bytes() + depth_.bytes() + cocScale_.bytes() + shadows_.bytes() + surfaces_.bytes();
     }
 
 private:
@@ -46,6 +47,7 @@ private:
     GlTexture depth_;
     GlTexture cocScale_;  // empty: 1 everywhere
     Target target_;
+    ShadowMaps shadows_;
     SurfacePass surfaces_;
 };
 

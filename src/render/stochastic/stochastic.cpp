@@ -83,6 +83,7 @@ Method stochasticMethod() {
     return {.name = "stochastic",
             .description = "lens space: points of its own for each pixel (Munkberg, Toth and Akenine-Möller 2012)",
             .showsThrough = false,
+            .drawsShadows = false,
             .settings = settings,
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;

@@ -1,0 +1,316 @@
+// Shadows against what a disk of light leaves behind an edge, in closed form.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "plan/shadows.h"
+#include "render/methods.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+constexpr double receiverDepth = 4;  // m before the camera, as everything here
+constexpr double tanHalfWidth = 36.0 / (2 * 50);
+
+Material matt() {
+    Material material;
+    material.metallicFactor = 0;
+    material.specularFactor = 0;
+    material.doubleSided = true;
+    return material;
+}
+
+// A white wall that fills the image of a pinhole camera at the origin, and no light yet.
+std::unique_ptr<SmallWorld> wall() {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(matt());
+    small->scene.meshes.push_back(quad(0));
+    place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0, 0, -receiverDepth}), glm::dvec3(3)));
+    small->world.environment = {EnvironmentType::uniform, {}, {}, {}, nullptr, 1};
+    small->view.width = 96;
+    small->view.height = 72;
+    small->view.lens.dofEnabled = false;
+    return small;
+}
+
+void addSun(SmallWorld& small, const glm::dvec3& toLight, double diameter) {
+    PlacedLight sun;
+    sun.light.intensity = 1;
+    sun.light.angularDiameter = static_cast<float>(diameter);
+    sun.direction = -glm::normalize(toLight);
+    small.world.lights.push_back(sun);
+}
+
+// Parallel to the wall, `height` m before it: x from `left` on, 4 m wide.
+void addEdge(SmallWorld& small, double left, double height) {
+    place(small, 0,
+          glm::scale(glm::translate(glm::dmat4(1), {left + 2, 0, height - receiverDepth}), glm::dvec3(2, 6, 1)));
+}
+
+RenderSettings settingsFor(std::uint32_t samples, Shadows shadows) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::off;
+    settings.shadows = shadows;
+    return settings;
+}
+
+Image shadowImage(const SmallWorld& small, const RenderSettings& settings, const std::string& method = "accumulation",
+                  std::uint32_t wave = 0) {
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    options.wave = wave;
+    const MethodUse use = parseMethodUse(method);
+    options.settings = use.settings;
+    const auto renderer = use.method->make(small.world, options);
+    renderer->start(planFrame(small.world, small.view, settings));
+    while (renderer->advance()) {
+    }
+    return renderer->image();
+}
+
+// Where on the wall the column's middle looks.
+double wallX(const View& view, int column) {
+    return (2 * (column + 0.5) / view.width - 1) * tanHalfWidth * receiverDepth;
+}
+
+// What arrives in each column of the image's middle row, of what arrives without shadows.
+std::vector<double> litShares(const SmallWorld& small, const RenderSettings& settings,
+                              const std::string& method = "accumulation") {
+    RenderSettings without = settings;
+    without.shadows = Shadows::off;
+    const Image shadowed = shadowImage(small, settings, method);
+    const Image lit = shadowImage(small, without, method);
+    std::vector<double> shares;
+    for (int x = 0; x < shadowed.width; ++x)
+        shares.push_back(static_cast<double>(shadowed.at(x, shadowed.height / 2)[0]) / lit.at(x, lit.height / 2)[0]);
+    return shares;
+}
+
+// Of a disk of radius 1, the part left of x = a.
+double diskShare(double a) {
+    a = std::clamp(a, -1.0, 1.0);
+    return 0.5 + (a * std::sqrt(1 - a * a) + std::asin(a)) / std::numbers::pi;
+}
+
+// The sun at 45° to the right: a point of its disk a·t beside its middle, t the tangent of half its diameter, throws
+// the edge, d before the wall, to left − d·(1 + t·a)/(1 − t·a).
+double litShareBehindEdge(double x, double left, double d, double t) {
+    const double q = (left - x) / d;
+    return diskShare((q - 1) / ((q + 1) * t));
+}
+
+class Shadowed : public testing::Test {
+protected:
+    std::unique_ptr<GlContext> context = createHeadlessContext();
+};
+
+TEST_F(Shadowed, penumbraOfADiskBehindAnEdge) {
+    for (const double height : {0.5, 1.0}) {
+        for (const double degrees : {10.0, 20.0}) {
+            const double t = std::tan(glm::radians(degrees) / 2);
+            const auto small = wall();
+            addSun(*small, {1, 0, 1}, glm::radians(degrees));
+            addEdge(*small, height, height);
+            finish(*small);
+            const RenderSettings settings = settingsFor(256, Shadows::on);
+            const std::vector<double> shares = litShares(*small, settings);
+            // A place is lifted by a texel at most before it is looked up, which moves the edge by as much at 45°.
+            const FramePlan plan = planFrame(small->world, small->view, settings);
+            const double bias = shadowProjections(small->world, plan, {}).front().texel;
+            double width = 0;  // columns that are neither lit nor dark
+            double expectedWidth = 0;
+            for (int x = 0; x < small->view.width; ++x) {
+                const double place = wallX(small->view, x);
+                if (std::abs(place) > 0.7 * height) continue;  // the edge itself hides the wall further right
+                const double share = shares[static_cast<std::size_t>(x)];
+                EXPECT_LT(share, litShareBehindEdge(place - bias, height, height, t) + 0.04) << place;
+                EXPECT_GT(share, litShareBehindEdge(place + bias, height, height, t) - 0.04) << place;
+                const double expected = litShareBehindEdge(place, height, height, t);
+                width += share > 0.02 && share < 0.98 ? 1 : 0;
+                expectedWidth += expected > 0.02 && expected < 0.98 ? 1 : 0;
+            }
+            EXPECT_NEAR(width, expectedWidth, 3) << height << " m, " << degrees << "°";
+            EXPECT_GT(expectedWidth, 4);
+        }
+    }
+}
+
+TEST_F(Shadowed, umbraIsDarkAndWhatNothingHidesIsLitUnchanged) {
+    const auto small = wall();
+    addSun(*small, {1, 0, 1}, glm::radians(2.0));
+    addEdge(*small, 1, 1);
+    finish(*small);
+    const std::vector<double> shares = litShares(*small, settingsFor(64, Shadows::on));
+    for (int x = 0; x < small->view.width; ++x) {
+        const double place = wallX(small->view, x);
+        const double share = shares[static_cast<std::size_t>(x)];
+        if (place < -0.25) {
+            EXPECT_NEAR(share, 1, 1e-5) << place;
+        } else if (place > 0.25 && place < 1) {
+            EXPECT_EQ(share, 0) << place;
+        }
+    }
+}
+
+// A board that stands on the wall, its foot at x = 0: dark from the foot on, but for the bias and the texel's width.
+TEST_F(Shadowed, noLightLeaksAtAContact) {
+    const auto small = wall();
+    addSun(*small, {1, 0, 1}, glm::radians(1.0));
+    const glm::dmat4 upright = glm::rotate(glm::dmat4(1), glm::radians(90.0), glm::dvec3(0, 1, 0));
+    place(*small, 0,
+          glm::translate(glm::dmat4(1), {0, 0, 0.5 - receiverDepth}) * upright *
+              glm::scale(glm::dmat4(1), glm::dvec3(0.5, 3, 1)));
+    finish(*small);
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(64, Shadows::on));
+    const std::vector<ShadowProjection> projections = shadowProjections(small->world, plan, {});
+    const double texel = projections.front().texel;
+    const std::vector<double> shares = litShares(*small, settingsFor(64, Shadows::on));
+    int dark = 0;
+    for (int x = 0; x < small->view.width; ++x) {
+        const double place = wallX(small->view, x);
+        if (place > -2 * texel || place < -0.9)
+            continue;  // 1 m high, and a texel is wider along the wall than across the light
+        EXPECT_EQ(shares[static_cast<std::size_t>(x)], 0) << place;
+        ++dark;
+    }
+    EXPECT_GT(dark, 15);
+}
+
+// Planes that the sun grazes, and a rippled ball of which each facet could shadow itself: the ball's lit side, well
+// inside its outline, is as bright as without shadows.
+TEST_F(Shadowed, surfacesDoNotShadowThemselves) {
+    for (const double degrees : {0.0, 45.0, 80.0, 87.0}) {
+        const auto small = wall();
+        addSun(*small, {std::sin(glm::radians(degrees)), 0, std::cos(glm::radians(degrees))}, 0.01);
+        finish(*small);
+        for (const double share : litShares(*small, settingsFor(16, Shadows::on)))
+            EXPECT_NEAR(share, 1, 1e-5) << degrees;
+    }
+    const auto small = wall();
+    addSun(*small, {0, 0, 1}, 0.01);
+    small->scene.meshes.push_back(bumpySphere(120, 90, 0));
+    place(*small, 1, glm::translate(glm::dmat4(1), {0, 0, -receiverDepth}));
+    finish(*small);
+    const Image shadowed = shadowImage(*small, settingsFor(32, Shadows::on));
+    const Image lit = shadowImage(*small, settingsFor(32, Shadows::off));
+    double most = 0;
+    for (int y = 18; y < 54; ++y)
+        for (int x = 30; x < 66; ++x)
+            most = std::max(most, static_cast<double>(lit.at(x, y)[0] - shadowed.at(x, y)[0]) / lit.at(x, y)[0]);
+    EXPECT_LT(most, 0.02);
+}
+
+// A lamp 1 m before a board of 0.4 m and 2 m before the wall: the shadow measures 0.8 m. With one map, and with six
+// where something stands behind the lamp too.
+TEST_F(Shadowed, lampsThrowMagnifiedShadows) {
+    for (const bool amid : {false, true}) {
+        for (const LightType type : {LightType::point, LightType::spot}) {
+            const auto small = wall();
+            place(*small, 0, glm::scale(glm::translate(glm::dmat4(1), {0, 0, 1 - receiverDepth}), glm::dvec3(0.2)));
+            if (amid) place(*small, 0, glm::translate(glm::dmat4(1), {0, 0, 3}));
+            PlacedLight lamp;
+            lamp.light.type = type;
+            lamp.light.intensity = 10;
+            lamp.light.radius = 0.001f;
+            lamp.light.innerConeAngle = 1.0f;
+            lamp.light.outerConeAngle = 1.1f;
+            lamp.position = {0, 0, 2 - receiverDepth};
+            small->world.lights.push_back(lamp);
+            finish(*small);
+            const FramePlan plan = planFrame(small->world, small->view, settingsFor(16, Shadows::on));
+            EXPECT_EQ(plan.shadows.maps.size(), amid && type == LightType::point ? 6u : 1u);
+            const std::vector<double> shares = litShares(*small, settingsFor(16, Shadows::on));
+            for (int x = 0; x < small->view.width; ++x) {
+                const double place = std::abs(wallX(small->view, x));
+                if (place < 0.29) continue;  // the board itself, as the camera sees it
+                if (std::abs(place - 0.4) < 0.08) continue;
+                EXPECT_NEAR(shares[static_cast<std::size_t>(x)], place < 0.4 ? 0 : 1, 1e-4) << place;
+            }
+        }
+    }
+}
+
+// An even sky, and a board so high and wide that it hides half of it from the wall at its foot.
+TEST_F(Shadowed, surroundingsAreHiddenByHalf) {
+    const auto small = wall();
+    small->world.environment = {EnvironmentType::uniform, glm::vec3(1), glm::vec3(1), glm::vec3(1), nullptr, 1};
+    const glm::dmat4 upright = glm::rotate(glm::dmat4(1), glm::radians(90.0), glm::dvec3(0, 1, 0));
+    place(*small, 0,
+          glm::translate(glm::dmat4(1), {0.5, 0, 20 - receiverDepth}) * upright *
+              glm::scale(glm::dmat4(1), glm::dvec3(20, 40, 1)));
+    small->view.worldFromCamera = glm::translate(glm::dmat4(1), {-0.5, 0, 0});
+    finish(*small);
+    const std::vector<double> shares = litShares(*small, settingsFor(512, Shadows::on));
+    int seen = 0;
+    for (int x = 0; x < small->view.width; ++x) {
+        const double place = wallX(small->view, x) - 0.5;
+        if (place < -1.5 || place > 0.1) continue;
+        EXPECT_NEAR(shares[static_cast<std::size_t>(x)], 0.5, 0.05) << place;
+        ++seen;
+    }
+    EXPECT_GT(seen, 10);
+}
+
+TEST_F(Shadowed, sameBitsForEveryWave) {
+    const auto small = fiveSpheres();
+    small->view.width = 64;
+    small->view.height = 48;
+    const RenderSettings settings = settingsFor(70, Shadows::on);
+    const Image one = shadowImage(*small, settings, "accumulation", 1);
+    for (const std::uint32_t wave : {5u, 64u})
+        EXPECT_EQ(shadowImage(*small, settings, "accumulation", wave).pixels, one.pixels) << wave;
+}
+
+TEST_F(Shadowed, withoutLightTheImageKeepsItsBits) {
+    const auto small = fiveSpheres();
+    small->world.lights.clear();
+    small->world.environment.lighting = 0;
+    EXPECT_EQ(shadowImage(*small, settingsFor(16, Shadows::on)).pixels,
+              shadowImage(*small, settingsFor(16, Shadows::off)).pixels);
+}
+
+TEST_F(Shadowed, coarseCastersThrowTheSameShadows) {
+    const auto small = fiveSpheres();
+    RenderSettings settings = settingsFor(64, Shadows::on);
+    const Image full = shadowImage(*small, settings);
+    settings.lod = LodMode::fractional;
+    const FramePlan plan = planFrame(small->world, small->view, settings);
+    EXPECT_TRUE(
+        std::ranges::any_of(plan.shadows.casters, [](const ObjectPlan& caster) { return caster.fine.level > 0; }));
+    EXPECT_GT(compareImages(full, shadowImage(*small, settings)).psnr, 38);
+}
+
+TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
+    const auto small = fiveSpheres();
+    small->view.width = 80;
+    small->view.height = 60;
+    const RenderSettings settings = settingsFor(64, Shadows::on);
+    const Image accumulated = shadowImage(*small, settings);
+    EXPECT_GT(compareImages(accumulated, shadowImage(*small, settings, "multirate")).psnr,
+              35);  // groups have other points on the lights
+    const auto edge = wall();
+    addSun(*edge, {1, 0, 1}, glm::radians(20.0));
+    addEdge(*edge, 1, 1);
+    finish(*edge);
+    const std::vector<double> shares = litShares(*edge, settingsFor(64, Shadows::on), "scheuermann");
+    double most = 0;
+    for (int x = 0; x < edge->view.width; ++x) {
+        const double place = wallX(edge->view, x);
+        if (std::abs(place) > 0.7) continue;
+        most = std::max(most, std::abs(shares[static_cast<std::size_t>(x)] -
+                                       litShareBehindEdge(place, 1, 1, std::tan(glm::radians(10.0)))));
+    }
+    EXPECT_LT(most, 0.12);  // of 16 points on the sun for each of 4 pinholes
+}
+
+}  // namespace
+}  // namespace defocus
