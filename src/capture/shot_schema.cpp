@@ -71,6 +71,8 @@ const std::map<std::string_view, Json>& exampleValues() {
     static const std::map<std::string_view, Json> table = {
         {"scene", "scene.glb"},
         {"environment", "studio"},
+        {"lightAngle", 5},
+        {"lightRadius", 0.1},
         {"clip", "Walk"},
         {"camera", "Camera"},
         {"targetError", 0.003},
