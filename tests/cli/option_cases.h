@@ -35,8 +35,9 @@ struct OptionCase {
 namespace option_cases {
 
 // A ball of 700 triangles that goes away from the camera within 2 s, and turns to its right half-way, before a board. A
-// second clip holds it still. A second camera stands closer and has a focus distance of its own.
-inline std::string movingBall() {
+// second clip holds it still. A second camera stands closer and has a focus distance of its own. With a lamp above it,
+// or under the lights of a scene without lights.
+inline std::string movingBall(bool lamp) {
     const Mesh ball = bumpySphere(24, 16, 0);
     GltfBuilder builder;
     std::vector<float> corners;
@@ -57,6 +58,12 @@ inline std::string movingBall() {
          {"extras", {{"focusDistance", 1}}}}};
     builder.add("nodes", {{"camera", 0}});
     builder.add("nodes", {{"camera", 1}, {"translation", {0.2, 0, -0.5}}});
+    if (lamp) {
+        builder.json["extensionsUsed"] = {"KHR_lights_punctual"};
+        builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 100}}};
+        builder.add("nodes",
+                    {{"translation", {0.5, 3, -3}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    }
     const int times = builder.floats({0, 1, 2}, "SCALAR", 1);
     const int away = builder.floats({0, 0, -3, 0.2, 0.3, -3.5, 1.5, 0, -6}, "VEC3", 3);
     const int still = builder.floats({0, 0, -3, 0, 0, -3, 0, 0, -3}, "VEC3", 3);
@@ -82,9 +89,10 @@ inline Words only(const char* method) {
 
 }  // namespace option_cases
 
-// Writes ball.glb, sky.hdr and half.png, which the cases name.
+// Writes ball.glb, lamp.glb (the ball with a lamp), sky.hdr and half.png, which the cases name.
 inline void writeOptionScene(const std::filesystem::path& folder) {
-    GltfBuilder::save(folder / "ball.glb", option_cases::movingBall());
+    GltfBuilder::save(folder / "ball.glb", option_cases::movingBall(false));
+    GltfBuilder::save(folder / "lamp.glb", option_cases::movingBall(true));
     Image sky(8, 4, 3);
     for (std::size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = static_cast<float>(i % 7) * 0.3f;
     writeImage(folder / "sky.exr", sky);
@@ -113,7 +121,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"environmentRotation", {{"--environment-rotation", "90"}, {"--environment", "sky.hdr"}}},
         {"background", {{"--background", "none"}, {}}},
         {"ground", {{"--ground"}, {"--camera", "auto"}}},
-        {"shadows", {{"--shadows", "on"}, {}}},
+        {"shadows", {{"--shadows", "off"}, {"--ground", "--camera", "auto"}}},
         {"lightAngle", {{"--light-angle", "40"}, {"--ground", "--camera", "auto"}}},
         {"lightRadius", {{"--light-radius", "0.5"}, {"--ground", "--camera", "auto"}}},
         {"camera", {{"--camera", "Near"}, {}}},
@@ -323,6 +331,10 @@ inline Words lineOfCase(const CommandLine& given, const std::string& name, const
             ++i;
         else
             line.push_back(given.rest[i]);
+    // Only a lamp has a radius.
+    if (name == "lightRadius")
+        for (std::string& word : line)
+            if (word.starts_with("ball.")) word.replace(0, 4, "lamp");
     // The school has no camera of that name.
     if (std::ranges::find(line, "ball.glb") == line.end())
         std::ranges::replace(line, std::string("--camera=Near"), std::string("--camera=auto"));
