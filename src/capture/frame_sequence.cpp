@@ -185,7 +185,7 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     result.time = timeAt(shot, *base.scene, clip, frame / shot.frameRate);
     const double middle = shutterMiddle(base.shutter);
     result.pose = poseAt(*base.scene, timeAt(shot, *base.scene, clip, frame / shot.frameRate + middle), clip);
-    result.lights = result.pose.lights.empty() ? base.lights : result.pose.lights;
+    result.lights = movedLights(base.lights, result.pose);
     result.view = movedView(shot, base, result.pose, frame + middle * shot.frameRate);
     result.view.lens = lensAt(shot, base, result);
     result.settings = base.settings;

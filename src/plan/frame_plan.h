@@ -87,6 +87,7 @@ struct ObjectPlan {
 struct ShadowMap {
     int light = 0;  // into World::lights; surroundings: those
     int face = -1;  // of a cube around the light: +x, −x, +y, −y, +z, −z; −1: one map shows all that can cast a shadow
+    double lightSize = 0;  // of a directional light its angular diameter, radians; of others their radius, m
 };
 
 // What casts shadows, and from which lights; see shadows.h.

@@ -119,6 +119,13 @@ json lensJson(const FramePlan& plan) {
     return lens;
 }
 
+json shadowsJson(const ShadowPlan& shadows) {
+    json maps = json::array();
+    for (const ShadowMap& map : shadows.maps)
+        maps.push_back({{"light", map.light}, {"face", map.face}, {"lightSize", map.lightSize}});
+    return {{"maps", std::move(maps)}, {"size", shadows.size}, {"pointsPerSample", shadows.points}};
+}
+
 }  // namespace
 
 std::string planTable(const FramePlan& plan) {
@@ -178,6 +185,7 @@ std::string planJson(const FramePlan& plan) {
                              {"blurThreshold", plan.thresholds.blur},
                              {"sizeThreshold", plan.thresholds.size},
                              {"lightThreshold", plan.thresholds.light}}},
+                           {"shadows", shadowsJson(plan.shadows)},
                            {"objects", std::move(objects)},
                            {"leftOut", std::move(leftOut)},
                            {"triangles",

@@ -19,11 +19,11 @@ namespace {
 
 constexpr int leastMapSize = 128;  // px
 constexpr int mostMapSize = 2048;
-constexpr double leastShare = 0.01;      // of all light at the scene's middle: what casts a shadow
-constexpr double widestTangent = 3;      // half the field of view of one map
+constexpr double leastShare = 0.01;       // of all light at the scene's middle: what casts a shadow
+constexpr double widestTangent = 3;       // half the field of view of one map
 constexpr double levelErrorTexels = 0.5;  // by which a caster's level may be off
-constexpr std::size_t mostBoxes = 64;    // that bound the casters one by one
-constexpr double nearShare = 1e-4;       // near plane of lights amid the scene, of its size
+constexpr std::size_t mostBoxes = 64;     // that bound the casters one by one
+constexpr double nearShare = 1e-4;        // near plane of lights amid the scene, of its size
 
 const glm::dvec3 luminanceWeights(0.2126, 0.7152, 0.0722);
 
@@ -58,7 +58,8 @@ Bounds boundsOfCorners(const std::vector<glm::dvec3>& corners) {
     return bounds;
 }
 
-// ---- what the plan says ------------------------------------------------------------------------------------------------
+// ---- what the plan says
+// ------------------------------------------------------------------------------------------------
 
 // Boxes of the object in view space, at all moments, as the camera in the middle of the exposure has them.
 Bounds casterBox(const World& world, const FramePlan& plan, const ObjectPlan& object) {
@@ -91,7 +92,8 @@ double strength(const PlacedLight& placed, const glm::dvec3& middle, double radi
 
 // May one map show all that a local light has before it?
 bool oneMapShows(const PlacedLight& placed, const glm::dvec3& position, const std::vector<glm::dvec3>& corners) {
-    if (placed.light.type == LightType::spot && std::tan(std::min(1.5, double{placed.light.outerConeAngle})) <= widestTangent)
+    if (placed.light.type == LightType::spot &&
+        std::tan(std::min(1.5, double{placed.light.outerConeAngle})) <= widestTangent)
         return true;
     const Axes axes(boundsOfCorners(corners).centre() - position + glm::dvec3(0, 1e-12, 0));
     return std::ranges::all_of(corners, [&](const glm::dvec3& corner) {
@@ -142,11 +144,13 @@ std::vector<ShadowMap> chosenMaps(std::vector<Candidate> found) {
     std::ranges::sort(chosen, {}, &Candidate::light);
     std::vector<ShadowMap> maps;
     for (const Candidate& one : chosen)
-        for (int face = 0; face < one.faces; ++face) maps.push_back({one.light, one.faces > 1 ? face : -1});
+        for (int face = 0; face < one.faces; ++face)
+            maps.push_back({.light = one.light, .face = one.faces > 1 ? face : -1});
     return maps;
 }
 
-// ---- projections -------------------------------------------------------------------------------------------------------
+// ---- projections
+// -------------------------------------------------------------------------------------------------------
 
 // The corners of what the image shows, as far as the farthest object: shadows elsewhere are not looked at.
 std::vector<glm::dvec3> seenCorners(const FramePlan& plan) {
@@ -160,7 +164,8 @@ std::vector<glm::dvec3> seenCorners(const FramePlan& plan) {
     if (!std::isfinite(farthest)) return corners;
     widening = std::isfinite(widening) ? widening : 1;
     const double tanX = plan.tanHalfHorizontal * (1 + widening) * 1.02;
-    const double tanY = plan.tanHalfHorizontal * (static_cast<double>(plan.view.height) / plan.view.width + widening) * 1.02;
+    const double tanY =
+        plan.tanHalfHorizontal * (static_cast<double>(plan.view.height) / plan.view.width + widening) * 1.02;
     const glm::dmat3 worldFromView(plan.view.worldFromCamera);
     for (const double depth : {0.0, farthest})
         for (const double x : {-1.0, 1.0})
@@ -192,8 +197,8 @@ void setRows(ShadowProjection& projection, const Axes& axes, const glm::dvec3& o
     projection.texel = static_cast<float>(std::max(texel.x, texel.y));
 }
 
-ShadowProjection parallelProjection(const FramePlan& plan, const glm::dvec3& toLight, const std::vector<glm::dvec3>& seen,
-                                    const glm::dvec2& shift) {
+ShadowProjection parallelProjection(const FramePlan& plan, const glm::dvec3& toLight,
+                                    const std::vector<glm::dvec3>& seen, const glm::dvec2& shift) {
     const Axes axes(toLight);
     Rectangle area;
     double nearest = -std::numeric_limits<double>::infinity();
@@ -250,7 +255,8 @@ ShadowProjection localProjection(const FramePlan& plan, const PlacedLight& place
     const Axes axes(face >= 0 ? faceDirection(face) : spot ? placed.direction : bounds.centre() - origin);
     Rectangle area;
     if (face >= 0 || spot) {
-        const double tangent = face >= 0 ? 1 + 4.0 / plan.shadows.size : 1.02 * std::tan(double{placed.light.outerConeAngle});
+        const double tangent =
+            face >= 0 ? 1 + 4.0 / plan.shadows.size : 1.02 * std::tan(double{placed.light.outerConeAngle});
         area.extend(glm::dvec2(-tangent));
         area.extend(glm::dvec2(tangent));
     }
@@ -286,7 +292,8 @@ glm::dvec2 diskPoint(const glm::dvec2& point) {
     return radius * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
-// ---- surroundings ------------------------------------------------------------------------------------------------------
+// ---- surroundings
+// ------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -307,7 +314,8 @@ glm::dvec3 meanRadiance(const Image& map, int column, int row) {
         for (int c = 0; c < 3; ++c) color[c] = std::min(std::max(0.0, std::isnan(color[c]) ? 0.0 : color[c]), 65504.0);
         return color;
     };
-    const int left = column * map.width / gridColumns, right = std::max(left + 1, (column + 1) * map.width / gridColumns);
+    const int left = column * map.width / gridColumns,
+              right = std::max(left + 1, (column + 1) * map.width / gridColumns);
     const int top = row * map.height / gridRows, bottom = std::max(top + 1, (row + 1) * map.height / gridRows);
     glm::dvec3 sum(0);
     for (int y = top; y < bottom; ++y)
@@ -339,9 +347,9 @@ EnvironmentDirections::EnvironmentDirections(const Environment& environment) {
     if (environment.type == EnvironmentType::none) return;
     double all = 0;
     for (int row = 0; row < gridRows; ++row) {
-        const double solidAngle = 2 * std::numbers::pi / gridColumns *
-                                  (std::cos(std::numbers::pi * row / gridRows) -
-                                   std::cos(std::numbers::pi * (row + 1) / gridRows));
+        const double solidAngle =
+            2 * std::numbers::pi / gridColumns *
+            (std::cos(std::numbers::pi * row / gridRows) - std::cos(std::numbers::pi * (row + 1) / gridRows));
         double inRow = 0;
         for (int column = 0; column < gridColumns; ++column) {
             radiances_.push_back(cellRadiance(environment, column, row));
@@ -367,7 +375,8 @@ EnvironmentDirections::Choice EnvironmentDirections::at(const glm::dvec2& point)
             luminance > 0 ? radiance * (rowSums_.back() / luminance) : glm::dvec3(0)};
 }
 
-// ---- plan and projections ----------------------------------------------------------------------------------------------
+// ---- plan and projections
+// ----------------------------------------------------------------------------------------------
 
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects) {
     // Boxes of all that casts a shadow.
@@ -391,6 +400,11 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
         for (const glm::dvec3& corner : box.corners()) shadows.corners.emplace_back(fromView * glm::dvec4(corner, 1));
     if (shadows.casters.empty() || plan.objects.empty()) return {};
     shadows.maps = chosenMaps(candidates(world, plan, shadows.corners));
+    for (ShadowMap& map : shadows.maps) {
+        if (map.light == surroundings) continue;
+        const Light& light = world.lights[static_cast<std::size_t>(map.light)].light;
+        map.lightSize = light.type == LightType::directional ? light.angularDiameter : light.radius;
+    }
     if (shadows.maps.empty()) return {};
 
     // As many texels across the scene as the image has pixels, and levels that they can't tell from full detail.
@@ -433,8 +447,8 @@ std::vector<ShadowProjection> shadowProjections(const World& world, const FrameP
                 }
                 const Axes axes(-placed.direction);
                 const double tangent = std::tan(0.5 * placed.light.angularDiameter);
-                projections.push_back(parallelProjection(
-                    plan, axes.z + tangent * (onDisk.x * axes.x + onDisk.y * axes.y), seen, shift));
+                projections.push_back(
+                    parallelProjection(plan, axes.z + tangent * (onDisk.x * axes.x + onDisk.y * axes.y), seen, shift));
             }
         }
     return projections;

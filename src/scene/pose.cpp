@@ -260,6 +260,16 @@ std::string missingNode(std::string_view name, const std::vector<std::string>& n
 
 }  // namespace
 
+std::vector<PlacedLight> movedLights(const std::vector<PlacedLight>& before, const Pose& pose) {
+    if (pose.lights.empty()) return before;
+    std::vector<PlacedLight> moved = pose.lights;
+    for (std::size_t i = 0; i < std::min(moved.size(), before.size()); ++i) {
+        moved[i].light.angularDiameter = before[i].light.angularDiameter;
+        moved[i].light.radius = before[i].light.radius;
+    }
+    return moved;
+}
+
 int nodeNamed(const Scene& scene, std::string_view name) {
     std::vector<std::string> names;
     for (const Node& node : scene.nodes) names.push_back(node.name);

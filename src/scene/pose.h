@@ -46,6 +46,9 @@ Pose poseAt(const Scene& scene, double time, int clip = 0);
 // The same with empty `bounds`, which take the longest.
 Pose unmeasuredPoseAt(const Scene& scene, double time, int clip = 0);
 
+// The pose's lights, as large as those that stood for them `before`; those where the pose has none.
+std::vector<PlacedLight> movedLights(const std::vector<PlacedLight>& before, const Pose& pose);
+
 // The node of that name; throws Error listing the names that exist.
 int nodeNamed(const Scene& scene, std::string_view name);
 

@@ -117,7 +117,7 @@ void ViewSession::poseScene() {
     state_.options.time = animation.time;
     state_.options.clip = animation.clip == 0 ? "" : clipText(scene, animation.clip);
     world.pose = exposedPose(state_.options, scene);
-    if (!world.pose.lights.empty()) world.lights = world.pose.lights;
+    world.lights = movedLights(world.lights, world.pose);
     PlacedCamera standing;
     standing.worldFromCamera = state_.camera.worldFromCamera;
     const PlacedCamera camera = followedCamera().value_or(standing);

@@ -104,7 +104,7 @@ std::vector<MovementFrame> framesAlong(Movement movement, const World& world, co
 
 void poseWorld(World& world, const MovementFrame& frame) {
     world.pose = frame.pose;
-    if (!frame.pose.lights.empty()) world.lights = frame.pose.lights;
+    world.lights = movedLights(world.lights, frame.pose);
 }
 
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
