@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 
+#include "cli/become_program.h"
 #include "cli/shots.h"
 #include "cli/traced_child.h"
 #include "image/image_io.h"
@@ -30,16 +31,9 @@ protected:
                 int out = -1) const {
         const int nothing = out >= 0 ? out : ::open("/dev/null", O_WRONLY);
         const int said = ::open((folder() / "said").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
-        if (::chdir(folder().c_str()) != 0 || ::dup2(nothing, 1) < 0 || ::dup2(said, 2) < 0) ::_exit(99);
-        ::setenv("XDG_CACHE_HOME", cacheFolder().parent_path().c_str(), 1);
         if (!environment.empty()) ::setenv("LD_PRELOAD", DEFOCUS_FAULTS, 1);
         for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
-        words.insert(words.begin(), DEFOCUS_PROGRAM);
-        std::vector<char*> arguments;
-        for (std::string& word : words) arguments.push_back(word.data());
-        arguments.push_back(nullptr);
-        ::execv(DEFOCUS_PROGRAM, arguments.data());
-        ::_exit(98);
+        becomeProgram(std::move(words), folder(), cacheFolder().parent_path(), nothing, said);
     }
     [[nodiscard]] TracedChild traced(const Words& words, const std::string& writesInto) const {
         return {[this, words] { become(words); }, writesInto};

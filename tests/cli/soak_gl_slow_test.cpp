@@ -10,6 +10,7 @@
 #include <chrono>
 #include <thread>
 
+#include "cli/become_program.h"
 #include "cli/shots.h"
 #include "image/image_io.h"
 #include "process_memory.h"
@@ -25,14 +26,7 @@ protected:
         const pid_t child = ::fork();
         if (child != 0) return child;
         const int said = ::open((folder() / "said").c_str(), O_CREAT | O_APPEND | O_WRONLY, 0600);
-        if (::chdir(folder().c_str()) != 0 || ::dup2(said, 1) < 0 || ::dup2(said, 2) < 0) ::_exit(99);
-        ::setenv("XDG_CACHE_HOME", cacheFolder().parent_path().c_str(), 1);
-        words.insert(words.begin(), DEFOCUS_PROGRAM);
-        std::vector<char*> arguments;
-        for (std::string& word : words) arguments.push_back(word.data());
-        arguments.push_back(nullptr);
-        ::execv(DEFOCUS_PROGRAM, arguments.data());
-        ::_exit(98);
+        becomeProgram(std::move(words), folder(), cacheFolder().parent_path(), said, said);
     }
 };
 
