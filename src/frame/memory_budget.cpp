@@ -6,6 +6,7 @@
 #include "gl/context.h"
 #include "gl/device_memory.h"
 #include "render/layer_format.h"
+#include "render/shadow_maps.h"
 
 namespace defocus {
 
@@ -37,6 +38,7 @@ TilingNeeds tilingNeeds(const World& world, const FramePlan& plan, const RowRang
     needs.rows = rows;
     needs.layerPixel = layerPixelBytes(chosenLayerFormat(world, plan, request.layerFormat)) *
                        (plan.usesTransmission ? 2 : 1);  // with the backdrop
+    needs.layerMaps = shadowMapBytes(plan);
     needs.waveBytes = RendererOptions{}.waveBytes;
     needs.askedWave = request.wave;
     needs.shared = currentIsSoftware();
@@ -60,7 +62,7 @@ std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial) {
     const auto pixels = [](const PixelRectangle& area) {
         return static_cast<std::uint64_t>(area.width) * static_cast<std::uint64_t>(area.height);
     };
-    return pixels(trial.cell) * needs.layerPixel + pixels(trial.area) * sumPixelBytes;
+    return pixels(trial.cell) * needs.layerPixel + needs.layerMaps + pixels(trial.area) * sumPixelBytes;
 }
 
 }  // namespace defocus

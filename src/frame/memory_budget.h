@@ -25,7 +25,7 @@ TilingNeeds tilingNeeds(const World& world, const FramePlan& plan, const RowRang
 
 // A row of the plan's first cell, which costs all that a tile costs beside its own pixels.
 Tile trialTile(const FramePlan& plan);
-// Bytes of the layer and the sums that the trial draws.
+// Bytes of the layer, its shadow maps and the sums that the trial draws.
 std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial);
 
 }  // namespace defocus

@@ -97,6 +97,7 @@ struct ShadowPlan {
     std::uint32_t points = 1;         // on each light, for one lens sample
     std::vector<ObjectPlan> casters;  // each drawn at one level, `fine`, for all samples
     std::vector<glm::dvec3> corners;  // m from the camera along the world's axes: of boxes that hold all casters
+    std::vector<glm::dvec3> seen;     // the same, of what the whole frame shows: maps needn't reach farther
     double casterError = 0;           // m by which the casters' levels lie off full detail, at most
 };
 

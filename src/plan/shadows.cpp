@@ -406,6 +406,7 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
         map.lightSize = light.type == LightType::directional ? light.angularDiameter : light.radius;
     }
     if (shadows.maps.empty()) return {};
+    shadows.seen = seenCorners(plan);
 
     // As many texels across the scene as the image has pixels, and levels that they can't tell from full detail.
     shadows.size = std::clamp(std::max(plan.view.width, plan.view.height), leastMapSize, mostMapSize);
@@ -425,7 +426,7 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
 
 std::vector<ShadowProjection> shadowProjections(const World& world, const FramePlan& plan,
                                                 const EnvironmentDirections& directions) {
-    const std::vector<glm::dvec3> seen = seenCorners(plan);
+    const std::vector<glm::dvec3>& seen = plan.shadows.seen;
     std::vector<ShadowProjection> projections;
     projections.reserve(plan.samples.size() * plan.shadows.points * plan.shadows.maps.size());
     for (const LensSample& sample : plan.samples)

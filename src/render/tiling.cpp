@@ -46,7 +46,7 @@ Band bandOf(const std::vector<PixelRectangle>& cells, const RowRange& rows) {
 bool fitsInOnePiece(const TilingNeeds& needs) {
     if (cellsFor(needs).size() > 1) return false;
     const std::uint64_t pixels = product(needs.width, needs.height);
-    const std::uint64_t device = pixels * (needs.layerPixel + sumPixelBytes);
+    const std::uint64_t device = pixels * (needs.layerPixel + sumPixelBytes) + needs.layerMaps;
     const std::uint64_t host = pixels * wholePixelBytes;
     return needs.shared ? device + host <= needs.deviceMemory
                         : device <= needs.deviceMemory && host <= needs.hostMemory;
@@ -55,7 +55,7 @@ bool fitsInOnePiece(const TilingNeeds& needs) {
 Tiling chosenTiling(const TilingNeeds& needs) {
     const std::vector<PixelRectangle> cells = cellsFor(needs);
     const PixelRectangle& largest = cells.front();
-    const std::uint64_t layer = product(largest.width, largest.height) * needs.layerPixel;
+    const std::uint64_t layer = product(largest.width, largest.height) * needs.layerPixel + needs.layerMaps;
     const std::uint64_t most = std::min(needs.waveBytes, needs.deviceMemory / shareOfLayers);
     Tiling tiling;
     const std::uint64_t wave = needs.askedWave > 0 ? needs.askedWave : most / layer;

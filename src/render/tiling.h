@@ -14,6 +14,7 @@ struct TilingNeeds {
     int height = 1;
     RowRange rows;                   // of the image, which are drawn
     std::uint64_t layerPixel = 12;   // of a layer: colour, depth and what shows it through itself
+    std::uint64_t layerMaps = 0;     // of the shadow maps that come with a layer, whatever its size
     std::uint64_t waveBytes = 0;     // the most that layers are given
     std::uint32_t askedWave = 0;     // K that was asked for; 0: as many as waveBytes allow
     std::uint64_t deviceMemory = 0;  // for layers and sums
@@ -44,8 +45,8 @@ inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
 // Whether all of the image fits in one piece, with one layer or more; `rows` aren't looked at.
 bool fitsInOnePiece(const TilingNeeds& needs);
 
-// Bands that fit, all of the same height but the last of a row of cells. Throws Error, saying what it takes, where not even bands of a few rows
-// do.
+// Bands that fit, all of the same height but the last of a row of cells. Throws Error, saying what it takes, where not
+// even bands of a few rows do.
 Tiling chosenTiling(const TilingNeeds& needs);
 
 }  // namespace defocus

@@ -118,6 +118,17 @@ TEST_F(Tiles, haveTheBitsOfOnePieceBeforeAMapAndBeforeNothing) {
     expectTheBitsOfOnePiece(*small, planWith(*small, small->view), "no background");
 }
 
+// What lies outside the tile, or outside the image, casts its shadow into it.
+TEST_F(Tiles, haveTheBitsOfOnePieceWhereShadowsFallIntoThem) {
+    const auto small = fiveSpheres();
+    RenderSettings settings;
+    settings.sampleCount = 20;
+    settings.shadows = Shadows::on;
+    const FramePlan plan = planFrame(small->world, small->view, settings);
+    ASSERT_FALSE(plan.shadows.maps.empty());
+    expectTheBitsOfOnePiece(*small, plan, "shadows");
+}
+
 // What transmits shows other pixels of the image, which may lie outside the tile.
 TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
     const auto small = fiveSpheres();

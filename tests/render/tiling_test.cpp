@@ -91,6 +91,17 @@ TEST(Tiling, tooLittleMemorySaysWhatIsNeeded) {
     }
 }
 
+TEST(Tiling, shadowMapsTakeTheMemoryOfSamplesAtOnce) {
+    TilingNeeds needs = needsOf(640, 480, 200 << 20);
+    const std::uint64_t layer = std::uint64_t{640} * 480 * needs.layerPixel;
+    const std::uint32_t alone = chosenTiling(needs).wave;
+    needs.layerMaps = layer;
+    EXPECT_EQ(chosenTiling(needs).wave, alone / 2);
+    needs.layerMaps = needs.deviceMemory;
+    EXPECT_THROW(chosenTiling(needs), Error);
+    EXPECT_FALSE(fitsInOnePiece(needs));
+}
+
 TEST(Tiling, theSamplesAtOnceAreThoseAskedFor) {
     TilingNeeds needs = needsOf(640, 480, 200 << 20);
     needs.askedWave = 3;
