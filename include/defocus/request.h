@@ -40,9 +40,9 @@ struct Request {
     double environmentRotation = 0;       // degrees counter-clockwise, seen from above
     Background background = Background::environment;
     std::array<float, 3> backgroundColor{};
-    bool ground = false;                     // a neutral ground beneath what the scene holds
-    std::optional<double> lightAngle;        // degrees that every directional light measures across; none: its own
-    std::optional<double> lightRadius;       // m, of every point and spot light; none: its own
+    bool ground = false;                // a neutral ground beneath what the scene holds
+    std::optional<double> lightAngle;   // degrees that every directional light measures across; none: its own
+    std::optional<double> lightRadius;  // m, of every point and spot light; none: its own
 
     // Camera and image.
     std::string camera;                     // a name; empty: the file's first; "auto": one that frames the scene
@@ -71,7 +71,7 @@ struct Request {
     std::string method = "accumulation";  // its name, or with settings: "circular:far-components=5,resolution=half"
     std::map<std::string, std::string> methodSettings;  // by their names, beyond those in `method`
     LayerFormat layerFormat = LayerFormat::automatic;
-    std::uint32_t wave = 0;  // lens samples drawn at once, 1 … 64 (the same image); 0: as memory allows
+    std::uint32_t wave = 0;               // lens samples drawn at once, 1 … 64 (the same image); 0: as memory allows
     std::optional<std::uint64_t> memory;  // bytes that the process may take; none: three quarters of what is free
 
     // Display: how PNG and JPEG are made of the linear image.

@@ -303,11 +303,12 @@ Rows sceneRows() {
                                "Soft shadows of lights and surroundings, from a point of each in every lens sample; "
                                "auto: with --ground"),
                "/shadows"),
-        withUnit(inShot(number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
-                               "What a directional light measures across, which makes its shadows soft; without it, 0.53 "
-                               "as the sun"),
-                        "/lightAngle"),
-                 "degrees"),
+        withUnit(
+            inShot(number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
+                          "What a directional light measures across, which makes its shadows soft; without it, 0.53 "
+                          "as the sun"),
+                   "/lightAngle"),
+            "degrees"),
         withUnit(inShot(number("lightRadius", "--light-radius", "M", 0, 1e6, MEMBER(lightRadius),
                                "Radius of point and spot lights, for their shadows; without it, 0.03"),
                         "/lightRadius"),

@@ -128,9 +128,13 @@ constexpr Columns columnsOf(const Direction& direction) {
 }
 
 // Dimensions 2 to 8; the first is the index with its bits in reverse.
-constexpr std::array<Columns, dimensionCount - 1> sobolColumns = {
-    columnsOf({1, 0, {1}}), columnsOf({2, 1, {1, 3}}), columnsOf({3, 1, {1, 3, 1}}), columnsOf({3, 2, {1, 1, 1}}),
-    columnsOf({4, 1, {1, 1, 3, 3}}), columnsOf({4, 4, {1, 3, 5, 13}}), columnsOf({5, 2, {1, 1, 5, 5, 17}})};
+constexpr std::array<Columns, dimensionCount - 1> sobolColumns = {columnsOf({1, 0, {1}}),
+                                                                  columnsOf({2, 1, {1, 3}}),
+                                                                  columnsOf({3, 1, {1, 3, 1}}),
+                                                                  columnsOf({3, 2, {1, 1, 1}}),
+                                                                  columnsOf({4, 1, {1, 1, 3, 3}}),
+                                                                  columnsOf({4, 4, {1, 3, 5, 13}}),
+                                                                  columnsOf({5, 2, {1, 1, 5, 5, 17}})};
 
 std::uint32_t sobol(std::uint32_t index, std::size_t dimension) {
     if (dimension == 0) return reversedBits(index);

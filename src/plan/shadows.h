@@ -1,10 +1,10 @@
 #pragma once
-// Soft shadows from the same samples as the blur (Haeberli and Akeley 1990): each lens sample has a point on every light,
-// and a shadow map drawn from there. The mean of the samples has the penumbrae.
+// Soft shadows from the same samples as the blur (Haeberli and Akeley 1990): each lens sample has a point on every
+// light, and a shadow map drawn from there. The mean of the samples has the penumbrae.
 //
 // Lights are disks that face what they shine on: of an angular diameter where they are infinitely far, of a radius
-// elsewhere. The surroundings, if they light the scene, are one more light, whose point is a direction that is chosen by
-// their radiance; what hides it takes its part from the light that a surface has from all around.
+// elsewhere. The surroundings, if they light the scene, are one more light, whose point is a direction that is chosen
+// by their radiance; what hides it takes its part from the light that a surface has from all around.
 
 #include <array>
 #include <cstdint>
@@ -40,10 +40,11 @@ private:
 
 // How one shadow map is drawn and read. Places are metres from the camera along the world's axes.
 struct ShadowProjection {
-    std::array<glm::vec4, 4> clipRows{};  // clip space from (x, y, z, 1), reversed depth; w is 1, or metres from the light
-    glm::vec3 toLight{0.0f};              // unit, of lights that are infinitely far
-    float texel = 0;                      // m a texel at w = 1
-    glm::vec3 radiance{0.0f};             // of the surroundings, as EnvironmentDirections has it, over π
+    std::array<glm::vec4, 4>
+        clipRows{};            // clip space from (x, y, z, 1), reversed depth; w is 1, or metres from the light
+    glm::vec3 toLight{0.0f};   // unit, of lights that are infinitely far
+    float texel = 0;           // m a texel at w = 1
+    glm::vec3 radiance{0.0f};  // of the surroundings, as EnvironmentDirections has it, over π
 };
 
 // Chooses lights, size and casters. `objects`: all of the world's, as the plan places them, drawn or not.

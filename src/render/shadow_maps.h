@@ -1,6 +1,6 @@
 #pragma once
-// The shadow maps of a wave of lens samples (plan/shadows.h): a layer for each sample, point and map, drawn by a surface
-// pass of its own from the levels that the plan chose.
+// The shadow maps of a wave of lens samples (plan/shadows.h): a layer for each sample, point and map, drawn by a
+// surface pass of its own from the levels that the plan chose.
 
 #include <optional>
 

@@ -122,8 +122,7 @@ const Program& SurfacePass::program(const Draw& draw) {
     const bool refined = draw.refinement != Refinement::none;
     const bool vertexShaderLayers = info_.vertexShaderLayers && !refined;
     ShaderDefines defines = passDefines(vertexShaderLayers);
-    const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level,
-                                                 info_.look);
+    const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level, info_.look);
     defines.insert(defines.end(), surface.begin(), surface.end());
     const auto set = [&](bool condition, const char* name) {
         if (condition) defines.emplace_back(name, "1");

@@ -16,8 +16,8 @@
 namespace defocus {
 
 struct SurfacePassInfo {
-    std::string fragmentShader;      // under shaders/
-    ShaderDefines defines;           // of the pass (layer format …)
+    std::string fragmentShader;  // under shaders/
+    ShaderDefines defines;       // of the pass (layer format …)
     SurfaceLook look = SurfaceLook::seenThrough;
     bool vertexShaderLayers = true;  // false: a geometry shader picks the layer
     std::filesystem::path shaderFolder;

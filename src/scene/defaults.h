@@ -30,7 +30,7 @@ struct StudioLight {
     double azimuth = 0;
     double elevation = 0;
     glm::vec3 color{1.0f};
-    float illuminance = 1;  // lux
+    float illuminance = 1;       // lux
     double angularDiameter = 0;  // rad, of the softbox
     // Unit, along the camera's right, up and back.
     [[nodiscard]] glm::dvec3 toLight() const;

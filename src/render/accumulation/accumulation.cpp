@@ -48,7 +48,8 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        for (GpuTimer* timer : {&shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_}) timer->reset();
+        for (GpuTimer* timer : {&shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
+            timer->reset();
         prepareDraws();
     }
 

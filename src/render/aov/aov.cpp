@@ -21,8 +21,10 @@ AovPass::AovPass(const World& world, std::filesystem::path shaderFolder)
                          .defines = {{"READS_COC_SCALE", "1"}},
                          .look = SurfaceLook::flat,
                          .shaderFolder = shaderFolder_}),
-      edges_(scene_,
-             {.fragmentShader = "aov/wireframe.frag", .defines = {}, .look = SurfaceLook::flat, .shaderFolder = shaderFolder_}) {}
+      edges_(scene_, {.fragmentShader = "aov/wireframe.frag",
+                      .defines = {},
+                      .look = SurfaceLook::flat,
+                      .shaderFolder = shaderFolder_}) {}
 
 void AovPass::makeTargets(int width, int height) {
     if (depth_ && depth_.info().width == width && depth_.info().height == height) return;

@@ -22,7 +22,7 @@ static_assert(rateBlock == blockSamples);
 std::uint32_t chosenSampleLayers(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
                                  LayerFormat format) {
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
-                                     static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format) *
+                                         static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format) *
                                          (plan.usesTransmission ? 2 : 1) +  // with the backdrop
                                      shadowMapBytes(plan);
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * 2 / 3;
@@ -54,7 +54,9 @@ struct BlockDraws {
         shadows->prepare(plan, frame);
         surfaces->prepare(plan, frame, &*shadows);
     }
-    [[nodiscard]] std::size_t bytes() const { return frame.bytes() + (surfaces ? surfaces->bytes() + shadows->bytes() : 0); }
+    [[nodiscard]] std::size_t bytes() const {
+        return frame.bytes() + (surfaces ? surfaces->bytes() + shadows->bytes() : 0);
+    }
 };
 
 class MultirateRenderer final : public Renderer {
