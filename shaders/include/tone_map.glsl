@@ -12,6 +12,10 @@ vec3 srgbEncoded(vec3 linear) {
     return mix(1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, 12.92 * v, lessThanEqual(v, vec3(0.0031308)));
 }
 
+vec3 srgbDecoded(vec3 encoded) {
+    return mix(pow((encoded + 0.055) / 1.055, vec3(2.4)), encoded / 12.92, lessThanEqual(encoded, vec3(0.04045)));
+}
+
 vec3 acesEncoded(vec3 linear) {
     const mat3 inputMatrix =
         mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);

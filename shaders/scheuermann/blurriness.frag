@@ -3,6 +3,10 @@
 #include "include/lens.glsl"
 #include "include/pinhole.glsl"
 
+#ifdef ENCODED
+#include "include/tone_map.glsl"
+#endif
+
 layout(binding = 0) uniform sampler2D pinholeColor;
 layout(location = 0) uniform float perLargest;   // 1 / the largest diameter, px
 #ifndef THIN_LENS
@@ -22,5 +26,9 @@ void main() {
     float blurriness = beyondFocus < 0.0 ? beyondFocus * planes.y : min(beyondFocus * planes.z, planes.w);
     if (frame.coc.x == 0.0) blurriness = 0.0;    // no aperture
 #endif
-    colorAndBlurriness = vec4(texelFetch(pinholeColor, pixel, 0).rgb, clamp(blurriness, -1.0, 1.0) * 0.5 + 0.5);
+    vec3 color = texelFetch(pinholeColor, pixel, 0).rgb;
+#ifdef ENCODED
+    color = srgbEncoded(color);
+#endif
+    colorAndBlurriness = vec4(color, clamp(blurriness, -1.0, 1.0) * 0.5 + 0.5);
 }

@@ -1,10 +1,14 @@
-// Gathers TAPS taps of a Poisson disk as wide as the centre's blur.
+// Gathers TAPS taps of a Poisson disk as wide as the centre's blur, or of the aperture's shape.
+#ifdef ENCODED
+#include "include/tone_map.glsl"
+#endif
 layout(binding = 0) uniform sampler2D sharpImage;   // rgb; alpha: blurriness and relative depth, 1/2 in focus
 layout(binding = 1) uniform sampler2D smallImage;   // the same, reduced and pre-blurred
 layout(std140, binding = 1) uniform TapBlock {
     vec4 taps[MOST_TAPS];                           // xy in the unit disk
 };
 layout(location = 0) uniform float largestRadius;   // px
+layout(location = 1) uniform bool shaped;           // the taps aren't those of a disk
 
 layout(location = 0) out vec4 blurred;
 
@@ -13,6 +17,9 @@ void main() {
     vec2 perPixelSmall = 1.0 / (SMALL_PIXEL * vec2(textureSize(smallImage, 0)));   // a pixel of the sharp image
     float centreDepth = texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).a;
     float radius = abs(centreDepth * 2.0 - 1.0) * largestRadius;
+    // What lies behind the focus shows the aperture as it stands; in front it is turned by half. Gathering looks the
+    // other way.
+    if (shaped && centreDepth > 0.5) radius = -radius;
     float smallRadius = radius * SMALL_RADIUS * SMALL_PIXEL;
 
     vec3 sum = vec3(0.0);
@@ -26,5 +33,9 @@ void main() {
         sum += weight * tap.rgb;
         weights += weight;
     }
-    blurred = vec4(weights > 0.0 ? sum / weights : texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).rgb, 1.0);
+    vec3 color = weights > 0.0 ? sum / weights : texelFetch(sharpImage, ivec2(gl_FragCoord.xy), 0).rgb;
+#ifdef ENCODED
+    color = srgbDecoded(color);
+#endif
+    blurred = vec4(color, 1.0);
 }

@@ -16,8 +16,9 @@ namespace {
 using Names = std::span<const std::string_view>;
 
 constexpr std::string_view ofSamples[] = {"samples", "sequence", "seed", "lodCoc", "cocTolerance"};
-constexpr std::string_view ofTheAperture[] = {"bladeCount",          "bladeRotation", "bladeCurvature", "obstruction",
-                                              "sphericalAberration", "catEye",        "apertureImage"};
+constexpr std::string_view ofTheShape[] = {"bladeCount",  "bladeRotation",       "bladeCurvature", "anamorphicRatio",
+                                           "obstruction", "sphericalAberration", "apertureImage"};
+constexpr std::string_view ofACatEye[] = {"catEye"};
 constexpr std::string_view ofAnOpenShutter[] = {"shutterPosition", "motionSegments"};
 constexpr std::string_view ofShadows[] = {"lightAngle", "lightRadius"};
 constexpr std::string_view ofTheShutter[] = {"shutter"};
@@ -61,10 +62,11 @@ private:
 std::vector<std::string> unusedSettings(const Request& request, const Scene& scene, const Lens& lens) {
     const Method& method = *chosenMethod(request).method;
     Lines lines(request);
-    if (!method.usesLensSamples) {
-        lines.add(ofSamples, fmt::format("the method {} draws no lens samples", method.name));
-        lines.add(ofTheAperture, fmt::format("the method {} has a round aperture", method.name));
-    }
+    if (!method.usesLensSamples) lines.add(ofSamples, fmt::format("the method {} draws no lens samples", method.name));
+    if (method.aperture == ApertureShown::disk)
+        lines.add(ofTheShape, fmt::format("the method {} has a round aperture", method.name));
+    if (method.aperture != ApertureShown::all)
+        lines.add(ofACatEye, fmt::format("the method {} has the same aperture all over the image", method.name));
     if (request.settings.shadows == Shadows::off || (request.settings.shadows == Shadows::automatic && !request.ground))
         lines.add(ofShadows, "without shadows (--shadows on, --ground) the size of a light shows nowhere");
     if (!method.drawsMotion) lines.add(ofTheShutter, fmt::format("the method {} draws no motion", method.name));

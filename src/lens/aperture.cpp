@@ -182,6 +182,27 @@ glm::dvec2 concentricDisk(const glm::dvec2& square) {
     return offset.y * glm::dvec2(std::cos(angle), std::sin(angle));
 }
 
+glm::dvec2 squareOfConcentricDisk(const glm::dvec2& disk) {
+    const double radius = glm::length(disk);
+    constexpr double quarter = pi / 4;
+    glm::dvec2 offset;
+    if (std::abs(disk.x) > std::abs(disk.y)) {
+        offset.x = std::copysign(radius, disk.x);
+        offset.y = offset.x * std::atan(disk.y / disk.x) / quarter;
+    } else if (radius > 0) {
+        offset.y = std::copysign(radius, disk.y);
+        offset.x = offset.y * std::atan(disk.x / disk.y) / quarter;
+    } else {
+        offset = glm::dvec2(0);
+    }
+    return 0.5 * (offset + 1.0);
+}
+
+bool isUniformDisk(const Aperture& aperture) {
+    return aperture.bladeCount < 3 && aperture.anamorphicRatio == 1 && aperture.obstruction == 0 &&
+           aperture.sphericalAberration == 0 && aperture.image.rows == 0;
+}
+
 Aperture makeAperture(const Lens& lens) {
     Aperture aperture{lens.bladeCount,
                       lens.bladeRotation,

@@ -47,4 +47,10 @@ glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square);
 // (r, s) ∈ [0, 1)² → the unit disk, area preserving and continuous (Shirley and Chiu 1997).
 glm::dvec2 concentricDisk(const glm::dvec2& square);
 
+// The inverse of concentricDisk, for a point of the unit disk.
+glm::dvec2 squareOfConcentricDisk(const glm::dvec2& disk);
+
+// Is it a disk of which each part lets the same light through?
+bool isUniformDisk(const Aperture& aperture);
+
 }  // namespace defocus

@@ -24,7 +24,8 @@ struct MethodSetting {
     std::vector<std::string> choices;  // one of these, or, when empty, a number:
     double least = 0;
     double most = 0;
-    bool whole = true;  // a whole number
+    bool whole = true;        // a whole number
+    bool ofTheScene = false;  // no value suits all scenes: benches over all settings leave it out
 };
 
 // Values by name, as text.
@@ -39,6 +40,9 @@ struct RendererOptions {
     MethodSettings settings;                 // of the method (Method::settings); what is not said is standard
 };
 
+// What of the lens's aperture an image shows.
+enum class ApertureShown { disk, shape, all };  // shape: all but a cat's eye
+
 struct Method {
     std::string name;
     std::string description;
@@ -50,6 +54,7 @@ struct Method {
     bool drawsTiles = false;      // FramePlan::tile is honoured; else the whole image is drawn, whatever the plan says
     bool drawsShadows = true;     // false: lights shine through whatever stands before them
     bool drawsMotion = true;      // false: everything stands still while the shutter is open
+    ApertureShown aperture = ApertureShown::all;
     std::vector<MethodSetting> settings;
     // Throws Error for settings that the method doesn't take.
     std::function<std::unique_ptr<Renderer>(const World&, const RendererOptions&)> make;

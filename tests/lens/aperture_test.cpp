@@ -97,6 +97,16 @@ TEST_P(ApertureOf, keepsTheCentreWhereItHasOne) {
 }
 
 // The squares' diagonals meet in the centre, where a ring is cut; elsewhere neighbours stay neighbours.
+TEST(ConcentricDisk, isUndoneByItsInverse) {
+    for (int y = 0; y <= 16; ++y)
+        for (int x = 0; x <= 16; ++x) {
+            const glm::dvec2 square(x / 16.0, y / 16.0);
+            const glm::dvec2 back = squareOfConcentricDisk(concentricDisk(square));
+            EXPECT_NEAR(back.x, square.x, 1e-12);
+            EXPECT_NEAR(back.y, square.y, 1e-12);
+        }
+}
+
 TEST_P(ApertureOf, isContinuous) {
     const Lens lens = GetParam().lens();
     const Aperture aperture = makeAperture(lens);

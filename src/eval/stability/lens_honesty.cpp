@@ -67,6 +67,7 @@ std::vector<std::string> honestyMethods() {
     for (const Method& method : methods()) {
         list.push_back(method.name);
         for (const MethodSetting& setting : method.settings) {
+            if (setting.ofTheScene) continue;
             const std::vector<std::string> most = {fmt::format("{:g}", setting.most)};
             for (const std::string& choice : setting.choices.empty() ? most : setting.choices)
                 if (choice != setting.standard)

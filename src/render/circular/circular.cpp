@@ -269,6 +269,7 @@ Method circularMethod() {
             .description = "post-process: circular separable convolution of one pinhole image (Garcia 2018)",
             .usesLensSamples = false,
             .drawsMotion = false,
+            .aperture = ApertureShown::disk,
             .settings = settings,
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;

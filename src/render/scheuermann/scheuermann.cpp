@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "gl/fullscreen.h"
+#include "lens/aperture.h"
 #include "render/post_process/post_process.h"
 
 namespace defocus {
@@ -43,7 +44,15 @@ public:
         : shaderFolder_(options.shaderFolder),
           taps_(static_cast<std::uint32_t>(numberOf(options.settings, "taps"))),
           thinLens_(options.settings.at("coc") == "thin-lens"),
-          unlimited_(options.settings.at("max-coc") == "unlimited") {}
+          unlimited_(options.settings.at("max-coc") == "unlimited"),
+          bytes_(options.settings.at("bits") == "8"),
+          byHand_{numberOf(options.settings, "near-blur-depth"), numberOf(options.settings, "focal-plane-depth"),
+                  numberOf(options.settings, "far-blur-depth"), numberOf(options.settings, "blurriness-cutoff")},
+          points_(poissonDisk(taps_)) {
+        const bool any = byHand_.near > 0 || byHand_.focus > 0 || byHand_.far > 0 || byHand_.cutoff > 0;
+        if (any && thinLens_)
+            fail("method scheuermann: with coc=thin-lens the lens says where things are blurred, not planes");
+    }
 
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
         if (plan.usesCocControls && !thinLens_)
@@ -52,12 +61,13 @@ public:
                 "lens's and the objects' controls of the blur");
         makeTextures(plan.view.width, plan.view.height);
         if (!blurriness_ || defines_ != frame.defines()) makePrograms(frame);
+        placeTaps(plan.view.lens);
         const double largest = unlimited_ ? std::max(largestBlur(plan), publishedLargest) : publishedLargest;
         largestRadius_ = static_cast<float>(0.5 * largest);
         glProgramUniform1f(blurriness_.name(), 0, static_cast<float>(1 / largest));
         if (!thinLens_) {
-            const BlurrinessPlanes planes =
-                blurrinessPlanes(plan.coc, plan.view.lens.focusDistance, largest, plan.view.width);
+            const BlurrinessPlanes planes = withPlanesByHand(
+                blurrinessPlanes(plan.coc, plan.view.lens.focusDistance, largest, plan.view.width), byHand_);
             // A line in depth each: blurriness = slope · z + offset.
             const auto focus = static_cast<float>(planes.focus);
             glProgramUniform4f(blurriness_.name(), 1, focus, static_cast<float>(1 / (planes.focus - planes.near)),
@@ -93,8 +103,9 @@ public:
 private:
     void makeTextures(int width, int height) {
         if (sharp_ && sharp_.info().width == width && sharp_.info().height == height) return;
-        const auto linear = [](int w, int h) {
-            GlTexture texture({.format = TextureFormat::rgba16f, .width = w, .height = h});
+        const auto linear = [&](int w, int h) {
+            GlTexture texture(
+                {.format = bytes_ ? TextureFormat::rgba8 : TextureFormat::rgba16f, .width = w, .height = h});
             texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
             return texture;
         };
@@ -115,25 +126,44 @@ private:
         };
         ShaderDefines blurriness = frame.defines();
         if (thinLens_) blurriness.emplace_back("THIN_LENS", "1");
+        if (bytes_) blurriness.emplace_back("ENCODED", "1");
         blurriness_ = pass("scheuermann/blurriness.frag", std::move(blurriness));
         reduce_ = pass("scheuermann/reduce.frag", {{"REDUCTION", std::to_string(smallReduction)}});
         preblur_ = pass("scheuermann/preblur.frag", {});
-        gather_ = pass("scheuermann/gather.frag",
-                       {{"TAPS", std::to_string(taps_)},
-                        {"MOST_TAPS", std::to_string(mostTaps)},
-                        {"SMALL_PIXEL", fmt::format("{:.1f}", static_cast<double>(smallReduction))},
-                        {"SMALL_RADIUS", fmt::format("{}", thinLens_ ? trueSmallRadius : publishedSmallRadius)}});
+        ShaderDefines gather = {
+            {"TAPS", std::to_string(taps_)},
+            {"MOST_TAPS", std::to_string(mostTaps)},
+            {"SMALL_PIXEL", fmt::format("{:.1f}", static_cast<double>(smallReduction))},
+            {"SMALL_RADIUS", fmt::format("{}", thinLens_ ? trueSmallRadius : publishedSmallRadius)}};
+        if (bytes_) gather.emplace_back("ENCODED", "1");
+        gather_ = pass("scheuermann/gather.frag", std::move(gather));
+    }
+
+    // The points of the disk as they are, or where the aperture's map puts them. A pixel gathers from where its own
+    // light would not go: a blur behind the focus is the aperture, so its taps are the aperture turned by half, and
+    // in front it is the other way around.
+    void placeTaps(const Lens& lens) {
+        const Aperture aperture = makeAperture(lens);
+        shaped_ = !isUniformDisk(aperture);
         GpuTaps block{};
-        const std::vector<glm::vec2> points = poissonDisk(taps_);
-        for (std::size_t i = 0; i < points.size(); ++i) block.taps[i] = glm::vec4(points[i], 0, 0);
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const glm::vec2 place =
+                shaped_ ? glm::vec2(apertureSample(aperture, squareOfConcentricDisk(points_[i]))) : points_[i];
+            block.taps[i] = glm::vec4(place, 0, 0);
+        }
         tapBuffer_ = Buffer(sizeof block, &block);
+        glProgramUniform1i(gather_.name(), 1, shaped_ ? 1 : 0);
     }
 
     std::filesystem::path shaderFolder_;
     std::uint32_t taps_;
     bool thinLens_;
     bool unlimited_;
-    float largestRadius_ = 0;  // px
+    bool bytes_;  // of encoded colours, as published; else half floats
+    PlanesByHand byHand_;
+    std::vector<glm::vec2> points_;  // of the disk
+    bool shaped_ = false;            // the aperture isn't a disk
+    float largestRadius_ = 0;        // px
     GlTexture sharp_, reduced_, small_;
     Target sharpTarget_, reducedTarget_, smallTarget_;
     ShaderDefines defines_;  // that the programs were built with
@@ -165,6 +195,24 @@ BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focus
     return planes;
 }
 
+BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesByHand& byHand) {
+    BlurrinessPlanes result = planes;
+    if (byHand.focus > 0) {
+        result.focus = byHand.focus;
+        result.near = byHand.focus * (planes.near / planes.focus);
+        result.far = byHand.focus * (planes.far / planes.focus);
+    }
+    if (byHand.near > 0) result.near = byHand.near;
+    if (byHand.far > 0) result.far = byHand.far;
+    if (byHand.cutoff > 0) result.cutoff = byHand.cutoff;
+    if (!(result.near < result.focus && result.focus < result.far))
+        fail(
+            "method scheuermann: full blur in front at {:g} m, focus at {:g} m, full blur behind at {:g} m: they must "
+            "grow in this order",
+            result.near, result.focus, result.far);
+    return result;
+}
+
 std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
     std::vector<glm::vec2> points = {glm::vec2(0)};
     std::uint64_t next = 0;
@@ -186,6 +234,16 @@ std::vector<glm::vec2> poissonDisk(std::uint32_t count) {
 }
 
 Method scheuermannMethod() {
+    const auto byHand = [](const char* name, const char* description, double most) {
+        return MethodSetting{.name = name,
+                             .standard = "0",
+                             .description = description,
+                             .choices = {},
+                             .least = 0,
+                             .most = most,
+                             .whole = false,
+                             .ofTheScene = true};
+    };
     const std::vector<MethodSetting> settings = {
         {.name = "coc",
          .standard = "published",
@@ -201,12 +259,22 @@ Method scheuermannMethod() {
          .standard = "published",
          .description = "Largest blur: 10 px as published, or what the scene asks for",
          .choices = {"published", "unlimited"}},
+        {.name = "bits",
+         .standard = "16",
+         .description = "Of a channel of the stored images: half floats, or bytes of encoded colour as published",
+         .choices = {"16", "8"}},
+        byHand("near-blur-depth", "m in front of which all has the largest blur; 0: where the lens reaches it", 1e9),
+        byHand("focal-plane-depth", "m that are in focus; 0: the focus distance", 1e9),
+        byHand("far-blur-depth", "m behind which all has the largest blur; 0: where the lens reaches it", 1e9),
+        byHand("blurriness-cutoff",
+               "Largest blur behind the focus, as a share of the largest; 0: the lens's at infinity", 1),
         pinholesSetting(),
     };
     return {.name = "scheuermann",
             .description = "post-process: Poisson disk over one pinhole image (Scheuermann 2004)",
             .usesLensSamples = false,
             .drawsMotion = false,
+            .aperture = ApertureShown::shape,
             .settings = settings,
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;

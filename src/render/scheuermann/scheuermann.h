@@ -7,7 +7,10 @@
 // Blurriness and relative depth share one channel: −1 in front of the focal range, 0 in focus, 1 behind, stored as
 // 0 … 1. As published it is linear in depth between three planes; the near and far planes here are the depths at which
 // the thin lens reaches the largest circle of confusion. Where it never does behind the focus plane, the line is laid
-// through the depth of half the blur at infinity, and cut off at that blur.
+// through the depth of half the blur at infinity, and cut off at that blur. Settings of the method give these depths by
+// hand, as the artist does in the slides.
+//
+// The taps lie in the shape of the lens's aperture: blades, rings, images, and its density. A cat's eye isn't drawn.
 
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -26,6 +29,18 @@ struct BlurrinessPlanes {
     double far = 0;    // m
     double cutoff = 1;
 };
+
+// What the artist sets by hand, m; 0: as blurrinessPlanes(…) without them finds it. The cutoff is in (0, 1].
+struct PlanesByHand {
+    double near = 0;
+    double focus = 0;
+    double far = 0;
+    double cutoff = 0;
+};
+
+// `planes` with those that are set by hand. A near or far plane that isn't keeps its distance from the focus. Throws
+// Error where near < focus < far doesn't hold.
+BlurrinessPlanes withPlanesByHand(const BlurrinessPlanes& planes, const PlanesByHand& byHand);
 
 // `largest`: diameter of the largest circle of confusion, px, > 0. A lens with an aperture; any focus distance.
 BlurrinessPlanes blurrinessPlanes(const ClipCircleOfConfusion& coc, double focusDistance, double largest, int width);

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/error.h"
+
 namespace defocus {
 namespace {
 
@@ -46,6 +48,26 @@ TEST(BlurrinessPlanes, focusAtInfinityBlursNothingBehind) {
     EXPECT_EQ(planes.cutoff, 0);
     EXPECT_GT(planes.near, 0);
     EXPECT_TRUE(std::isfinite(planes.near));
+}
+
+TEST(BlurrinessPlanes, setByHandReplaceThoseOfTheLens) {
+    const BlurrinessPlanes lens{1, 2, 4, 0.8};
+    const BlurrinessPlanes same = withPlanesByHand(lens, {});
+    EXPECT_EQ(same.near, 1);
+    EXPECT_EQ(same.focus, 2);
+    EXPECT_EQ(same.far, 4);
+    EXPECT_EQ(same.cutoff, 0.8);
+    const BlurrinessPlanes all = withPlanesByHand(lens, {3, 5, 6, 0.5});
+    EXPECT_EQ(all.near, 3);
+    EXPECT_EQ(all.focus, 5);
+    EXPECT_EQ(all.far, 6);
+    EXPECT_EQ(all.cutoff, 0.5);
+    // The focus alone takes the others with it, in proportion.
+    const BlurrinessPlanes moved = withPlanesByHand(lens, {.focus = 6});
+    EXPECT_DOUBLE_EQ(moved.near, 3);
+    EXPECT_DOUBLE_EQ(moved.far, 12);
+    EXPECT_THROW(withPlanesByHand(lens, {.near = 2}), Error);
+    EXPECT_THROW(withPlanesByHand(lens, {.far = 1.5}), Error);
 }
 
 // Disks of half the least distance around the points lie in a disk of that much more than the unit disk, and fill no

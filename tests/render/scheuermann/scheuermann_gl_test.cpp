@@ -1,0 +1,120 @@
+// Scheuermann's gather: its taps in the shape of the aperture, bytes as published, planes by hand.
+
+#include <gtest/gtest.h>
+
+#include "aperture_shapes.h"
+#include "bokeh.h"
+#include "core/error.h"
+#include "gl/context.h"
+#include "image/tone_map.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class ScheuermannImage : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> ScheuermannImage::context_;
+
+constexpr double lightSide = 6;  // px
+constexpr double lightEnergy = 360;
+
+Image rendered(const World& world, const View& view, const char* method) {
+    const MethodUse use = parseMethodUse(method);
+    RendererOptions options;
+    options.settings = use.settings;
+    const auto renderer = use.method->make(world, options);
+    RenderSettings settings;
+    settings.lod = LodMode::off;
+    return imageOf(*renderer, planFrame(world, view, settings));
+}
+
+// A square of light in a black wall, at exactly one depth, so that all pixels have one blur.
+Image bokehOf(const View& view, double depth) {
+    const double left = (view.width - lightSide) / 2;
+    const double top = (view.height - lightSide) / 2;
+    const double right = left + lightSide;
+    const double bottom = top + lightSide;
+    const double far = 4 * view.width;
+    Scene scene = rectangleScene(view,
+                                 {{left, top, right, bottom, depth},
+                                  {-far, -far, left, far, depth},
+                                  {right, -far, far, far, depth},
+                                  {left, -far, right, top, depth},
+                                  {left, bottom, right, far, depth}},
+                                 glm::vec3(static_cast<float>(lightEnergy / (lightSide * lightSide))));
+    scene.materials.push_back(scene.materials.front());
+    scene.materials.back().baseColorFactor = glm::vec4(0, 0, 0, 1);
+    for (std::size_t i = 1; i < scene.meshes.size(); ++i) scene.meshes[i].primitives.front().material = 1;
+    World world = flatWorld(scene, blackBackground());
+    for (const Mesh& mesh : scene.meshes) world.pyramids.push_back(fullDetail(mesh));
+    return rendered(world, view, "scheuermann:coc=thin-lens,taps=64,max-coc=unlimited");
+}
+
+// 64 taps are dots of a few pixels, so much of the light lies beside a smooth shape's. But less lies beside the right
+// one, by far, than beside the same shape turned by half, which is what the other side of the focus shows.
+TEST_F(ScheuermannImage, showsTheShapeOfTheApertureUprightBehindTheFocusAndTurnedInFrontOfIt) {
+    std::vector<std::pair<std::string, Lens>> lenses;
+    const View view = bokehView(192, 144);
+    for (const ApertureShape& shape : apertureShapes)
+        if (shape.blades == 3 && shape.curvature == 0) lenses.emplace_back(shape.name, shape.lens(view.lens));
+    lenses.emplace_back("image", view.lens);
+    lenses.back().second.apertureImage = std::make_shared<const Image>(lopsidedImage());
+    for (const auto& [name, lens] : lenses)
+        for (const double depth : {6.0, 1.2}) {
+            View shaped = view;
+            shaped.lens = lens;
+            const Image image = bokehOf(shaped, depth);
+            const auto light = lightOf(lens);
+            const auto turned = [&](const glm::dvec2& p) { return light(-p); };
+            const Image upright = expectedBokeh(shaped, depth, lightSide, lightEnergy, light);
+            const Image reversed = expectedBokeh(shaped, depth, lightSide, lightEnergy, turned);
+            EXPECT_NEAR(momentsOf(image).energy, lightEnergy, 0.03 * lightEnergy) << name << depth;
+            const double asBehind = misplacedLight(image, upright);
+            const double asInFront = misplacedLight(image, reversed);
+            EXPECT_LT(depth > 2 ? asBehind : asInFront, 0.6 * (depth > 2 ? asInFront : asBehind)) << name << depth;
+        }
+}
+
+TEST_F(ScheuermannImage, ofARingIsDarkInTheMiddle) {
+    View view = bokehView(192, 144);
+    const auto middle = [&] { return *bokehOf(view, 6).at(view.width / 2, view.height / 2); };
+    const double ofADisk = middle();
+    view.lens.obstruction = 0.7;
+    EXPECT_LT(middle(), 0.1 * ofADisk);
+}
+
+// Bytes of encoded colour: what is in focus is the pinhole image, cut off at white and rounded. The middle of a byte's
+// range isn't one of its values, so that some of the pre-blurred image shows through.
+TEST_F(ScheuermannImage, inBytesRoundsEncodedColours) {
+    const auto small = fiveSpheres();
+    small->view.lens.blurScale = 0;
+    const Image bytes = rendered(small->world, small->view, "scheuermann:bits=8,pinholes=1");
+    const Image floats = rendered(small->world, small->view, "scheuermann:pinholes=1");
+    double squared = 0;
+    for (std::size_t i = 0; i < floats.pixels.size(); ++i) {
+        const float value = bytes.pixels[i];
+        EXPECT_LE(value, 1.001f);
+        squared += std::pow(double(srgbEncode(value)) - double(srgbEncode(floats.pixels[i])), 2);
+    }
+    const double error = std::sqrt(squared / static_cast<double>(floats.pixels.size()));
+    EXPECT_LT(error, 1.0 / 255);
+    EXPECT_GT(error, 0.5 / 255 / std::sqrt(12.0));  // half of what rounding alone gives; alpha has none
+}
+
+TEST_F(ScheuermannImage, planesByHandMustBeInOrder) {
+    const auto small = fiveSpheres();
+    EXPECT_NO_THROW(rendered(small->world, small->view, "scheuermann:near-blur-depth=0.1,far-blur-depth=1e6"));
+    EXPECT_THROW(rendered(small->world, small->view, "scheuermann:near-blur-depth=1000"), Error);
+    EXPECT_THROW(rendered(small->world, small->view, "scheuermann:focal-plane-depth=5,far-blur-depth=4"), Error);
+    EXPECT_THROW(rendered(small->world, small->view, "scheuermann:coc=thin-lens,far-blur-depth=9"), Error);
+}
+
+}  // namespace
+}  // namespace defocus
