@@ -19,7 +19,7 @@ std::span<const FrameQuality> frameQualities();
 
 struct FrameBudget {
     double milliseconds = 16;  // that a frame may take
-    std::size_t rung = 4;      // into frameQualities
+    std::size_t rung = 2;      // into frameQualities
     [[nodiscard]] const FrameQuality& quality() const { return frameQualities()[rung]; }
 };
 
