@@ -15,7 +15,7 @@ constexpr double rest = 0.5;  // s
 
 bool sameOptions(const Request& a, const Request& b) {
     return std::ranges::all_of(settings(), [&](const Setting& setting) {
-        if (setting.name == "time" || setting.name == "size") return true;
+        if (setting.name == "time" || setting.name == "clip" || setting.name == "size") return true;
         return setting.repeated ? setting.texts(a) == setting.texts(b) : setting.text(a) == setting.text(b);
     });
 }
@@ -55,7 +55,7 @@ void EditHistory::note(const ViewEdit& now, bool held, double seconds) {
     if (grasped && pending_) commit(latest_);  // what a wheel did before the hand took hold
     if (changed) changedAt_ = seconds;
     latest_ = now;
-    pending_ = !sameEdit(now, current_);
+    if (changed) pending_ = !sameEdit(now, current_);
     if (pending_ && !held && (letGo || seconds - changedAt_ >= rest)) commit(now);
 }
 

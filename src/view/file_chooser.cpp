@@ -89,7 +89,7 @@ bool DesktopDialog::open(const fs::path& folder) {
     return true;
 }
 
-std::optional<fs::path> DesktopDialog::take() {
+std::optional<DesktopDialog::Outcome> DesktopDialog::take() {
     if (!running()) return std::nullopt;
     std::array<char, 4096> bytes;
     ssize_t count = 0;
@@ -99,9 +99,10 @@ std::optional<fs::path> DesktopDialog::take() {
     if (count != 0 || ::waitpid(process_, &status, WNOHANG) != process_) return std::nullopt;
     process_ = -1;
     ::close(output_);
-    const bool chosen = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    constexpr int cancelled = 1;  // of zenity and kdialog
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     if (!text_.empty() && text_.back() == '\n') text_.pop_back();
-    return chosen ? fs::path(text_) : fs::path();
+    return Outcome{code == 0 ? fs::path(text_) : fs::path(), code != 0 && code != cancelled};
 }
 
 void DesktopDialog::stop() {

@@ -24,8 +24,12 @@ public:
     // Begins in `folder`. False where no program for it is found on $PATH, or it doesn't start.
     bool open(const std::filesystem::path& folder);
     [[nodiscard]] bool running() const { return process_ > 0; }
-    // Once it is closed: what was chosen, or an empty path. Nothing while it is open.
-    std::optional<std::filesystem::path> take();
+    struct Outcome {
+        std::filesystem::path chosen;  // empty: nothing
+        bool failed = false;           // the program couldn't show its dialog
+    };
+    // Once it is closed. Nothing while it is open.
+    std::optional<Outcome> take();
 
 private:
     void stop();

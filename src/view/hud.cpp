@@ -67,8 +67,8 @@ ImVec2 drawStatus(const HudContext& context, const ViewState& state) {
     const ImVec2 at = corner(context, 0, 1);
     if (context.picture == nullptr) return at;
     const Lens& lens = state.lens;
-    const std::string optics = lens.dofEnabled ? fmt::format("{:.3g} mm   f/{:.3g}   {}", lens.focalLength, lens.fStop,
-                                                             distanceText(lens.focusDistance))
+    const std::string optics = lens.dofEnabled ? fmt::format("{:.3g} mm   f/{:.3g}   focus {}", lens.focalLength,
+                                                             lens.fStop, distanceText(lens.focusDistance))
                                                : fmt::format("{:.3g} mm   pinhole", lens.focalLength);
     const View& view = context.picture->plan().view;
     const std::string samples =

@@ -59,12 +59,13 @@ void setColors(ImGuiStyle& style, bool dark) {
     set(ImGuiCol_ScrollbarBg, 0.135f, 0.945f);
     accented(ImGuiCol_ButtonActive, 1);
     accented(ImGuiCol_CheckMark, 1);
-    accented(ImGuiCol_SliderGrab, 1);
-    accented(ImGuiCol_SliderGrabActive, 1);
+    accented(ImGuiCol_SliderGrab, 0.45f);  // the value is written over it
+    accented(ImGuiCol_SliderGrabActive, 0.65f);
     accented(ImGuiCol_PlotHistogram, 1);
     accented(ImGuiCol_PlotLines, 1);
     accented(ImGuiCol_NavHighlight, 1);
     accented(ImGuiCol_TextSelectedBg, 0.4f);
+    style.Colors[ImGuiCol_ModalWindowDimBg] = grey(0, 0.3f);  // a dialog doesn't wash the picture out
 }
 
 }  // namespace
@@ -118,7 +119,7 @@ void ViewInterface::applyLook(bool dark, double scale) {
     style.GrabRounding = 3;
     style.PopupRounding = 3;
     style.ScrollbarRounding = 4;
-    style.GrabMinSize = 9;
+    style.GrabMinSize = 6;
     style.WindowBorderSize = 1;
     style.ScaleAllSizes(static_cast<float>(scale));
     ImGui::GetStyle() = style;
@@ -167,6 +168,7 @@ void ViewInterface::feed(const std::vector<WindowEvent>& events) {
                 if (event.key < 0 || event.repeated) break;
                 if (event.pressed) {
                     tell(event);
+                    io.KeysDownDuration[event.key] = -1;  // pressed anew, even if no frame saw it up
                     down.insert(event.key);
                     if (event.key < key::leftShift) chord = event;
                 } else if (down.contains(event.key)) {

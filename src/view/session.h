@@ -81,6 +81,7 @@ private:
     [[nodiscard]] double now() const;
     [[nodiscard]] ViewEdit currentEdit() const;
     [[nodiscard]] bool dialogOpen() const;
+    [[nodiscard]] std::filesystem::path openFolder() const;
     [[nodiscard]] double scale() const;
     [[nodiscard]] PictureArea area() const;
     [[nodiscard]] glm::ivec2 pictureSize() const;

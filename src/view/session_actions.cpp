@@ -38,6 +38,7 @@ Request withoutScene(Request options) {
     options.focusPoints = standard.focusPoints;
     options.focusAuto = standard.focusAuto;
     options.nodeBlur = standard.nodeBlur;
+    options.hidden = standard.hidden;
     return options;
 }
 
@@ -79,17 +80,22 @@ void ViewSession::open(const std::filesystem::path& scene) {
 // The desktop's dialog where it has one, else the window's own.
 void ViewSession::openDialog() {
     if (desktopDialog_.running() || dialogOpen()) return;
+    state_.recent = readRecentFiles(recentFilesPath());
+    if (!desktopDialog_.open(openFolder())) browser_.open(openFolder(), state_.recent);
+}
+
+// Where the dialog begins: beside the scene that is shown.
+std::filesystem::path ViewSession::openFolder() const {
     const std::filesystem::path& scene = state_.options.scene;
     std::error_code ignored;
-    const std::filesystem::path folder =
-        scene.empty() ? std::filesystem::current_path(ignored) : std::filesystem::absolute(scene).parent_path();
-    state_.recent = readRecentFiles(recentFilesPath());
-    if (!desktopDialog_.open(folder)) browser_.open(folder, state_.recent);
+    return scene.empty() ? std::filesystem::current_path(ignored) : std::filesystem::absolute(scene).parent_path();
 }
 
 void ViewSession::finishDialogs(const std::optional<std::filesystem::path>& browsed) {
     if (browsed) actions_.open = browsed;
-    if (const auto chosen = desktopDialog_.take(); chosen && !chosen->empty()) actions_.open = chosen;
+    const std::optional<DesktopDialog::Outcome> outcome = desktopDialog_.take();
+    if (outcome && !outcome->chosen.empty()) actions_.open = outcome->chosen;
+    if (outcome && outcome->failed && !dialogOpen()) browser_.open(openFolder(), state_.recent);
 }
 
 // Views that are kept by name: saved, gone to, forgotten.

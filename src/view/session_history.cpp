@@ -43,7 +43,8 @@ void ViewSession::restore(const std::optional<ViewEdit>& edit, const char* other
     const Request& wanted = edit->options;
     if (wanted.camera != state_.options.camera) chooseCamera(wanted.camera);
     if (wanted.nodeBlur != state_.options.nodeBlur || wanted.hidden != state_.options.hidden) {
-        for (std::size_t i = 0; i < nodeBlurs_.size(); ++i) frame_->scene->nodes[i].cocScale = nodeBlurs_[i];
+        std::vector<Node>& nodes = frame_->scene->nodes;  // a ground may have come or gone
+        for (std::size_t i = 0; i < std::min(nodes.size(), nodeBlurs_.size()); ++i) nodes[i].cocScale = nodeBlurs_[i];
         Request options = state_.options;
         options.nodeBlur = wanted.nodeBlur;
         setNodeBlur(options, *frame_->scene);
@@ -62,6 +63,7 @@ void ViewSession::restore(const std::optional<ViewEdit>& edit, const char* other
                               wanted.lens.apertureImage != before.lens.apertureImage;
     Request options = wanted;
     options.time = before.time;
+    options.clip = before.clip;
     options.ground = hasGround(*frame_->scene);
     if (surroundings)
         change(options);

@@ -97,7 +97,7 @@ void ViewSession::adoptScene(LoadedScene scene) {
 void ViewSession::keepMemory() {
     const std::filesystem::path& file = state_.options.scene;
     try {
-        if (!file.empty()) rememberRecentFile(recentFilesPath(), file);
+        if (!file.empty() && options_.frames == 0) rememberRecentFile(recentFilesPath(), file);
     } catch (const Error& error) {
         if (!quiet_) printMessage("warning: recent files are not kept: {}\n", error.what());
     }

@@ -144,6 +144,15 @@ TEST_F(ViewTools, theDesktopsDialogIsAskedWhereThereIsOne) {
     EXPECT_TRUE(showsScene("other.gltf")) << state();
 }
 
+TEST_F(ViewTools, aDesktopWhoseDialogFailsLeavesItToTheWindow) {
+    fs::create_directory(folder() / "bin");
+    const fs::path zenity = folder() / "bin" / "zenity";
+    std::ofstream(zenity) << "#!/bin/sh\nexit 255\n";
+    fs::permissions(zenity, fs::perms::owner_all);
+    openTwoQuads();
+    EXPECT_TRUE(presses("ctrl+o", [](const json& s) { return s.at("dialog") == "open"; })) << state();
+}
+
 TEST_F(ViewTools, exportAsksBeforeItReplacesAFile) {
     openTwoQuads({"--samples", "2"});
     std::ofstream(folder() / "still.png") << "mine";
@@ -202,6 +211,14 @@ TEST_F(ViewTools, whatTheTreeHidesIsMissingInPictureStillAndCommand) {
 
     key("ctrl+z");
     EXPECT_TRUE(reaches([](const json& s) { return s.at("objects") == 2 && s.at("hidden").empty(); })) << state();
+    key("ctrl+shift+z");
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("objects") == 1; })) << state();
+    writeTwoQuads(folder() / "other.gltf");
+    ASSERT_TRUE(presses("ctrl+o", [](const json& s) { return s.at("dialog") == "open"; })) << state();
+    act("type --delay 30 other");
+    key("Return");
+    ASSERT_TRUE(showsScene("other.gltf")) << state();
+    EXPECT_EQ(state().at("objects"), 2);  // another scene is shown whole
 }
 
 TEST_F(ViewTools, selectingInTheTreeShowsTheMaterial) {
@@ -289,6 +306,8 @@ TEST_F(ViewTools, aHandThatIsFasterThanTheFramesLosesNothing) {
     const json field = state().at("places").at("open path");
     act(fmt::format("mousemove {} {} click 1 type --delay 0 quadsss", field.at(0).get<int>(), field.at(1).get<int>()));
     ASSERT_TRUE(reaches([](const json& s) { return s.at("openPath") == "quadsss"; })) << state();
+    act("key --delay 0 BackSpace BackSpace BackSpace");
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("openPath") == "quad"; })) << state();
     send("key --delay 0 ctrl+a type --delay 0 --args 1 other.gltf key --delay 0 Return");
     EXPECT_TRUE(showsScene("other.gltf")) << state();
     EXPECT_EQ(state().at("help"), false);  // no letter was taken for a command
