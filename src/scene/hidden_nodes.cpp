@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <string_view>
 
 #include "scene/posed_mesh.h"
 
@@ -33,19 +34,21 @@ Bounds boundsOf(const Scene& scene, const Pose& pose) {
 }  // namespace
 
 int nodeCalled(const Scene& scene, const std::string& nameOrNumber) {
-    const auto named = [&](const Node& node) { return node.name == nameOrNumber; };
+    if (std::ranges::find(scene.nodes, nameOrNumber, &Node::name) != scene.nodes.end())
+        return nodeNamed(scene, nameOrNumber);
+    const std::string_view digits = std::string_view(nameOrNumber).substr(nameOrNumber.starts_with('#') ? 1 : 0);
     std::size_t number = 0;
-    const char* const end = nameOrNumber.data() + nameOrNumber.size();
-    const auto [stop, fault] = std::from_chars(nameOrNumber.data(), end, number);
-    const bool isNumber = fault == std::errc() && stop == end && number < scene.nodes.size();
-    if (isNumber && std::ranges::none_of(scene.nodes, named)) return static_cast<int>(number);
-    return nodeNamed(scene, nameOrNumber);
+    const auto [stop, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    const bool isNumber = fault == std::errc() && stop == digits.data() + digits.size();
+    return isNumber && number < scene.nodes.size() ? static_cast<int>(number) : nodeNamed(scene, nameOrNumber);
 }
 
 std::string callingOf(const Scene& scene, int node) {
     const std::string& name = scene.nodes[static_cast<std::size_t>(node)].name;
-    const auto namesakes = std::ranges::count(scene.nodes, name, &Node::name);
-    return !name.empty() && namesakes == 1 && nodeCalled(scene, name) == node ? name : std::to_string(node);
+    const bool ownName = !name.empty() && std::ranges::count(scene.nodes, name, &Node::name) == 1;
+    if (ownName && nodeCalled(scene, name) == node) return name;
+    const std::string number = std::to_string(node);
+    return nodeCalled(scene, number) == node ? number : '#' + number;
 }
 
 void hideNodes(const Scene& scene, std::span<const std::string> namesOrNumbers, Pose& pose) {

@@ -9,8 +9,8 @@
 namespace defocus {
 
 // Takes the objects of these nodes, and of all nodes below them, out of the pose. Bounds that it had are those of what
-// is left; cameras and lights stay. A node is called by its name, or by its number in Scene::nodes where it has none or
-// shares it. Throws Error for a name that the scene doesn't have.
+// is left; cameras and lights stay. A node is called by its name, or, where it has none or shares it, by its number in
+// Scene::nodes, "7" or "#7". Throws Error for a name that the scene doesn't have.
 void hideNodes(const Scene& scene, std::span<const std::string> namesOrNumbers, Pose& pose);
 
 // The node that hideNodes means by the text.

@@ -284,8 +284,10 @@ void performanceSection(const PanelContext& context, ViewState& state) {
     ImGui::SliderScalar("##budget", ImGuiDataType_Double, &state.budget.milliseconds, &least, &most, "%.0f ms");
     const FrameQuality& quality = state.budget.quality();
     rowLabel("While moving");
-    ImGui::TextUnformatted(
-        fmt::format("{} samples at {:.0f} % size", quality.samples, 100 * quality.resolution).c_str());
+    ImGui::TextUnformatted(fmt::format("{} at {:.0f} % size",
+                                       quality.samples == 1 ? "no blur" : fmt::format("{} samples", quality.samples),
+                                       100 * quality.resolution)
+                               .c_str());
     rowLabel("Most samples", "A still view gathers samples up to this number");
     int samples = static_cast<int>(state.mostSamples);
     if (ImGui::SliderInt("##most", &samples, 64, 16384, "%d", ImGuiSliderFlags_Logarithmic))

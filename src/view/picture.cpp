@@ -165,11 +165,12 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
     fixThresholds(settings, quality.samples, quality.thresholdBias);
     FramePlan plan = planFrame(*world_, view, settingsOf(settings, request.first));
     const double blur = plan.largestBlur / quality.resolution;  // px of the window
+    // Where one sample says all, rather each pixel of the window than many samples of every fourth.
     const bool sharp = !request.fixedQuality && (!view.lens.dofEnabled || blur < leastBlur);
-    if (sharp) {  // one sample says all: rather each pixel of the window than many samples of every fourth
-        view = request.view;
-        view.lens.dofEnabled = false;
+    if (sharp) view = request.view;
+    if (sharp || quality.samples == 1) {
         settings.sampleCount = 1;
+        view.lens.dofEnabled = false;
         plan = planFrame(*world_, view, settingsOf(settings, request.first));
     }
     first_->drawFrame(std::move(plan));

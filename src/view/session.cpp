@@ -58,7 +58,7 @@ ViewSession::ViewSession(const SessionOptions& options)
     state_.interfaceScale = settings_.interfaceScale;
     state_.budget.milliseconds =
         settings_.budgetMilliseconds.value_or(window_.software() ? softwareBudget : state_.budget.milliseconds);
-    if (window_.software()) state_.budget.rung = 1;
+    if (window_.software()) state_.budget.rung = 2;
     state_.recent = readRecentFiles(recentFilesPath());
     loader_.open(options.request);
 }

@@ -58,6 +58,7 @@ TEST(HiddenNodes, callingsAreReadBackAsTheirNodes) {
     scene.nodes[1].name = "2";  // a name that looks like another's number
     for (int node = 0; node < 4; ++node) EXPECT_EQ(nodeCalled(scene, callingOf(scene, node)), node) << node;
     EXPECT_EQ(callingOf(scene, 0), "table");
+    EXPECT_EQ(callingOf(scene, 2), "#2");
     EXPECT_EQ(callingOf(scene, 3), "3");
 }
 
