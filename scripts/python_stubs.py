@@ -24,6 +24,7 @@ FORMS = {
     "X,Y,X,Y,X,Y": "Union[Tuple[Pixel, Pixel, Pixel], str]",
     "NAME=SCALE": "Union[Mapping[str, float], str]",
     "NAME": "str",
+    "NODE": "Union[List[str], str]",
     "SIZE": "str",
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "defocus/image.h"
 #include "defocus/lens.h"
@@ -60,6 +61,7 @@ struct Request {
     std::optional<std::array<Pixel, 3>> focusPoints;  // the focus plane goes through what three pixels show
     bool focusAuto = false;                           // the median depth of what the image's middle shows
     std::map<std::string, double> nodeBlur;  // by node: scale of the blur of all below it, ≥ 0; 0 keeps it sharp
+    std::vector<std::string> hidden;         // nodes, by name or number, that aren't drawn, with all below them
 
     // Samples and levels of detail.
     RenderSettings settings = {.sampleCount = automaticSamples};

@@ -32,6 +32,7 @@ class Keywords(TypedDict, total=False):
     environment_rotation: Optional[float]  # degrees
     background: Optional[Union[str, Point]]
     ground: Optional[bool]
+    hide: Optional[Union[List[str], str]]
     shadows: Optional[Literal["auto", "on", "off"]]
     light_angle: Optional[float]  # degrees
     light_radius: Optional[float]  # m

@@ -41,6 +41,8 @@ def text(value: Any, separator: str = ",") -> str:
 def texts(info: _defocus.SettingInfo, value: Any) -> Iterable[str]:
     if info.repeated and isinstance(value, Mapping):
         return [f"{name}={text(part)}" for name, part in value.items()]
+    if info.repeated and isinstance(value, (tuple, list)):
+        return [text(part) for part in value]
     return [text(value, "x" if info.metavar == "WxH" else ",")]
 
 

@@ -15,6 +15,7 @@
 #include "plan/camera_path.h"
 #include "plan/focus_depth.h"
 #include "scene/animation.h"
+#include "scene/hidden_nodes.h"
 
 namespace defocus {
 
@@ -185,6 +186,7 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     result.time = timeAt(shot, *base.scene, clip, frame / shot.frameRate);
     const double middle = shutterMiddle(base.shutter);
     result.pose = poseAt(*base.scene, timeAt(shot, *base.scene, clip, frame / shot.frameRate + middle), clip);
+    hideNodes(*base.scene, base.hidden, result.pose);
     result.lights = movedLights(base.lights, result.pose);
     result.view = movedView(shot, base, result.pose, frame + middle * shot.frameRate);
     result.view.lens = lensAt(shot, base, result);
@@ -196,6 +198,7 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
         ShutterMoment moment;
         const double seconds = frame / shot.frameRate + offset;
         moment.pose = unmeasuredPoseAt(*base.scene, timeAt(shot, *base.scene, clip, seconds), clip);
+        hideNodes(*base.scene, base.hidden, moment.pose);
         moment.worldFromCamera = movedView(shot, base, moment.pose, seconds * shot.frameRate).worldFromCamera;
         return moment;
     };

@@ -21,6 +21,7 @@ struct SequenceBase {
     bool cameraStands = false;                     // at view's place, wherever the scene's own goes
     std::set<std::string, std::less<>> fixedLens;  // fields that don't follow the camera's own values
     glm::dvec3 centre{0.0};                        // the middle of the scene at its start, around which turntables turn
+    std::vector<std::string> hidden;               // nodes that aren't drawn
     ShutterSettings shutter;  // of each frame; the shot's camera moves while the shutter is open, too
 };
 

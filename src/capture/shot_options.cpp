@@ -85,6 +85,7 @@ SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request) {
     base.lights = frame.world.lights;
     base.camera = request.camera;
     base.cameraStands = cameraPlaced(request);
+    base.hidden = request.hidden;
     base.shutter = request.shutter;
     for (const auto& [name, value] : givenLensValues(request.lens)) base.fixedLens.insert(name);
     if (request.focusPoints) base.fixedLens.insert({"focusDistance", "focusTilt", "focusSwing"});

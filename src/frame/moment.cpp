@@ -1,6 +1,7 @@
 #include "frame/moment.h"
 
 #include "scene/animation.h"
+#include "scene/hidden_nodes.h"
 
 namespace defocus {
 
@@ -20,7 +21,9 @@ double animationTime(const Request& request, const Scene& scene, double time) {
 
 Pose exposedPose(const Request& request, const Scene& scene) {
     const double time = request.time + shutterMiddle(request.shutter);
-    return poseAt(scene, animationTime(request, scene, time), clipOf(request, scene));
+    Pose pose = poseAt(scene, animationTime(request, scene, time), clipOf(request, scene));
+    hideNodes(scene, request.hidden, pose);
+    return pose;
 }
 
 void exposeMotion(const Request& request, const PlacedCamera& camera, const RenderSettings& settings, World& world,
@@ -30,6 +33,7 @@ void exposeMotion(const Request& request, const PlacedCamera& camera, const Rend
     const auto momentAt = [&](double offset) {
         const double time = animationTime(request, scene, request.time + offset);
         ShutterMoment moment{unmeasuredPoseAt(scene, time, clipOf(request, scene)), {}};
+        hideNodes(scene, request.hidden, moment.pose);
         moment.worldFromCamera = worldFromCameraIn(camera, moment.pose);
         return moment;
     };

@@ -9,8 +9,8 @@ namespace defocus {
 // Returns the number of the animation that the request names. Throws Error for one that the scene doesn't have.
 int clipOf(const Request& request, const Scene& scene);
 
-// Returns the pose of the scene in the middle of the exposure. Throws Error for an animation that the scene doesn't
-// have.
+// Returns the pose of the scene in the middle of the exposure, without the nodes that the request hides. Throws Error
+// for an animation that the scene doesn't have.
 Pose exposedPose(const Request& request, const Scene& scene);
 
 // Calls openShutter (plan/shutter.h) for the request's animation and for `camera`, which belongs to the world's scene.

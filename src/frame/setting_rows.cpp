@@ -241,6 +241,24 @@ Setting unitsSetting() {
     return setting;
 }
 
+Setting hideSetting() {
+    Setting setting = other(
+        "hide", "--hide", "NODE",
+        [](Request& request, const std::string& text) {
+            if (std::ranges::find(request.hidden, text) == request.hidden.end()) request.hidden.push_back(text);
+        },
+        [](const Request& request) -> std::optional<std::string> {
+            return request.hidden.empty() ? std::nullopt
+                                          : std::optional(fmt::format("{}", fmt::join(request.hidden, ",")));
+        },
+        "Leave out the meshes of a node and of all below it, by its name, or its number where it has no name of its "
+        "own. Can be given several times");
+    setting.repeated = true;
+    setting.texts = [](const Request& request) { return request.hidden; };
+    setting.clear = [](Request& request) { request.hidden.clear(); };
+    return setting;
+}
+
 Rows sceneRows() {
     return {
         inShot(path("scene", "SCENE", "FILE", MEMBER(scene),
@@ -297,6 +315,7 @@ Rows sceneRows() {
         inShot(truth("ground", "--ground", MEMBER(ground),
                      "Put a grey ground beneath the scene, at its lowest point, which catches its shadows"),
                "/ground"),
+        hideSetting(),
         inShot(choice<Shadows>("shadows", "--shadows",
                                {{"auto", Shadows::automatic}, {"on", Shadows::on}, {"off", Shadows::off}},
                                MEMBER(settings.shadows),

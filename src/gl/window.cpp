@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "core/error.h"
@@ -17,7 +18,8 @@ namespace {
 
 static_assert(key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER && key::tab == GLFW_KEY_TAB);
 static_assert(key::right == GLFW_KEY_RIGHT && key::up == GLFW_KEY_UP && key::home == GLFW_KEY_HOME);
-static_assert(key::f1 == GLFW_KEY_F1 && key::f12 == GLFW_KEY_F12 && key::leftShift == GLFW_KEY_LEFT_SHIFT);
+static_assert(key::f1 == GLFW_KEY_F1 && key::f12 == GLFW_KEY_F12 && key::f11 == GLFW_KEY_F11 &&
+              key::lastModifier == GLFW_KEY_RIGHT_SUPER && key::leftShift == GLFW_KEY_LEFT_SHIFT);
 static_assert(key::rightShift == GLFW_KEY_RIGHT_SHIFT && key::leftControl == GLFW_KEY_LEFT_CONTROL &&
               key::rightControl == GLFW_KEY_RIGHT_CONTROL && GLFW_KEY_A == 'A' && GLFW_KEY_SLASH == '/');
 
@@ -31,6 +33,27 @@ constexpr const char* withoutWindow = "start it in a desktop session, or use 'de
 
 Window* owner(GLFWwindow* window) {
     return static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+// The screen that shows most of a rectangle; null where there is none.
+GLFWmonitor* screenOf(const glm::ivec2& position, const glm::ivec2& size) {
+    int count = 0;
+    GLFWmonitor* const* const screens = glfwGetMonitors(&count);
+    GLFWmonitor* best = nullptr;
+    int most = -1;
+    for (int i = 0; i < count; ++i) {
+        const GLFWvidmode* const mode = glfwGetVideoMode(screens[i]);
+        glm::ivec2 begin(0);
+        glfwGetMonitorPos(screens[i], &begin.x, &begin.y);
+        if (mode == nullptr) continue;
+        const glm::ivec2 end = glm::min(position + size, begin + glm::ivec2(mode->width, mode->height));
+        const glm::ivec2 common = glm::max(end - glm::max(position, begin), glm::ivec2(0));
+        if (common.x * common.y > most) {
+            most = common.x * common.y;
+            best = screens[i];
+        }
+    }
+    return best;
 }
 
 void setModifiers(WindowEvent& event, int modifiers) {
@@ -102,6 +125,9 @@ void Window::installCallbacks() {
         event.repeated = action == GLFW_REPEAT;
         setModifiers(event, modifiers);
     });
+    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned letter) {
+        owner(window)->add(WindowEvent::Type::text).letter = letter;
+    });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
         WindowEvent& event = owner(window)->add(WindowEvent::Type::drop);
         event.paths.assign(paths, paths + count);
@@ -133,6 +159,33 @@ void Window::close() {
 
 bool Window::keyHeld(int keyCode) const {
     return glfwGetKey(window_, keyCode) == GLFW_PRESS;
+}
+
+bool Window::hovered() const {
+    return glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE;
+}
+
+bool Window::focused() const {
+    return glfwGetWindowAttrib(window_, GLFW_FOCUSED) == GLFW_TRUE;
+}
+
+bool Window::fullscreen() const {
+    return glfwGetWindowMonitor(window_) != nullptr;
+}
+
+void Window::setFullscreen(bool on) {
+    if (on == fullscreen()) return;
+    if (!on) {
+        glfwSetWindowMonitor(window_, nullptr, windowedPosition_.x, windowedPosition_.y, windowedSize_.x,
+                             windowedSize_.y, GLFW_DONT_CARE);
+        return;
+    }
+    glfwGetWindowPos(window_, &windowedPosition_.x, &windowedPosition_.y);
+    windowedSize_ = size();
+    GLFWmonitor* const screen = screenOf(windowedPosition_, windowedSize_);
+    const GLFWvidmode* const mode = screen != nullptr ? glfwGetVideoMode(screen) : nullptr;
+    if (mode == nullptr) fail("no screen is known that the window could cover");
+    glfwSetWindowMonitor(window_, screen, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 glm::ivec2 Window::size() const {

@@ -26,17 +26,19 @@ inline constexpr int down = 264;
 inline constexpr int up = 265;
 inline constexpr int home = 268;
 inline constexpr int f1 = 290;
+inline constexpr int f11 = 300;
 inline constexpr int f12 = 301;
 inline constexpr int leftShift = 340;
 inline constexpr int leftControl = 341;
 inline constexpr int rightShift = 344;
 inline constexpr int rightControl = 345;
+inline constexpr int lastModifier = 347;
 }  // namespace key
 
 enum class MouseButton { left, right, middle };
 
 struct WindowEvent {
-    enum class Type { button, move, scroll, key, drop };
+    enum class Type { button, move, scroll, key, text, drop };
     Type type = Type::move;
     glm::dvec2 position{0.0};  // of the mouse, in window units from the top left
     MouseButton button = MouseButton::left;
@@ -44,6 +46,7 @@ struct WindowEvent {
     bool repeated = false;   // key: held down
     glm::dvec2 scroll{0.0};  // > 0: away from the person, to the left
     int key = 0;             // see above
+    char32_t letter = 0;     // text: as the keyboard's layout has it
     bool shift = false, control = false, alt = false;
     std::vector<std::filesystem::path> paths;  // drop
 };
@@ -67,6 +70,12 @@ public:
     [[nodiscard]] bool closing() const;
     void close();
     [[nodiscard]] bool keyHeld(int keyCode) const;
+    [[nodiscard]] bool hovered() const;  // the mouse is over it
+    [[nodiscard]] bool focused() const;  // keys go to it
+
+    [[nodiscard]] bool fullscreen() const;
+    // Covers the screen that it is on, or goes back to where it was.
+    void setFullscreen(bool on);
 
     [[nodiscard]] glm::ivec2 size() const;             // window units
     [[nodiscard]] glm::ivec2 framebufferSize() const;  // px; 0 x 0 while minimised
@@ -91,6 +100,7 @@ private:
     GLFWwindow* window_ = nullptr;
     std::vector<WindowEvent> events_;
     glm::dvec2 mouse_{0.0};
+    glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // to which it goes back from the whole screen
     std::string device_;
     bool software_ = false;
 };

@@ -32,9 +32,13 @@ ProgressiveImage::ProgressiveImage(const World& world, const MethodUse& use, con
 }
 
 void ProgressiveImage::drawFrame(const View& view, const RenderSettings& settings) {
-    plan_ = withAllLevels(planFrame(*world_, view, settings));
+    drawFrame(planFrame(*world_, view, settings));
+}
+
+void ProgressiveImage::drawFrame(FramePlan plan) {
+    plan_ = withAllLevels(std::move(plan));
     finished_ = true;
-    renderer_->setWave(settings.sampleCount);
+    renderer_->setWave(plan_.settings.sampleCount);
     renderer_->start(plan_);
     while (renderer_->advance()) {
     }

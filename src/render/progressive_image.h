@@ -17,8 +17,9 @@ public:
     // once (0: 4): small waves end in time. Needs a current GL context.
     ProgressiveImage(const World& world, const MethodUse& use, const RendererOptions& options);
 
-    // A whole frame of settings.sampleCount samples.
+    // A whole frame of settings.sampleCount samples, or as its plan has them.
     void drawFrame(const View& view, const RenderSettings& settings);
+    void drawFrame(FramePlan plan);
 
     // Begins an image that grow() then carries to `most` samples (rounded up to blocks). With `thresholdsFollow` the
     // level-of-detail thresholds are the defaults for the samples that are in the sum after each block, else those of

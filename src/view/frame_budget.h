@@ -9,9 +9,9 @@
 namespace defocus {
 
 struct FrameQuality {
-    double resolution = 1;  // internal pixels a side to one of the window
-    std::uint32_t samples = 64;
-    double thresholdBias = 1;  // factor on the level-of-detail thresholds: coarser meshes
+    double resolution = 1;       // internal pixels a side to one of the window
+    std::uint32_t samples = 64;  // 1: without blur
+    double thresholdBias = 1;    // factor on the level-of-detail thresholds: coarser meshes
 };
 
 // From the cheapest to the best.
@@ -19,7 +19,7 @@ std::span<const FrameQuality> frameQualities();
 
 struct FrameBudget {
     double milliseconds = 16;  // that a frame may take
-    std::size_t rung = 4;      // into frameQualities
+    std::size_t rung = 3;      // into frameQualities
     [[nodiscard]] const FrameQuality& quality() const { return frameQualities()[rung]; }
 };
 

@@ -26,16 +26,22 @@ ImVec2 corner(const HudContext& context, double x, double y) {
             static_cast<float>(context.area.origin.y + y * context.area.size.y)};
 }
 
+ImU32 seeThrough(ImU32 color, float alpha) {
+    const auto own = static_cast<float>(color >> IM_COL32_A_SHIFT & 0xff);
+    return (color & ~IM_COL32_A_MASK) | static_cast<ImU32>(own * alpha) << IM_COL32_A_SHIFT;
+}
+
 // Text on a dark plate; `at` is its corner or, where the anchors say so, another point of it. Returns its size.
-ImVec2 label(const HudContext& context, ImVec2 at, float anchorX, float anchorY, const std::string& text, ImU32 color) {
+ImVec2 label(const HudContext& context, ImVec2 at, float anchorX, float anchorY, const std::string& text, ImU32 color,
+             float alpha = 1) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float pad = 6 * context.scale;
     const ImVec2 words = ImGui::CalcTextSize(text.c_str());
     const ImVec2 size(words.x + 2 * pad, words.y + pad);
     at.x = std::floor(at.x - anchorX * size.x);
     at.y = std::floor(at.y - anchorY * size.y);
-    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, plate, 4 * context.scale);
-    list.AddText({at.x + pad, at.y + 0.5f * pad}, color, text.c_str());
+    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, seeThrough(plate, alpha), 4 * context.scale);
+    list.AddText({at.x + pad, at.y + 0.5f * pad}, seeThrough(color, alpha), text.c_str());
     return size;
 }
 
@@ -61,8 +67,8 @@ ImVec2 drawStatus(const HudContext& context, const ViewState& state) {
     const ImVec2 at = corner(context, 0, 1);
     if (context.picture == nullptr) return at;
     const Lens& lens = state.lens;
-    const std::string optics = lens.dofEnabled ? fmt::format("{:.3g} mm   f/{:.3g}   {}", lens.focalLength, lens.fStop,
-                                                             distanceText(lens.focusDistance))
+    const std::string optics = lens.dofEnabled ? fmt::format("{:.3g} mm   f/{:.3g}   focus {}", lens.focalLength,
+                                                             lens.fStop, distanceText(lens.focusDistance))
                                                : fmt::format("{:.3g} mm   pinhole", lens.focalLength);
     const View& view = context.picture->plan().view;
     const std::string samples =
@@ -129,6 +135,48 @@ void drawFocusPoints(const HudContext& context, const ViewState& state) {
         ImGui::GetBackgroundDrawList()->AddCircle(at, radius, white, 24, 2 * context.scale);
         label(context, {at.x + 2 * radius, at.y}, 0, 0.5f, fmt::format("{}", i + 1), white);
     }
+}
+
+// Where somebody clicked to focus: corners of a frame that closes in, as a camera's focus point does, and the distance
+// in words. A small cross where nothing is.
+void drawMarker(const HudContext& context, ViewState& state) {
+    if (!state.marker) return;
+    const double age = context.now - state.marker->since;
+    if (age > markerDuration) {
+        state.marker.reset();
+        return;
+    }
+    const glm::dvec3 p = glm::inverse(state.camera.worldFromCamera) * glm::dvec4(state.marker->point, 1);
+    if (!(p.z < 0)) return;
+    const glm::dvec2 tangents = tanHalfFov(state, context.area);
+    const ImVec2 at = corner(context, 0.5 - 0.5 * p.x / (p.z * tangents.x), 0.5 + 0.5 * p.y / (p.z * tangents.y));
+    const auto alpha = static_cast<float>(std::clamp((markerDuration - age) / 0.7, 0.0, 1.0));
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float s = context.scale;
+    const bool hit = !state.marker->name.empty();
+    const float closing = hit ? 10 * static_cast<float>(1 - eased(age / 0.25)) : 0;
+    const float half = ((hit ? 13.0f : 6.0f) + closing) * s;
+    const float arm = 6 * s;
+    for (const auto& [color, width] : {std::pair(plate, 4 * s), std::pair(white, 1.6f * s)}) {
+        const ImU32 shown = seeThrough(color, alpha);
+        for (const float x : {-1.0f, 1.0f}) {
+            if (!hit) {
+                list.AddLine({at.x - half, at.y - x * half}, {at.x + half, at.y + x * half}, shown, width);
+                continue;
+            }
+            for (const float y : {-1.0f, 1.0f}) {
+                const ImVec2 points[] = {{at.x + x * half, at.y + y * (half - arm)},
+                                         {at.x + x * half, at.y + y * half},
+                                         {at.x + x * (half - arm), at.y + y * half}};
+                list.AddPolyline(points, 3, shown, 0, width);
+            }
+        }
+    }
+    const std::string text =
+        hit ? fmt::format("{}   {}", state.marker->name, distanceText(state.marker->distance)) : "nothing here";
+    const float room = corner(context, 1, 0).x - at.x - half - 8 * s;
+    const bool left = labelWidth(context, text) > room;
+    label(context, {at.x + (left ? -1 : 1) * (half + 6 * s), at.y}, left ? 1 : 0, 0.5f, text, white, alpha);
 }
 
 // What the colours of an overlay mean.
@@ -232,6 +280,34 @@ void drawHover(const HudContext& context, const ViewState& state) {
     }
 }
 
+void drawProgress(const HudContext& context, const ImVec2& centre, const std::string& text, double share) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float s = context.scale;
+    const ImVec2 half(std::min(170 * s, 0.48f * static_cast<float>(context.area.size.x)), 34 * s);
+    list.AddRectFilled({centre.x - half.x, centre.y - half.y}, {centre.x + half.x, centre.y + half.y}, plate, 6 * s);
+    list.PushClipRect({centre.x - half.x + 8 * s, centre.y - half.y}, {centre.x + half.x - 8 * s, centre.y + half.y},
+                      true);
+    list.AddText({centre.x - half.x + 16 * s, centre.y - 22 * s}, white, text.c_str());
+    list.PopClipRect();
+    const ImVec2 bar(centre.x - half.x + 16 * s, centre.y + 10 * s);
+    const float width = 2 * half.x - 32 * s;
+    list.AddRectFilled(bar, {bar.x + width, bar.y + 5 * s}, IM_COL32(80, 80, 80, 255), 2 * s);
+    list.AddRectFilled(bar, {bar.x + width * static_cast<float>(share), bar.y + 5 * s}, IM_COL32(84, 148, 217, 255),
+                       2 * s);
+}
+
+void drawExport(const HudContext& context) {
+    if (context.exporting == nullptr) return;
+    ImVec2 centre = corner(context, 0.5, 1);
+    centre.y -= 90 * context.scale;
+    const double seconds = context.exporting->secondsLeft();
+    const std::string left = std::isfinite(seconds) ? fmt::format(", about {:.0f} s left", std::max(1.0, seconds)) : "";
+    drawProgress(context, centre,
+                 fmt::format("{}: {:.0f} %{}. Esc cancels", context.exporting->request().output.filename().string(),
+                             100 * context.exporting->share(), left),
+                 context.exporting->share());
+}
+
 // The boxes of the objects to come, and how far it is.
 void drawLoading(const HudContext& context) {
     if (!context.loader->busy()) return;
@@ -256,21 +332,10 @@ void drawLoading(const HudContext& context) {
                 list.AddLine(points[edge[0]], points[edge[1]], context.colors.faint, context.scale);
         }
     }
-    const float s = context.scale;
-    const ImVec2 half(150 * s, 34 * s);
     ImVec2 centre = corner(context, 0.5, context.frame == nullptr ? 0.5 : 1);
-    if (context.frame != nullptr) centre.y -= half.y + 56 * s;  // something is shown already: not in its way
-    list.AddRectFilled({centre.x - half.x, centre.y - half.y}, {centre.x + half.x, centre.y + half.y}, plate, 6 * s);
-    const std::string text = fmt::format("Opening {}: {}", context.loader->name(), context.loader->stage());
-    list.PushClipRect({centre.x - half.x + 8 * s, centre.y - half.y}, {centre.x + half.x - 8 * s, centre.y + half.y},
-                      true);
-    list.AddText({centre.x - half.x + 16 * s, centre.y - 22 * s}, white, text.c_str());
-    list.PopClipRect();
-    const ImVec2 bar(centre.x - half.x + 16 * s, centre.y + 10 * s);
-    const float width = 2 * half.x - 32 * s;
-    list.AddRectFilled(bar, {bar.x + width, bar.y + 5 * s}, IM_COL32(80, 80, 80, 255), 2 * s);
-    list.AddRectFilled(bar, {bar.x + width * static_cast<float>(context.loader->share()), bar.y + 5 * s},
-                       IM_COL32(84, 148, 217, 255), 2 * s);
+    if (context.frame != nullptr) centre.y -= 90 * context.scale;  // something is shown already: not in its way
+    drawProgress(context, centre, fmt::format("Opening {}: {}", context.loader->name(), context.loader->stage()),
+                 context.loader->share());
 }
 
 void drawMessages(const HudContext& context, ViewState& state) {
@@ -324,7 +389,9 @@ void drawHud(const HudContext& context, ViewState& state) {
     if (context.picture != nullptr) drawLegend(context, state, status);
     drawHover(context, state);
     drawFocusPoints(context, state);
+    drawMarker(context, state);
     drawLoading(context);
+    drawExport(context);
     drawMessages(context, state);
     drawHelp(context, state);
 }

@@ -6,6 +6,7 @@
 #include "view/picture.h"
 #include "view/scene_loader.h"
 #include "view/state.h"
+#include "view/still_export.h"
 #include "view/widgets.h"
 
 namespace defocus {
@@ -21,6 +22,7 @@ struct HudContext {
     double frameMilliseconds = 0;
     std::string leftLabel, rightLabel;  // of the two sides; empty: one image
     bool mouseOnInterface = false;
+    const StillExport* exporting = nullptr;  // null: nothing is being written
 };
 
 void drawHud(const HudContext& context, ViewState& state);

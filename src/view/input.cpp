@@ -38,10 +38,14 @@ constexpr KeyHelp keys[] = {
     {"X", "compare: next method on the right"},
     {"M", "difference on the right"},
     {"B", "popping test"},
+    {"Ctrl O", "open a scene"},
+    {"Ctrl Z, Ctrl Shift Z", "undo, redo"},
     {"Ctrl C", "copy as a command"},
     {"Ctrl E", "export a still"},
+    {"Esc", "stop an export or a test"},
     {"K", "key frame of a shot from this view"},
     {"F12", "screenshot of the window"},
+    {"F11", "the whole screen"},
     {"H, T", "hide the panel, light or dark"},
     {"Ctrl + −", "interface larger, smaller"},
     {"?, F1", "these keys"},
@@ -131,6 +135,9 @@ void handlePlainKey(int code, const InputContext& context, ViewState& state, Vie
         case 'K':
             actions.recordKey = true;
             break;
+        case key::f11:
+            actions.toggleFullscreen = true;
+            break;
         case key::f12:
             actions.screenshot = true;
             break;
@@ -151,13 +158,22 @@ void handlePlainKey(int code, const InputContext& context, ViewState& state, Vie
     }
 }
 
-void handleControlKey(int code, ViewState& state, ViewActions& actions) {
-    switch (code) {
+void handleControlKey(const WindowEvent& event, ViewState& state, ViewActions& actions) {
+    switch (event.key) {
+        case 'O':
+            actions.openDialog = true;
+            break;
+        case 'Z':
+            (event.shift ? actions.redo : actions.undo) = true;
+            break;
+        case 'Y':
+            actions.redo = true;
+            break;
         case 'C':
             actions.copyCommand = true;
             break;
         case 'E':
-            actions.exportStill = true;
+            actions.askExport = true;
             break;
         case 'Q':
             actions.quit = true;
@@ -262,13 +278,15 @@ void ViewInput::handle(const WindowEvent& event, const InputContext& context, Vi
             break;
         case WindowEvent::Type::key:
             hold(event, context);
-            if (!event.pressed || context.typing) break;
+            if (!event.pressed || (context.typing && event.key != key::f11 && event.key != key::f12)) break;
             if (event.control)
-                handleControlKey(event.key, state, actions);
+                handleControlKey(event, state, actions);
             else if (event.shift && event.key == '/')
                 state.help = !state.help;
             else if (!event.alt && !event.repeated)
                 handlePlainKey(event.key, context, state, actions);
+            break;
+        case WindowEvent::Type::text:  // fields take it, by the interface
             break;
         case WindowEvent::Type::drop:
             if (!event.paths.empty()) actions.open = event.paths.front();
@@ -293,17 +311,24 @@ void ViewInput::release(const WindowEvent& event, const InputContext& context, V
     drag_ = Drag::none;
     if (!clicked || context.frame == nullptr) return;
     const auto surface = pickedSurface(*context.frame, state, context.area, event.position);
-    if (!surface) return;
+    const glm::dvec2 tangents = tanHalfFov(state, context.area);
+    const glm::dvec3 ray = rayThrough(state.camera, context.area.normalized(event.position), tangents.x, tangents.y);
+    if (!surface) {
+        if (!event.control)
+            state.marker = {state.camera.position() + state.camera.pivotDistance * ray, context.now, "", 0};
+        return;
+    }
+    const glm::dvec3 point = state.camera.position() + surface->depth * ray;
     if (event.control) {
-        const glm::dvec2 tangents = tanHalfFov(state, context.area);
-        const glm::dvec3 ray =
-            rayThrough(state.camera, context.area.normalized(event.position), tangents.x, tangents.y);
-        state.focusPoints.push_back(state.camera.position() + surface->depth * ray);
+        state.focusPoints.push_back(point);
         actions.focusThroughPoints = state.focusPoints.size() == 3;
         return;
     }
     state.selected = surface->object;
-    pullFocus(state, surface->depth * focusTerm(state, context.area, event.position), context.now);
+    const double distance = surface->depth * focusTerm(state, context.area, event.position);
+    pullFocus(state, distance, context.now);
+    const std::string& name = context.frame->world.pose.objects[static_cast<std::size_t>(surface->object)].name;
+    state.marker = {point, context.now, name.empty() ? "a surface" : name, distance};
     state.camera.pivotDistance = surface->depth;
     const bool samePlace = glm::length(event.position - lastClickAt_) < clickRadius;
     if (lastClick_ >= 0 && context.now - lastClick_ < doubleClick && samePlace) actions.frameSelection = true;

@@ -21,7 +21,7 @@ struct InputContext {
     PictureArea area;
     const PreparedFrame* frame = nullptr;  // null: there is no scene yet
     bool mouseOnInterface = false;         // a widget takes the mouse
-    bool typing = false;                   // a text field takes the keys
+    bool typing = false;                   // a text field or a dialog takes the keys
     bool navigating = false;               // the keyboard moves between widgets
     double now = 0;                        // s
 };
@@ -31,6 +31,9 @@ public:
     void handle(const WindowEvent& event, const InputContext& context, ViewState& state, ViewActions& actions);
     // Keys that act while they are held: flying.
     void fly(const InputContext& context, double seconds, ViewState& state) const;
+
+    // A button is held down over the picture, or a key that flies.
+    [[nodiscard]] bool holds() const { return drag_ != Drag::none || !held_.empty(); }
 
 private:
     enum class Drag { none, orbit, pan, divider };

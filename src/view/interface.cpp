@@ -3,6 +3,12 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 
+#include <algorithm>
+#include <cfloat>
+#include <optional>
+#include <set>
+#include <utility>
+
 #include "view/font.h"
 
 namespace defocus {
@@ -53,12 +59,13 @@ void setColors(ImGuiStyle& style, bool dark) {
     set(ImGuiCol_ScrollbarBg, 0.135f, 0.945f);
     accented(ImGuiCol_ButtonActive, 1);
     accented(ImGuiCol_CheckMark, 1);
-    accented(ImGuiCol_SliderGrab, 1);
-    accented(ImGuiCol_SliderGrabActive, 1);
+    accented(ImGuiCol_SliderGrab, 0.45f);  // the value is written over it
+    accented(ImGuiCol_SliderGrabActive, 0.65f);
     accented(ImGuiCol_PlotHistogram, 1);
     accented(ImGuiCol_PlotLines, 1);
     accented(ImGuiCol_NavHighlight, 1);
     accented(ImGuiCol_TextSelectedBg, 0.4f);
+    style.Colors[ImGuiCol_ModalWindowDimBg] = grey(0, 0.3f);  // a dialog doesn't wash the picture out
 }
 
 }  // namespace
@@ -83,7 +90,8 @@ ViewInterface::ViewInterface(Window& window) : window_(&window) {
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;  // settings are ours to keep
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-    ImGui_ImplGlfw_InitForOpenGL(window.native(), true);
+    // Its callbacks would tell it of events before the frame that takes them.
+    ImGui_ImplGlfw_InitForOpenGL(window.native(), false);
     ImGui_ImplOpenGL3_Init("#version 450");
 }
 
@@ -111,7 +119,7 @@ void ViewInterface::applyLook(bool dark, double scale) {
     style.GrabRounding = 3;
     style.PopupRounding = 3;
     style.ScrollbarRounding = 4;
-    style.GrabMinSize = 9;
+    style.GrabMinSize = 6;
     style.WindowBorderSize = 1;
     style.ScaleAllSizes(static_cast<float>(scale));
     ImGui::GetStyle() = style;
@@ -123,15 +131,64 @@ void ViewInterface::beginFrame(bool dark, double scale, const std::vector<Window
     if (dark != dark_ || scale != scale_) applyLook(dark, scale);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    ImGuiIO& io = ImGui::GetIO();
-    for (const int code : tappedKeys_) io.KeysDown[code] = window_->keyHeld(code);
-    tappedKeys_.clear();
-    for (const WindowEvent& event : events) {
-        if (event.type != WindowEvent::Type::key || !event.pressed || event.key < 0) continue;
-        io.KeysDown[event.key] = true;
-        tappedKeys_.push_back(event.key);
-    }
+    feed(events);
     ImGui::NewFrame();
+}
+
+// What GLFW's state says is of now; what the frame takes may have been otherwise.
+void ViewInterface::feed(const std::vector<WindowEvent>& events) {
+    ImGuiIO& io = ImGui::GetIO();
+    GLFWwindow* const window = window_->native();
+    // Which finds the letter that the keyboard's layout has there.
+    const auto tell = [&](const WindowEvent& event) {
+        ImGui_ImplGlfw_KeyCallback(window, event.key, 0, event.pressed ? 1 : 0, 0);
+    };
+    if (const bool focused = window_->focused(); focused != std::exchange(focused_, focused) && !focused)
+        std::ranges::fill(io.KeysDown, false);  // they are let go elsewhere
+    for (const WindowEvent& event : std::exchange(tappedKeys_, {})) tell(event);
+    std::array<bool, 3> pressed{};
+    std::set<int> down;
+    std::optional<WindowEvent> chord;  // the latest key that isn't a modifier
+    for (const WindowEvent& event : events) {
+        mouse_ = event.position;
+        const auto button = static_cast<std::size_t>(event.button);
+        switch (event.type) {
+            case WindowEvent::Type::button:
+                buttons_[button] = event.pressed;
+                pressed[button] = pressed[button] || event.pressed;
+                break;
+            case WindowEvent::Type::scroll:
+                io.MouseWheelH += static_cast<float>(event.scroll.x);
+                io.MouseWheel += static_cast<float>(event.scroll.y);
+                break;
+            case WindowEvent::Type::text:
+                io.AddInputCharacter(event.letter);
+                break;
+            case WindowEvent::Type::key:
+                if (event.key < 0 || event.repeated) break;
+                if (event.pressed) {
+                    tell(event);
+                    io.KeysDownDuration[event.key] = -1;  // pressed anew, even if no frame saw it up
+                    down.insert(event.key);
+                    if (event.key < key::leftShift) chord = event;
+                } else if (down.contains(event.key)) {
+                    tappedKeys_.push_back(event);  // it is down for this frame
+                } else {
+                    tell(event);
+                }
+                break;
+            default:
+                break;
+        }
+    }
+    const bool away = !window_->hovered() && std::ranges::find(buttons_, true) == buttons_.end() && events.empty();
+    io.MousePos =
+        away ? ImVec2(-FLT_MAX, -FLT_MAX) : ImVec2(static_cast<float>(mouse_.x), static_cast<float>(mouse_.y));
+    for (std::size_t i = 0; i < buttons_.size(); ++i) io.MouseDown[i] = buttons_[i] || pressed[i];
+    // Of a chord that was let go within the frame, too.
+    io.KeyCtrl = io.KeysDown[key::leftControl] || io.KeysDown[key::rightControl] || (chord && chord->control);
+    io.KeyShift = io.KeysDown[key::leftShift] || io.KeysDown[key::rightShift] || (chord && chord->shift);
+    io.KeyAlt = chord && chord->alt;
 }
 
 void ViewInterface::endFrame() {

@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <array>
+
 #include "gl/window.h"
 
 namespace defocus {
@@ -18,23 +20,26 @@ glm::vec3 windowColor(bool dark);
 
 class ViewInterface {
 public:
-    // Chains the window's event callbacks. The window must outlive it.
+    // The window must outlive it.
     explicit ViewInterface(Window& window);
     ~ViewInterface();
     ViewInterface(const ViewInterface&) = delete;
     ViewInterface& operator=(const ViewInterface&) = delete;
 
-    // `scale`: px a unit of the interface. `events`: what came since the last frame; ImGui would miss keys that were
-    // pressed and released between two frames.
+    // `scale`: px a unit of the interface. `events`: what the frame takes of what people did (view/event_pacing.h).
     void beginFrame(bool dark, double scale, const std::vector<WindowEvent>& events);
     // Draws all widgets to the window's framebuffer.
     void endFrame();
 
 private:
     void applyLook(bool dark, double scale);
+    void feed(const std::vector<WindowEvent>& events);
 
     Window* window_;
-    std::vector<int> tappedKeys_;  // that ImGui was told are down, though they were up again
+    std::vector<WindowEvent> tappedKeys_;  // let go in the frame that pressed them: it saw them held
+    std::array<bool, 3> buttons_{};        // held, as of the events so far
+    glm::dvec2 mouse_{0.0};                // window units, likewise
+    bool focused_ = false;
     double scale_ = 0;
     bool dark_ = true;
 };

@@ -7,9 +7,11 @@
 #include <array>
 #include <functional>
 
+#include "view/export_panel.h"
 #include "view/input.h"
 #include "view/lens_rows.h"
 #include "view/method_panel.h"
+#include "view/scene_panel.h"
 #include "view/setting_rows.h"
 #include "view/surroundings_panel.h"
 
@@ -36,11 +38,55 @@ void fieldRows(ViewState& state, const std::function<bool(std::string_view)>& wa
     }
 }
 
+// A path to type, the dialog, and the scenes that were opened last.
+void openRow(ViewState& state, ViewActions& actions) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float arrow = ImGui::GetFrameHeight();
+    const float button = ImGui::CalcTextSize("Open…").x + 2 * style.FramePadding.x;
+    ImGui::SetNextItemWidth(-button - arrow - style.ItemSpacing.x - 1);
+    const bool entered = ImGui::InputTextWithHint("##open", "a .glb or .gltf, or drop it here", &state.openPath,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    notePlace("open path");
+    if (entered && !state.openPath.empty()) actions.open = state.openPath;
+    ImGui::SameLine();
+    if (ImGui::Button("Open…")) actions.openDialog = true;
+    notePlace("open");
+    tooltip("Chooses a file (Ctrl O)");
+    ImGui::SameLine(0, 1);
+    if (ImGui::ArrowButton("##recent", ImGuiDir_Down)) ImGui::OpenPopup("recent");
+    notePlace("recent");
+    tooltip("Scenes that were opened last");
+    if (!ImGui::BeginPopup("recent")) return;
+    if (state.recent.empty()) ImGui::TextDisabled("none yet");
+    for (const std::filesystem::path& path : state.recent) {
+        if (ImGui::MenuItem(path.filename().c_str())) actions.open = path;
+        notePlace("recent " + path.filename().string());
+        tooltip(path.string());
+    }
+    ImGui::EndPopup();
+}
+
+void stepsRow(const PanelContext& context, ViewActions& actions) {
+    const auto step = [](const char* name, const char* help, bool possible, bool& wanted) {
+        ImGui::BeginDisabled(!possible);
+        if (ImGui::Button(name)) wanted = true;
+        ImGui::EndDisabled();
+        notePlace(name);
+        tooltip(help);
+        ImGui::SameLine();
+    };
+    step("Undo", "Ctrl Z: camera, lens, surroundings, levels, exposure", context.undoSteps > 0, actions.undo);
+    step("Redo", "Ctrl Shift Z", context.redoSteps > 0, actions.redo);
+    step("Reset all", "All settings, camera and lens as the scene was opened; Undo brings them back",
+         context.undoSteps > 0, actions.resetAll);
+    ImGui::NewLine();
+}
+
 void sceneSection(const PanelContext& context, ViewState& state, ViewActions& actions) {
     if (!section("Scene", true)) return;
-    const bool opened = pathRow("open", "a .glb or .gltf, or drop it here", "Open", state.openPath);
-    if (opened && !state.openPath.empty()) actions.open = state.openPath;
+    openRow(state, actions);
     if (context.frame == nullptr) return;
+    ignoredRows(context);
 
     std::vector<std::string> cameras = cameraNames(*context.frame->scene);
     cameras.insert(cameras.begin(), "auto");
@@ -57,6 +103,7 @@ void sceneSection(const PanelContext& context, ViewState& state, ViewActions& ac
     if (ImGui::Button("Frame all")) actions.frameAll = true;
     ImGui::SameLine();
     if (ImGui::Button("Frame selection")) actions.frameSelection = true;
+    stepsRow(context, actions);
 }
 
 // Motion blur.
@@ -150,9 +197,14 @@ void imageSection(ViewState& state) {
     const double brightest = 8;
     const bool ofLens = state.lens.exposureTime > 0;
     double exposure = shownExposure(state);
-    ImGui::BeginDisabled(ofLens);  // by time, ISO and f-number
+    ImGui::BeginDisabled(ofLens || state.meters);  // by time, ISO and f-number, or by the meter
     if (ImGui::SliderScalar("##exposure", ImGuiDataType_Double, &exposure, &darkest, &brightest, "%+.2f EV"))
         state.display.exposure = exposure;
+    ImGui::EndDisabled();
+    ImGui::BeginDisabled(ofLens);
+    rowLabel("Auto-exposure", "Meters the scene whenever the view comes to rest (--exposure auto)");
+    ImGui::Checkbox("##meters", &state.meters);
+    notePlace("auto-exposure");
     ImGui::EndDisabled();
     rowLabel("Tone map");
     int toneMap = static_cast<int>(state.display.toneMap);
@@ -235,8 +287,10 @@ void performanceSection(const PanelContext& context, ViewState& state) {
     ImGui::SliderScalar("##budget", ImGuiDataType_Double, &state.budget.milliseconds, &least, &most, "%.0f ms");
     const FrameQuality& quality = state.budget.quality();
     rowLabel("While moving");
-    ImGui::TextUnformatted(
-        fmt::format("{} samples at {:.0f} % size", quality.samples, 100 * quality.resolution).c_str());
+    ImGui::TextUnformatted(fmt::format("{} at {:.0f} % size",
+                                       quality.samples == 1 ? "no blur" : fmt::format("{} samples", quality.samples),
+                                       100 * quality.resolution)
+                               .c_str());
     rowLabel("Most samples", "A still view gathers samples up to this number");
     int samples = static_cast<int>(state.mostSamples);
     if (ImGui::SliderInt("##most", &samples, 64, 16384, "%d", ImGuiSliderFlags_Logarithmic))
@@ -257,41 +311,6 @@ void performanceSection(const PanelContext& context, ViewState& state) {
     ImGui::TextDisabled("%s", context.device->c_str());
 }
 
-void exportSection(const PanelContext& context, ViewState& state, ViewActions& actions) {
-    if (!section("Export", false)) return;
-    rowLabel("File", ".exr is linear, .png and .jpg are tone-mapped");
-    ImGui::InputText("##file", &state.exportPath);
-    const glm::ivec2 size = state.exportSize.value_or(context.pictureSize);
-    std::array<int, 2> edited = {size.x, size.y};
-    rowLabel("Size");
-    if (ImGui::InputInt2("##size", edited.data()))
-        state.exportSize = glm::ivec2(std::clamp(edited[0], 1, 16384), std::clamp(edited[1], 1, 16384));
-    rowLabel("Samples");
-    int samples = static_cast<int>(state.options.settings.sampleCount);
-    if (ImGui::SliderInt("##samples", &samples, 1, 4096, "%d", ImGuiSliderFlags_Logarithmic))
-        state.options.stop.sampleLimit = state.options.settings.sampleCount =
-            static_cast<std::uint32_t>(std::clamp(samples, 1, static_cast<int>(mostSamples)));
-    if (context.exporting) {
-        ImGui::ProgressBar(static_cast<float>(context.exportShare), {-ImGui::GetFontSize() * 5, 0});
-        ImGui::SameLine();
-        if (ImGui::Button("Cancel")) actions.cancelExport = true;
-    } else if (ImGui::Button("Export still")) {
-        actions.exportStill = true;
-    }
-    rowLabel("Shot", "Key frames, two seconds apart, for 'defocus capture'");
-    ImGui::InputText("##shot", &state.shotPath);
-    if (ImGui::Button("Record key")) actions.recordKey = true;
-    tooltip("Camera, lens and focus as they are now (K)");
-    if (!state.shotKeys.empty()) {
-        ImGui::SameLine();
-        if (ImGui::Button(fmt::format("Save {} keys###save", state.shotKeys.size()).c_str())) actions.saveShot = true;
-        ImGui::SameLine();
-        if (ImGui::Button("Forget")) state.shotKeys.clear();
-    }
-    if (ImGui::Button("Copy as command")) actions.copyCommand = true;
-    tooltip("Puts the 'defocus render' command that makes this picture on the clipboard (Ctrl C)");
-}
-
 }  // namespace
 
 void drawPanel(const PanelContext& context, ViewState& state, ViewActions& actions) {
@@ -305,6 +324,9 @@ void drawPanel(const PanelContext& context, ViewState& state, ViewActions& actio
     ImGui::PopStyleVar(2);
     sceneSection(context, state, actions);
     if (context.frame != nullptr) {
+        treeSection(context, state, actions);
+        materialSection(context, state);
+        viewsSection(state, actions);
         animationSection(context, state);
         lensSections(context, state, actions);
         surroundingsSection(context, state, actions);

@@ -20,6 +20,8 @@ struct PanelContext {
     const std::vector<float>* frameMilliseconds = nullptr;  // of the latest frames
     double interfaceMilliseconds = 0;
     InputLatency::Summary latency;
+    std::size_t undoSteps = 0;
+    std::size_t redoSteps = 0;
     bool exporting = false;
     double exportShare = 0;
     glm::ivec2 pictureSize{0};  // px

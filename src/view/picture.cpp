@@ -159,18 +159,28 @@ void ViewPicture::prepareSides(const PictureRequest& request) {
 void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget) {
     const FrameQuality quality = request.fixedQuality.value_or(budget.quality());
     const Clock::time_point begin = Clock::now();
-    const View view = resized(request.view, quality.resolution);
+    View view = resized(request.view, quality.resolution);
     RenderSettings settings = request.settings;
     settings.sampleCount = quality.samples;
     fixThresholds(settings, quality.samples, quality.thresholdBias);
-    first_->drawFrame(view, settingsOf(settings, request.first));
+    FramePlan plan = planFrame(*world_, view, settingsOf(settings, request.first));
+    const double blur = plan.largestBlur / quality.resolution;  // px of the window
+    // Where one sample says all, rather each pixel of the window than many samples of every fourth.
+    const bool sharp = !request.fixedQuality && (!view.lens.dofEnabled || blur < leastBlur);
+    if (sharp) view = request.view;
+    if (sharp || quality.samples == 1) {
+        settings.sampleCount = 1;
+        view.lens.dofEnabled = false;
+        plan = planFrame(*world_, view, settingsOf(settings, request.first));
+    }
+    first_->drawFrame(std::move(plan));
     if (second_) second_->drawFrame(view, settingsOf(settings, *request.second));
     workCurrent_ = workGrows_ = false;
     if (showsWork_) growWork(std::numeric_limits<double>::infinity());
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     // The picture may have half of the budget at least: no interface is worth another rung.
     const double rest = std::min(request.restOfFrame, 0.5 * budget.milliseconds);
-    if (!fresh_ && !request.fixedQuality) budget = adapted(budget, milliseconds + rest);
+    if (!fresh_ && !request.fixedQuality && !sharp) budget = adapted(budget, milliseconds + rest);
     fresh_ = false;
     aovsCurrent_ = false;
     psnr_.reset();

@@ -10,6 +10,8 @@
 #include "core/error.h"
 #include "core/message.h"
 #include "core/stopwatch.h"
+#include "view/export_panel.h"
+#include "view/recent_files.h"
 
 namespace defocus {
 
@@ -56,7 +58,8 @@ ViewSession::ViewSession(const SessionOptions& options)
     state_.interfaceScale = settings_.interfaceScale;
     state_.budget.milliseconds =
         settings_.budgetMilliseconds.value_or(window_.software() ? softwareBudget : state_.budget.milliseconds);
-    if (window_.software()) state_.budget.rung = 1;
+    if (window_.software()) state_.budget.rung = 2;
+    state_.recent = readRecentFiles(recentFilesPath());
     loader_.open(options.request);
 }
 
@@ -66,7 +69,7 @@ ViewSession::~ViewSession() {
         settings_.panel = state_.panel;
         settings_.interfaceScale = state_.interfaceScale;
         settings_.budgetMilliseconds = state_.budget.milliseconds;
-        if (options_.frames == 0) {
+        if (options_.frames == 0 && !window_.fullscreen()) {
             const glm::dvec2 size = glm::dvec2(window_.size()) / window_.contentScale();
             settings_.width = static_cast<int>(std::lround(size.x));
             settings_.height = static_cast<int>(std::lround(size.y));
@@ -90,6 +93,7 @@ void ViewSession::run() {
 // ---- a frame ------------------------------------------------------------------------------------
 
 void ViewSession::frame() {
+    places_ = takePlaces();
     const std::vector<WindowEvent> events = fetchEvents();
     const glm::ivec2 framebuffer = window_.framebufferSize();
     if (framebuffer.x < 1 || framebuffer.y < 1) {  // minimised
@@ -105,7 +109,9 @@ void ViewSession::frame() {
     const std::uint64_t changesBefore = picture_ ? picture_->changes() : 0;
     handleEvents(events);
     moveThings(elapsed);
+    noteEdits();
     updatePicture();
+    meter();
     exportStep();
 
     const Clock::time_point interfaceBegin = Clock::now();
@@ -127,25 +133,38 @@ void ViewSession::frame() {
     writeStats();
 }
 
-// What has happened; sleeps until something does where there is nothing to do.
+// What has happened and goes into this frame; sleeps until something does where there is nothing to do.
 std::vector<WindowEvent> ViewSession::fetchEvents() {
-    Clock::time_point earliest = fetchedAt_;  // they may have come at once after the fetch before
-    std::vector<WindowEvent> events = window_.poll(0);
+    const auto fetch = [&](double seconds) {
+        for (WindowEvent& event : window_.poll(seconds)) events_.push_back(std::move(event));
+    };
+    // They may have come at once after the fetch before; those that had to wait came before that.
+    Clock::time_point earliest = events_.empty() ? fetchedAt_ : queuedSince_;
+    fetch(0);
     growthMilliseconds_ = 0;
-    if (events.empty() && picture_ && window_.framebufferSize().x > 0) {
+    if (events_.empty() && picture_ && window_.framebufferSize().x > 0) {
         const Clock::time_point before = Clock::now();
         picture_->grow(state_.budget);
         growthMilliseconds_ = millisecondsSince(before);
-        events = window_.poll(0);
-        if (!events.empty()) earliest = before;
+        fetch(0);
+        if (!events_.empty()) earliest = before;
     }
-    if (const double seconds = waitingTime(); events.empty() && seconds > 0) {
-        events = window_.poll(seconds);
+    if (const double seconds = waitingTime(); events_.empty() && seconds > 0) {
+        fetch(seconds);
         earliest = Clock::now();
     }
     fetchedAt_ = Clock::now();
-    if (!events.empty()) latency_.arrived(earliest);
-    return events;
+    if (events_.empty()) return {};
+    queuedSince_ = earliest;
+    latency_.arrived(earliest);
+    const ImGuiIO& io = ImGui::GetIO();
+    const PictureArea picture = area();
+    const bool interfaceHasHand = framesDrawn_ > 0 && (io.WantCaptureMouse || io.WantTextInput || dialogOpen());
+    return takeEvents(events_, {interfaceHasHand, picture.origin + picture.size});
+}
+
+bool ViewSession::dialogOpen() const {
+    return browser_.opened() || state_.exportDialog.has_value();
 }
 
 void ViewSession::noteLatency(std::uint64_t changesBefore) {
@@ -161,8 +180,8 @@ double ViewSession::waitingTime() const {
     if (export_ || state_.animation.playing || state_.pull || state_.poppingSince || !picture_->finished() ||
         options_.frames > 0)
         return 0;
-    if (loader_.busy()) return 0.03;
-    return state_.messages.empty() ? 0.25 : 0.1;
+    if (loader_.busy() || state_.marker) return 0.03;
+    return state_.messages.empty() && !desktopDialog_.running() ? 0.25 : 0.1;
 }
 
 void ViewSession::handleEvents(const std::vector<WindowEvent>& events) {
@@ -172,7 +191,8 @@ void ViewSession::handleEvents(const std::vector<WindowEvent>& events) {
 
 InputContext ViewSession::inputContext() const {
     const ImGuiIO& io = ImGui::GetIO();
-    return {area(), frame_.get(), io.WantCaptureMouse, io.WantTextInput, io.NavVisible && io.NavActive, now()};
+    const bool keysTaken = io.WantTextInput || dialogOpen();
+    return {area(), frame_.get(), io.WantCaptureMouse, keysTaken, io.NavVisible && io.NavActive, now()};
 }
 
 // ---- the picture --------------------------------------------------------------------------------
@@ -235,8 +255,8 @@ void ViewSession::drawInterface() {
     hud.now = now();
     hud.frameMilliseconds = frameMilliseconds_;
     hud.mouseOnInterface = ImGui::GetIO().WantCaptureMouse;
+    hud.exporting = export_ ? &*export_ : nullptr;
     drawHud(hud, state_);
-    if (!state_.panel) return;
 
     PanelContext panel;
     panel.frame = frame_.get();
@@ -248,11 +268,15 @@ void ViewSession::drawInterface() {
     panel.frameMilliseconds = &frameTimes_;
     panel.interfaceMilliseconds = interfaceMilliseconds_;
     panel.latency = latency_.summary();
+    panel.undoSteps = history_.undoSteps();
+    panel.redoSteps = history_.redoSteps();
     panel.exporting = export_.has_value();
     panel.exportShare = export_ ? export_->share() : 0;
     panel.pictureSize = pictureSize();
     panel.device = &window_.device();
-    drawPanel(panel, state_, actions_);
+    if (state_.panel) drawPanel(panel, state_, actions_);
+    drawExportDialog(panel, state_, actions_);
+    finishDialogs(browser_.draw(unit));
 }
 
 }  // namespace defocus

@@ -3,10 +3,15 @@
 // interface shows both.
 
 #include <chrono>
+#include <deque>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "core/stopwatch.h"
+#include "view/edit_history.h"
+#include "view/event_pacing.h"
+#include "view/file_chooser.h"
 #include "view/hud.h"
 #include "view/input_latency.h"
 #include "view/interface.h"
@@ -41,11 +46,21 @@ private:
     void frame();
     void takeScene();
     void adoptScene(LoadedScene scene);
+    void keepMemory();
     void refineScene(PreparedFrame& frame);
     std::vector<WindowEvent> fetchEvents();
     void noteLatency(std::uint64_t changesBefore);
     void handleEvents(const std::vector<WindowEvent>& events);
     void moveThings(double seconds);
+    void noteEdits();
+    void restore(const std::optional<ViewEdit>& edit, const char* otherwise);
+    void stepInHistory(const ViewActions& actions);
+    void meter();
+    void openDialog();
+    void finishDialogs(const std::optional<std::filesystem::path>& browsed);
+    void open(const std::filesystem::path& scene);
+    void keepViews(const ViewActions& actions);
+    void hide(const Request& options);
     void poseScene();
     void makePicture();
     void updatePicture();
@@ -64,6 +79,9 @@ private:
     void say(std::string text, bool fault = false);
 
     [[nodiscard]] double now() const;
+    [[nodiscard]] ViewEdit currentEdit() const;
+    [[nodiscard]] bool dialogOpen() const;
+    [[nodiscard]] std::filesystem::path openFolder() const;
     [[nodiscard]] double scale() const;
     [[nodiscard]] PictureArea area() const;
     [[nodiscard]] glm::ivec2 pictureSize() const;
@@ -84,6 +102,10 @@ private:
     Window window_;
     ViewInterface interface_;
     ViewInput input_;
+    std::deque<WindowEvent> events_;  // that wait for a frame
+    EditHistory history_;
+    DesktopDialog desktopDialog_;
+    FileBrowser browser_;
     ViewState state_;
     ViewActions actions_;
     SceneLoader loader_;
@@ -101,6 +123,7 @@ private:
     double statsWrittenAt_ = -1;
     std::string statsWritten_;
     Clock::time_point fetchedAt_ = Clock::now();
+    Clock::time_point queuedSince_ = Clock::now();  // of the events that wait
     InputLatency latency_;
     double interfaceMilliseconds_ = 0;
     double growthMilliseconds_ = 0;  // of the frame, spent on the still image
@@ -108,7 +131,10 @@ private:
     std::vector<float> frameTimes_;
     int framesWithScene_ = 0;
     std::uint64_t framesDrawn_ = 0;
-    std::string fault_;  // the latest
+    std::string fault_;                     // the latest
+    std::map<std::string, ImVec2> places_;  // of widgets, in the latest frame
+    std::vector<double> nodeBlurs_;         // of the scene's nodes as it was opened
+    bool meterDue_ = false;
 };
 
 }  // namespace defocus

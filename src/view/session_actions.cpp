@@ -15,6 +15,7 @@
 #include "core/stopwatch.h"
 #include "frame/focus.h"
 #include "frame/render_command_text.h"
+#include "view/recent_files.h"
 #include "view/session.h"
 
 namespace defocus {
@@ -37,7 +38,14 @@ Request withoutScene(Request options) {
     options.focusPoints = standard.focusPoints;
     options.focusAuto = standard.focusAuto;
     options.nodeBlur = standard.nodeBlur;
+    options.hidden = standard.hidden;
     return options;
+}
+
+nlohmann::ordered_json placesJson(const std::map<std::string, ImVec2>& places) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const auto& [name, at] : places) json[name] = {std::lround(at.x), std::lround(at.y)};
+    return json;
 }
 
 }  // namespace
@@ -45,11 +53,11 @@ Request withoutScene(Request options) {
 void ViewSession::act() {
     const ViewActions actions = std::exchange(actions_, {});
     try {
-        if (actions.open) {
-            Request options = withoutScene(state_.options);
-            options.scene = *actions.open;
-            loader_.open(options);
-        }
+        if (actions.open) open(*actions.open);
+        if (actions.openDialog) openDialog();
+        if (actions.toggleFullscreen) window_.setFullscreen(!window_.fullscreen());
+        if (frame_) stepInHistory(actions);
+        if (frame_) keepViews(actions);
         if (actions.chooseCamera) chooseCamera(*actions.chooseCamera);
         if (actions.changed && frame_ && !export_) change(*actions.changed);
         if (actions.frameSelection || actions.frameAll) frameBounds(actions.frameSelection);
@@ -61,6 +69,64 @@ void ViewSession::act() {
     } catch (const Error& error) {
         say(error.what(), true);
     }
+}
+
+void ViewSession::open(const std::filesystem::path& scene) {
+    Request options = withoutScene(state_.options);
+    options.scene = scene;
+    loader_.open(options);
+}
+
+// The desktop's dialog where it has one, else the window's own.
+void ViewSession::openDialog() {
+    if (desktopDialog_.running() || dialogOpen()) return;
+    state_.recent = readRecentFiles(recentFilesPath());
+    if (!desktopDialog_.open(openFolder())) browser_.open(openFolder(), state_.recent);
+}
+
+// Where the dialog begins: beside the scene that is shown.
+std::filesystem::path ViewSession::openFolder() const {
+    const std::filesystem::path& scene = state_.options.scene;
+    std::error_code ignored;
+    return scene.empty() ? std::filesystem::current_path(ignored) : std::filesystem::absolute(scene).parent_path();
+}
+
+void ViewSession::finishDialogs(const std::optional<std::filesystem::path>& browsed) {
+    if (browsed) actions_.open = browsed;
+    const std::optional<DesktopDialog::Outcome> outcome = desktopDialog_.take();
+    if (outcome && !outcome->chosen.empty()) actions_.open = outcome->chosen;
+    if (outcome && outcome->failed && !dialogOpen()) browser_.open(openFolder(), state_.recent);
+}
+
+// Views that are kept by name: saved, gone to, forgotten.
+void ViewSession::keepViews(const ViewActions& actions) {
+    std::vector<SavedView> views = state_.savedViews;
+    if (actions.saveView) {
+        const SavedView view{*actions.saveView, state_.camera, state_.nearPlane, state_.lens};
+        const auto same = std::ranges::find(views, view.name, &SavedView::name);
+        if (same == views.end())
+            views.push_back(view);
+        else
+            *same = view;
+        state_.viewName.clear();
+        say(fmt::format("The view '{}' is kept.", view.name));
+    }
+    if (actions.forgetView && *actions.forgetView < views.size())
+        views.erase(views.begin() + static_cast<std::ptrdiff_t>(*actions.forgetView));
+    if (actions.saveView || actions.forgetView) {
+        writeSavedViews(savedViewsPath(), savedViewsKey(state_.options.scene), views);
+        state_.savedViews = std::move(views);
+    }
+    if (!actions.goToView || *actions.goToView >= state_.savedViews.size()) return;
+    const SavedView& view = state_.savedViews[*actions.goToView];
+    const std::shared_ptr<const Image> aperture = state_.lens.apertureImage;
+    state_.camera = view.camera;
+    state_.nearPlane = view.nearPlane;
+    state_.lens = view.lens;
+    state_.lens.apertureImage = aperture;
+    state_.followsCamera = false;
+    state_.pull.reset();
+    state_.marker.reset();
 }
 
 void ViewSession::tiltFocus() {
@@ -97,6 +163,8 @@ void ViewSession::share(const ViewActions& actions) {
         export_.reset();
         say("The export was stopped; nothing was written.");
     }
+    if (actions.askExport && export_) say("A still is being written; Esc cancels it.");
+    if (actions.askExport && !export_ && !dialogOpen()) state_.exportDialog.emplace();
     if (actions.exportStill && !export_) beginExport();
 }
 
@@ -179,7 +247,10 @@ void ViewSession::writeStats() {
     if (picture_)
         for (const PassShare& pass : picture_->passes()) passes[pass.name] = pass.milliseconds;
     const InputLatency::Summary latency = latency_.summary();
-    nlohmann::ordered_json json = {
+    using json = nlohmann::ordered_json;
+    static const FramePlan nothing;
+    const FramePlan& plan = picture_ ? picture_->plan() : nothing;
+    json stats = {
         {"scene", frame_ ? frame_->sceneName : ""},
         {"loading", loader_.busy()},
         {"draft", draft_},
@@ -218,6 +289,23 @@ void ViewSession::writeStats() {
         {"psnr", picture_ && picture_->psnr() && std::isfinite(*picture_->psnr())
                      ? nlohmann::ordered_json(*picture_->psnr())
                      : nullptr},
+        {"drawn", {plan.view.width, plan.view.height, plan.samples.size()}},
+        {"marker", state_.marker ? json{{"name", state_.marker->name}, {"distance", state_.marker->distance}} : json()},
+        {"undoSteps", history_.undoSteps()},
+        {"redoSteps", history_.redoSteps()},
+        {"exposure", shownExposure(state_)},
+        {"hidden", state_.options.hidden},
+        {"objects", frame_ ? frame_->world.pose.objects.size() : 0},
+        {"views", state_.savedViews.size()},
+        {"fullscreen", window_.fullscreen()},
+        {"dialog", browser_.opened()                    ? "open"
+                   : desktopDialog_.running()           ? "desktop"
+                   : !state_.exportDialog               ? ""
+                   : state_.exportDialog->asksToReplace ? "replace"
+                                                        : "export"},
+        {"exportPath", state_.exportPath},
+        {"exportShare", export_ ? export_->share() : 0},
+        {"places", placesJson(places_)},  // of widgets, to click on
         {"dark", state_.dark},
         {"help", state_.help},
         {"poppingTest", state_.poppingSince.has_value()},
@@ -227,7 +315,7 @@ void ViewSession::writeStats() {
         {"command", frame_ ? command() : ""},  // what is copied by hand
         {"device", window_.device()},
     };
-    writeFile(options_.stats, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    writeFile(options_.stats, stats.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace defocus

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
+#include "core/error.h"
+#include "core/message.h"
 #include "frame/exposure.h"
 #include "frame/moment.h"
 #include "scene/animation.h"
 #include "scene/ground.h"
+#include "view/recent_files.h"
 #include "view/session.h"
 
 namespace defocus {
@@ -81,6 +84,30 @@ void ViewSession::adoptScene(LoadedScene scene) {
     if (!frame_->cacheFailure.empty()) say("simplified meshes are not kept: " + frame_->cacheFailure, true);
     makePicture();
     window_.setTitle(frame_->sceneName + " – defocus");
+    state_.meters = scene.options.exposureAuto;
+    state_.marker.reset();
+    meterDue_ = false;
+    nodeBlurs_.clear();
+    for (const Node& node : frame_->scene->nodes) nodeBlurs_.push_back(node.cocScale);
+    history_.begin(currentEdit());
+    keepMemory();
+}
+
+// What outlasts the window: the scenes that were opened, and the views that were kept of this one.
+void ViewSession::keepMemory() {
+    const std::filesystem::path& file = state_.options.scene;
+    try {
+        if (!file.empty() && options_.frames == 0) rememberRecentFile(recentFilesPath(), file);
+    } catch (const Error& error) {
+        if (!quiet_) printMessage("warning: recent files are not kept: {}\n", error.what());
+    }
+    state_.recent = readRecentFiles(recentFilesPath());
+    state_.savedViews.clear();
+    try {
+        state_.savedViews = readSavedViews(savedViewsPath(), savedViewsKey(file));
+    } catch (const Error& error) {
+        say(error.what(), true);
+    }
 }
 
 void ViewSession::moveThings(double seconds) {
@@ -185,6 +212,21 @@ void ViewSession::changeGround(const Request& options) {
     makePicture();
 }
 
+// Leaves out other nodes. What is selected stays so where it is still there.
+void ViewSession::hide(const Request& options) {
+    const auto called = [&](int object) {
+        return object < 0 ? std::pair(-1, std::string())
+                          : std::pair(frame_->world.pose.objects[static_cast<std::size_t>(object)].node,
+                                      frame_->world.pose.objects[static_cast<std::size_t>(object)].name);
+    };
+    const auto before = called(state_.selected);
+    state_.options = options;
+    state_.selected = -1;
+    poseScene();
+    for (int i = 0; i < static_cast<int>(frame_->world.pose.objects.size()); ++i)
+        if (called(i) == before) state_.selected = i;
+}
+
 // The blur of nodes becomes that of `options`, or surroundings and aperture image. Throws Error before anything has
 // changed.
 void ViewSession::change(const Request& options) {
@@ -193,6 +235,10 @@ void ViewSession::change(const Request& options) {
             frame_->scene->nodes[static_cast<std::size_t>(nodeNamed(*frame_->scene, name))].cocScale = scale;
         state_.options = options;
         poseScene();
+        return;
+    }
+    if (options.hidden != state_.options.hidden) {
+        hide(options);
         return;
     }
     if (options.ground != hasGround(*frame_->scene)) {

@@ -13,6 +13,7 @@
 #include "view/camera_controls.h"
 #include "view/focus_pull.h"
 #include "view/frame_budget.h"
+#include "view/saved_views.h"
 #include "view/shot.h"
 
 namespace defocus {
@@ -34,6 +35,21 @@ struct Message {
     double until = 0;  // s, of the window's clock
 };
 
+// Where somebody clicked to focus; fades away.
+struct FocusMarker {
+    glm::dvec3 point{0.0};  // in the world
+    double since = 0;       // s, of the window's clock
+    std::string name;       // of what is there; empty: nothing is
+    double distance = 0;    // m, of the focus
+};
+inline constexpr double markerDuration = 2.2;  // s
+
+// Where a still shall go, before it is rendered.
+struct ExportDialog {
+    bool fresh = true;           // it has just been opened
+    bool asksToReplace = false;  // the file is there already
+};
+
 struct AnimationState {
     int clip = 0;
     double time = 0;  // s
@@ -52,10 +68,12 @@ struct ViewState {
     int selected = -1;  // object; the one that was focused on last
     AnimationState animation;
     std::optional<FocusPull> pull;
+    std::optional<FocusMarker> marker;
     std::vector<glm::dvec3> focusPoints;  // in the world; fewer than three: the focus plane waits for the rest
 
     // How it is shown.
     DisplaySettings display;
+    bool meters = false;  // the exposure is metered anew whenever the view comes to rest
     Comparison comparison = Comparison::none;
     std::string comparedMethod = "circular";
     FrameBudget budget;
@@ -66,13 +84,17 @@ struct ViewState {
     bool panel = true;
     bool help = false;
     bool dark = true;
-    double interfaceScale = 1;  // on top of the screen's own
-    std::string openPath;       // as typed
+    double interfaceScale = 1;                  // on top of the screen's own
+    std::string openPath;                       // as typed
+    std::vector<std::filesystem::path> recent;  // scenes, the latest first
+    std::vector<SavedView> savedViews;          // of this scene
+    std::string viewName;                       // as typed, for the next
     std::string environmentPath;
     bool environmentOfFile = false;  // one is being chosen
     std::string aperturePath;
     std::string exportPath = "still.png";
     std::optional<glm::ivec2> exportSize;  // px; none: as the view is
+    std::optional<ExportDialog> exportDialog;
     std::string shotPath = "shot.json";
     std::vector<ShotKey> shotKeys;
     std::deque<Message> messages;
@@ -89,10 +111,19 @@ inline double shownExposure(const ViewState& state) {
 struct ViewActions {
     std::optional<std::filesystem::path> open;
     std::optional<std::string> chooseCamera;  // its name; "auto" frames the scene
-    std::optional<Request> changed;           // ViewState::options with other surroundings, aperture image or nodeBlur
+    std::optional<Request> changed;  // ViewState::options with other surroundings, aperture image, nodeBlur or hidden
     bool copyCommand = false;
-    bool exportStill = false;
+    bool openDialog = false;
+    bool askExport = false;    // opens the dialog
+    bool exportStill = false;  // renders it to ViewState::exportPath, whatever is there
     bool cancelExport = false;
+    bool undo = false;
+    bool redo = false;
+    bool resetAll = false;
+    bool toggleFullscreen = false;
+    std::optional<std::string> saveView;  // under this name
+    std::optional<std::size_t> goToView;  // into ViewState::savedViews
+    std::optional<std::size_t> forgetView;
     bool screenshot = false;
     bool recordKey = false;
     bool saveShot = false;

@@ -1,6 +1,9 @@
 #include "view/still_export.h"
 
+#include <limits>
+
 #include "core/file.h"
+#include "core/stopwatch.h"
 #include "frame/render_report.h"
 
 namespace defocus {
@@ -30,10 +33,14 @@ double StillExport::share() const {
     return static_cast<double>(run_->samples()) / run_->sampleTotal();
 }
 
+double StillExport::secondsLeft() const {
+    const double done = share();
+    return done > 0 ? 1e-3 * millisecondsSince(begin_) * (1 - done) / done : std::numeric_limits<double>::infinity();
+}
+
 void StillExport::write() {
     const Image image = renderer_->image();
-    const double milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    const double milliseconds = millisecondsSince(begin_);
     const RenderReport report{request_.options, use_.text(),       *frame_,     run_->plan(),
                               run_->stats(),    request_.software, milliseconds};
     writeImage(request_.output, image, renderMetadata(report), request_.write);

@@ -30,7 +30,8 @@ public:
 
     // One wave of samples, and after the last one the file. False once it is written.
     bool step();
-    [[nodiscard]] double share() const;  // 0 … 1
+    [[nodiscard]] double share() const;        // 0 … 1
+    [[nodiscard]] double secondsLeft() const;  // as so far; infinity before the first wave
     [[nodiscard]] const StillRequest& request() const { return request_; }
 
 private:

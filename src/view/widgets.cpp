@@ -1,11 +1,13 @@
 #include "view/widgets.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "lens/lens_samples.h"
 #include "view/photographic_stops.h"
@@ -38,6 +40,11 @@ float stopPosition(double fStop) {
             return static_cast<float>(static_cast<double>(i - 1) +
                                       std::log(fStop / stops[i - 1]) / std::log(stops[i] / stops[i - 1]));
     return static_cast<float>(stops.size() - 1);
+}
+
+std::map<std::string, ImVec2>& places() {
+    static std::map<std::string, ImVec2> noted;  // as Dear ImGui has one state, too
+    return noted;
 }
 
 struct Depths {
@@ -79,8 +86,21 @@ double limitOfFocus(const FramePlan& plan, double lastDioptre) {
 
 }  // namespace
 
+void notePlace(const std::string& name) {
+    if (!ImGui::IsItemVisible()) return;
+    const ImVec2 least = ImGui::GetItemRectMin();
+    const ImVec2 most = ImGui::GetItemRectMax();
+    places()[name] = {0.5f * (least.x + most.x), 0.5f * (least.y + most.y)};
+}
+
+std::map<std::string, ImVec2> takePlaces() {
+    return std::exchange(places(), {});
+}
+
 bool section(const char* title, bool open) {
-    return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    const bool opened = ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    notePlace(title);
+    return opened;
 }
 
 int combo(const char* id, const std::vector<std::string>& names, const std::string& current) {
@@ -128,7 +148,13 @@ bool stopRing(double& fStop, const InterfaceColors& colors, float scale) {
     const float spacing = 15 * scale;  // px a third of a stop
     const double before = fStop;
 
-    // Drag turns the ring; the wheel and the arrow keys step from stop to stop; a click goes to the stop under it.
+    notePlace("aperture ring");
+
+    // Drag turns the ring; the wheel steps from stop to stop, and doesn't scroll the panel; a click goes to the stop
+    // under it.
+    ImGui::SetItemUsingMouseWheel();
+    if (const float wheel = ImGui::GetIO().MouseWheel; hovered && wheel != 0)
+        fStop = steppedStop(fStop, wheel > 0 ? -1 : 1);
     static float dragged = 0;
     static bool turned = false;
     if (ImGui::IsItemActivated()) {
@@ -167,7 +193,7 @@ bool stopRing(double& fStop, const InterfaceColors& colors, float scale) {
     list.PopClipRect();
     list.AddTriangleFilled({centre - 5 * scale, end.y}, {centre + 5 * scale, end.y}, {centre, end.y - 7 * scale},
                            colors.accent);
-    tooltip("The aperture ring: drag, click, or Shift and the wheel over the picture. [ and ] step.");
+    tooltip("The aperture ring: drag, click, or turn the wheel (with Shift over the picture). [ and ] step.");
     return fStop != before;
 }
 

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,12 @@ void rowLabel(const char* label, const char* tooltip = nullptr);
 void tooltip(const std::string& text);
 // A text field with a button at its right. True when it is pressed, or Enter in the field.
 bool pathRow(const char* id, const char* hint, const char* button, std::string& path);
+
+// Tells where the middle of the widget before it lies, for the state that scripts read (docs/window.md); nothing of one
+// that is scrolled out of sight.
+void notePlace(const std::string& name);
+// Those of the frame, in window units; begins anew.
+std::map<std::string, ImVec2> takePlaces();
 
 // A ring of standard stops to turn (drag, wheel) or click. True when `fStop` was changed.
 bool stopRing(double& fStop, const InterfaceColors& colors, float scale);

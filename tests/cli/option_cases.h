@@ -159,6 +159,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"fieldCurvature", {{"--field-curvature", "2"}, blurred}},
         {"radialBlurGain", {{"--radial-blur-gain", "3"}, blurred}},
         {"nodeBlur", {{"--node-blur", "Board=0"}, nearFocus}},
+        {"hide", {{"--hide", "Board"}, nearFocus}},
         {"apertureImage", {{"--aperture-image", "half.png"}, blurred}},
         {"samples", {{"--samples", "9"}, {}}},
         {"targetError", {{"--target-error", "0.5"}, {"--samples", "256", "--fstop", "0.5"}}},

@@ -38,6 +38,8 @@ def test_values_go_as_the_command_line_has_them():
     assert texts("focus_pixel", (12, 34)) == ["12,34"]
     assert texts("focus_points", ((1, 2), (3, 4), (5, 6))) == ["1,2,3,4,5,6"]
     assert texts("node_blur", {"Fish=3": 0, "Weed": 0.5}) == ["Fish=3=0", "Weed=0.5"]
+    assert texts("hide", ["Board", "Queen, white"]) == ["Board", "Queen, white"]
+    assert texts("hide", "Board") == ["Board"]
 
 
 def test_what_is_given_beside_a_preset_wins():

@@ -50,7 +50,7 @@ TEST_F(ViewInputKeys, flyWhileTheyAreHeld) {
 TEST_F(ViewInputKeys, commandsDontFlyWhicheverKeyIsLetGoFirst) {
     key(key::leftControl, true);
     key('E', true, true);
-    EXPECT_TRUE(actions.exportStill);
+    EXPECT_TRUE(actions.askExport);
     EXPECT_EQ(flown(), 0);
     key(key::leftControl, false, true);
     EXPECT_EQ(flown(), 0);

@@ -52,6 +52,7 @@ inline Request randomOptions(Dice& dice) {
     if (dice.coin()) options.camera = dice.name();
     if (dice.coin()) options.lens.apertureImage = dice.name() + ".png";
     if (dice.coin()) options.nodeBlur = {{dice.name(), dice.number(0, 3)}, {"another", 0}};
+    if (dice.coin()) options.hidden = {dice.name(), "7"};
     if (dice.coin()) options.settings.cocTolerance = dice.number(0.01, 3);
     options.settings.sampleCount = static_cast<std::uint32_t>(dice.whole(1, 4096));
     options.settings.sequence = allSequences[static_cast<std::size_t>(dice.whole(0, 3))];

@@ -180,6 +180,7 @@ void expectSameOptions(const Request& a, const Request& b) {
     EXPECT_EQ(a.camera, b.camera);
     EXPECT_EQ(path(a.lens.apertureImage), b.lens.apertureImage);
     EXPECT_EQ(a.nodeBlur, b.nodeBlur);
+    EXPECT_EQ(a.hidden, b.hidden);
     EXPECT_EQ(a.settings.cocTolerance, b.settings.cocTolerance);
     EXPECT_EQ(a.settings.sampleCount, b.settings.sampleCount);
     EXPECT_EQ(a.settings.sequence, b.settings.sequence);

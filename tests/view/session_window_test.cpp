@@ -43,6 +43,13 @@ protected:
         return reaches(
             [&](const json& s) { return s.at("dark") != dark && s.at("moving") == false && s.at("samples") > 130; });
     }
+    // Asks for a still and takes the name that is proposed.
+    void exportByHand() const {
+        const auto asks = [](const json& s) { return s.at("dialog") == "export"; };
+        ASSERT_TRUE(insists([&] { key("ctrl+e"); }, asks)) << state();
+        const auto goesOn = [](const json& s) { return s.at("dialog") == ""; };
+        ASSERT_TRUE(insists([&] { key("Return"); }, goesOn)) << state();
+    }
     // Types a path into the panel's first row and enters it.
     void openByHand(const std::string& path) const {
         ASSERT_TRUE(insists([&] { click(500, 45); }, [](const json& s) { return s.at("typing") == true; })) << state();
@@ -211,7 +218,7 @@ TEST_F(View, interfaceFollowsTheScreensResolution) {
 
 TEST_F(View, exportedStillIsThatOfTheCommand) {
     openTwoQuads({"--samples", "4", "--fstop", "1.4", "--focus-distance", "4"});
-    key("ctrl+e");
+    exportByHand();
     ASSERT_TRUE(
         reaches([&](const json& s) { return fs::exists(folder() / "still.png") && s.at("exporting") == false; }));
     const std::string command = std::string(DEFOCUS_PROGRAM) + " render '" + (folder() / "quads.gltf").string() +
@@ -228,7 +235,7 @@ TEST_F(View, shutterStaysOpenAtAnotherTime) {
     ASSERT_TRUE(reaches([](const json& s) { return s.at("samples") > 0 && s.at("draft") == false; })) << state();
     key("period");
     ASSERT_TRUE(reaches([](const json& s) { return s.at("time") > 0.51; })) << state();
-    key("ctrl+e");
+    exportByHand();
     ASSERT_TRUE(
         reaches([&](const json& s) { return fs::exists(folder() / "still.png") && s.at("exporting") == false; }));
     const auto rendered = [&](const std::string& name, const std::string& more) {

@@ -78,6 +78,7 @@ protected:
         else
             ::unsetenv("DISPLAY");
         ::setenv("XDG_CONFIG_HOME", (folder_ / "config").c_str(), 1);
+        ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
         ::setenv("XDG_CACHE_HOME", (folder_ / "cache").c_str(), 1);
         const int err = ::open("stderr", O_CREAT | O_TRUNC | O_WRONLY, 0600);
         ::dup2(err, 2);

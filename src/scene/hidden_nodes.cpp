@@ -1,0 +1,63 @@
+#include "scene/hidden_nodes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+#include "scene/posed_mesh.h"
+
+namespace defocus {
+
+namespace {
+
+// Whether the node or one above it is in `hidden`.
+bool isBelow(const Scene& scene, int node, const std::vector<bool>& hidden) {
+    for (; node >= 0; node = scene.nodes[static_cast<std::size_t>(node)].parent)
+        if (hidden[static_cast<std::size_t>(node)]) return true;
+    return false;
+}
+
+// As poseAt (scene/pose.h) measures it: each mesh once.
+Bounds boundsOf(const Scene& scene, const Pose& pose) {
+    Bounds result;
+    std::vector<std::optional<Bounds>> meshBounds(scene.meshes.size());
+    for (const Object& object : pose.objects) {
+        if (object.ground) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(object.mesh)];
+        std::optional<Bounds>& bounds = meshBounds[static_cast<std::size_t>(object.mesh)];
+        if (!bounds) bounds = mesh.bounds();
+        result.extend(posedBounds(mesh, *bounds, object));
+    }
+    return result;
+}
+
+}  // namespace
+
+int nodeCalled(const Scene& scene, const std::string& nameOrNumber) {
+    if (std::ranges::find(scene.nodes, nameOrNumber, &Node::name) != scene.nodes.end())
+        return nodeNamed(scene, nameOrNumber);
+    const std::string_view digits = std::string_view(nameOrNumber).substr(nameOrNumber.starts_with('#') ? 1 : 0);
+    std::size_t number = 0;
+    const auto [stop, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    const bool isNumber = fault == std::errc() && stop == digits.data() + digits.size();
+    return isNumber && number < scene.nodes.size() ? static_cast<int>(number) : nodeNamed(scene, nameOrNumber);
+}
+
+std::string callingOf(const Scene& scene, int node) {
+    const std::string& name = scene.nodes[static_cast<std::size_t>(node)].name;
+    const bool ownName = !name.empty() && std::ranges::count(scene.nodes, name, &Node::name) == 1;
+    if (ownName && nodeCalled(scene, name) == node) return name;
+    const std::string number = std::to_string(node);
+    return nodeCalled(scene, number) == node ? number : '#' + number;
+}
+
+void hideNodes(const Scene& scene, std::span<const std::string> namesOrNumbers, Pose& pose) {
+    if (namesOrNumbers.empty()) return;
+    std::vector<bool> hidden(scene.nodes.size());
+    for (const std::string& text : namesOrNumbers) hidden[static_cast<std::size_t>(nodeCalled(scene, text))] = true;
+    const std::size_t left =
+        std::erase_if(pose.objects, [&](const Object& object) { return isBelow(scene, object.node, hidden); });
+    if (left > 0 && !pose.bounds.empty()) pose.bounds = boundsOf(scene, pose);
+}
+
+}  // namespace defocus
