@@ -18,13 +18,14 @@ namespace {
 
 static_assert(rateBlock == blockSamples);
 
-// As many layers as the memory allows, at most a block; groups take half as many again.
+// As many layers as the memory allows, at most a block; groups take half as many again, each with the shadow maps of
+// several samples.
 std::uint32_t chosenSampleLayers(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
                                  LayerFormat format) {
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} *
                                          static_cast<std::uint32_t>(plan.view.height) * layerPixelBytes(format) *
                                          (plan.usesTransmission ? 2 : 1) +  // with the backdrop
-                                     shadowMapBytes(plan);
+                                     shadowMapBytes(plan) * (2 + mostPointsPerSample(plan.shadows.maps.size())) / 3;
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * 2 / 3;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
