@@ -461,6 +461,6 @@ def lens_levels():
 
 
 TABLES = {"speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
-          "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "pyramids": pyramids, "truth": truth,
+          "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "pyramids": pyramids, "truth": truth, "shadows": shadows,
           "stability": stability, "honesty": honesty, "sequences": sequences, "parts": parts,
           "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_levels}
