@@ -4,8 +4,12 @@
 // differ: PSNR, and by how many px the image is moved or grown. One line of JSON a scene; the exit code is 1 where the
 // first PSNR is below 45 dB.
 //
-//   defocus_truth_bench [--samples 1024] [--size 1024x768] [--sequence sobol] [--foreground-limit 8] [--output FOLDER]
-//   [SCENE.glb …]
+// With --shadows ANGLE the surfaces are matt under one sun of so many degrees instead, which casts shadows: a second
+// pair of images without them tells what they cost each renderer, and what of the error is theirs. There is no limit to
+// the error then: shadow maps have texels.
+//
+//   defocus_truth_bench [--samples 1024] [--size 1024x768] [--sequence sobol] [--foreground-limit 8] [--shadows 5]
+//   [--output FOLDER] [SCENE.glb …]
 //
 // With no scene it compares the fish school.
 
@@ -14,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/error.h"
 #include "embree/embree_renderer.h"
@@ -31,6 +36,7 @@ struct Options {
     std::string size = "1024x768";
     Sequence sequence = RenderSettings{}.sequence;                     // of the rasteriser
     double foregroundLimit = std::numeric_limits<double>::infinity();  // px
+    std::optional<double> shadows;                                     // degrees that the sun measures
     std::string output;
     std::vector<std::string> scenes;
     int width = 0;
@@ -42,21 +48,76 @@ struct Rendered {
     RenderStats stats;
 };
 
-Rendered rendered(const char* method, const TruthScene& truth, const Options& wanted) {
+Rendered rendered(const char* method, const TruthScene& truth, const Options& wanted, Shadows shadows = Shadows::off) {
     RendererOptions options;
     options.layerFormat = LayerFormat::rgba32f;
     const std::unique_ptr<Renderer> renderer = methodNamed(method).make(truth.world, options);
     RenderSettings settings = fullDetailSettings(wanted.samples);
     settings.sequence = wanted.sequence;
+    settings.shadows = shadows;
     settings.cocTolerance = 0.05;  // px; of a limited foreground, whose kink large triangles would miss
     Image image = renderedImage(*renderer, planFrame(truth.world, truth.view, settings));
     return {std::move(image), renderer->stats()};
+}
+
+// The scene's painted colours under a sun from the upper right, behind the camera's shoulder, and nothing else.
+void lightByASun(TruthScene& truth, double degrees) {
+    for (Material& material : truth.scene.materials) {
+        material.unlit = false;
+        material.metallicFactor = 0;
+        material.specularFactor = 0;
+    }
+    PlacedLight sun;
+    sun.light.intensity = 3;
+    sun.light.angularDiameter = static_cast<float>(glm::radians(degrees));
+    sun.direction = glm::normalize(glm::dmat3(truth.view.worldFromCamera) * glm::dvec3(-0.5, -1, -0.6));
+    truth.world.lights = {sun};
+    truth.world.environment.lighting = 0;
+}
+
+// Prints the comparison of one scene's shadows.
+void compareShadows(const std::string& name, const TruthScene& truth, const Options& options) {
+    const Rendered openRaster = rendered("accumulation", truth, options);
+    const Rendered openTraced = rendered("embree", truth, options);
+    const Rendered raster = rendered("accumulation", truth, options, Shadows::on);
+    const Rendered traced = rendered("embree", truth, options, Shadows::on);
+    const Difference difference = compareImages(traced.image, raster.image);
+    const BlockDifference blocks = blockDifference(traced.image, raster.image);
+    const nlohmann::ordered_json line = {
+        {"scene", name},
+        {"width", options.width},
+        {"height", options.height},
+        {"samples", options.samples},
+        {"sunDegrees", *options.shadows},
+        {"psnr", difference.psnr},
+        {"psnrWithoutShadows", compareImages(openTraced.image, openRaster.image).psnr},
+        {"psnrIfLeftOut", compareImages(traced.image, openRaster.image).psnr},
+        {"ssim", difference.ssim},
+        {"flip", difference.flip},
+        {"blockRms", blocks.rms},
+        {"meanDifference", blocks.mean},
+        {"embreeMilliseconds", traced.stats.renderMilliseconds},
+        {"embreeMillisecondsWithoutShadows", openTraced.stats.renderMilliseconds},
+        {"accumulationMilliseconds", raster.stats.renderMilliseconds},
+        {"accumulationMillisecondsWithoutShadows", openRaster.stats.renderMilliseconds},
+        {"device", raster.stats.device}};
+    std::puts(line.dump().c_str());
+    if (options.output.empty()) return;
+    const std::filesystem::path folder(options.output);
+    writeImage(folder / (name + "-embree.png"), traced.image);
+    writeImage(folder / (name + "-accumulation.png"), raster.image);
+    writeImage(folder / (name + "-difference.png"), differenceImage(traced.image, raster.image, 16));
 }
 
 // Prints the comparison; true where it is as good as it must be.
 bool compareScene(const std::string& name, Scene scene, const Options& options) {
     const std::unique_ptr<TruthScene> truth = truthScene(std::move(scene), options.width, options.height);
     truth->view.lens.foregroundLimit = options.foregroundLimit;
+    if (options.shadows) {
+        lightByASun(*truth, *options.shadows);
+        compareShadows(name, *truth, options);
+        return true;
+    }
     const Rendered traced = rendered("embree", *truth, options);
     const Rendered raster = rendered("accumulation", *truth, options);
     const Rendered planned = rendered("embree-planned", *truth, options);
@@ -121,6 +182,8 @@ int main(int argc, char** argv) {
                    "Largest blur in front of the focus, px: a lens of its own before every pixel (Munkberg, Toth and "
                    "Akenine-Möller 2012, Figure 9)")
         ->check(CLI::Range(1e-3, 1e6));
+    app.add_option("--shadows", options.shadows, "Light by one sun of so many degrees instead, and compare its shadows")
+        ->check(CLI::Range(0.0, 90.0));
     app.add_option("--output", options.output, "folder for images and differences")->check(CLI::ExistingDirectory);
     app.add_option("SCENE", options.scenes, "glTF files; none: the fish school");
     CLI11_PARSE(app, argc, argv);

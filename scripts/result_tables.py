@@ -331,6 +331,19 @@ def truth():
         "scene with painted light, camera, lens, number of samples", "llvmpipe-truth.txt")
 
 
+def shadows():
+    scenes = [json.loads(line) for line in lines_of("shadows") if line.startswith("{")]
+    def seconds(scene, renderer):
+        with_shadows, without = (scene[f"{renderer}Milliseconds{end}"] / 1000 for end in ("", "WithoutShadows"))
+        return f"{without:.1f} → {with_shadows:.1f} s"
+    rows = [[scene["scene"], f"{scene['psnr']:.1f} dB", f"{scene['psnrWithoutShadows']:.1f} dB", f"{scene['psnrIfLeftOut']:.1f} dB",
+             f"{scene['flip']:.4f}", seconds(scene, "accumulation"), seconds(scene, "embree")] for scene in scenes]
+    return table(["scene", "PSNR", "without shadows", "if only the ray tracer has them", "FLIP", "accumulation, without → with",
+                  "ray tracer, without → with"], rows) + source(
+        "defocus_truth_bench --shadows 5 --samples 64 --size 512x384 [SCENE …]",
+        "scene with matt colours under one sun of 5°, camera, lens, number of samples", "llvmpipe-shadows.txt")
+
+
 def stability():
     results = results_of("stability")
     areas = {}
@@ -448,6 +461,6 @@ def lens_levels():
 
 
 TABLES = {"speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
-          "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "pyramids": pyramids, "truth": truth,
+          "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "pyramids": pyramids, "truth": truth, "shadows": shadows,
           "stability": stability, "honesty": honesty, "sequences": sequences, "parts": parts,
           "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_levels}

@@ -101,7 +101,9 @@ void TracedScene::addObject(const World& world, const Object& object, const glm:
         geometry.normals = &normals_.emplace_back(posedNormals(mesh, object));
     else
         geometry.worldNormalFromObject = glm::mat3(glm::inverseTranspose(glm::dmat3(object.worldFromObject)));
-    geometry.worldFromCamera = glm::mat3(glm::inverse(cameraFromWorld));
+    const glm::dmat4 worldFromCamera = glm::inverse(cameraFromWorld);
+    geometry.worldFromCamera = glm::mat3(worldFromCamera);
+    geometry.camera = glm::dvec3(worldFromCamera[3]);
     geometry.facing = mirrors(objectPose(object, glm::dmat4(1))) ? -1.0f : 1.0f;
     for (const Primitive& primitive : mesh.primitives) {
         if (primitive.indices.empty()) continue;
@@ -152,7 +154,7 @@ void TracedScene::trace(const LaneMask& mask, float farthest, RTCRayHit16& packe
     rtcIntersect16(back.values.data(), scene_, &context, &packet);
 }
 
-bool TracedScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float nearest) const {
+bool TracedScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float farthest) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay ray{};
@@ -162,8 +164,8 @@ bool TracedScene::occluded(const glm::vec3& origin, const glm::vec3& direction, 
     ray.dir_x = direction.x;
     ray.dir_y = direction.y;
     ray.dir_z = direction.z;
-    ray.tnear = nearest;
-    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.tnear = 0;
+    ray.tfar = farthest;
     ray.mask = ~0u;
     rtcOccluded1(scene_, &context, &ray);
     return ray.tfar < 0;

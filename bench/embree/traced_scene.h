@@ -28,6 +28,7 @@ struct TracedGeometry {
     const Material* material = nullptr;
     glm::mat3 worldNormalFromObject{1.0f};  // not normalised
     glm::mat3 worldFromCamera{1.0f};        // of directions
+    glm::dvec3 camera{0.0};                 // its place in the world, m
     float facing = 1;                       // −1 where the transform mirrors, so that front faces are clockwise
 };
 
@@ -46,8 +47,9 @@ public:
     // Nearest hits of camera-space rays, from tnear to `farthest`, of the lanes in `mask`; the others stay as they are.
     // Called from any number of threads.
     void trace(const LaneMask& mask, float farthest, RTCRayHit16& packet) const;
-    // Does anything lie between `nearest` and infinity along a camera-space ray? Called from any number of threads.
-    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float nearest) const;
+    // Does anything lie along a camera-space ray, as far as `farthest` times its direction? Called from any number of
+    // threads.
+    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float farthest) const;
     [[nodiscard]] const TracedGeometry& geometry(std::uint32_t id) const { return geometries_[id]; }
     [[nodiscard]] std::uint32_t geometryCount() const { return static_cast<std::uint32_t>(geometries_.size()); }
     [[nodiscard]] std::uint64_t triangleCount() const { return triangleCount_; }

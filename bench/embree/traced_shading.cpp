@@ -1,4 +1,5 @@
-// Lambert 1760; sRGB decoding by IEC 61966-2-1. A lux on a white Lambert surface gives 1/π cd/m² (KHR_lights_punctual).
+// Lambert 1760; sRGB decoding by IEC 61966-2-1; lights by KHR_lights_punctual: a lux on a white Lambert surface gives
+// 1/π cd/m². Points on their disks by Shirley and Chiu 1997, A Low Distortion Map Between Disk and Square.
 
 #include "embree/traced_shading.h"
 
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 namespace defocus {
@@ -104,24 +106,72 @@ glm::vec3 shadingNormal(const TracedGeometry& geometry, const Corners& corners, 
     return length > 0 ? front * ((behind > 0 ? -1.0f : 1.0f) / length) : glm::vec3(0);
 }
 
-// Does something stand between the hit and the point of the light's disk?
-bool hidden(const PlacedLight& placed, const TracedGeometry& geometry, const SurfaceHit& hit,
-            const ShadowRays& shadows) {
-    // Polar coordinates of a uniform disk across the way to the light.
-    const glm::vec3 toMiddle = -glm::vec3(placed.direction);
-    const glm::vec3 aside =
-        glm::normalize(glm::cross(toMiddle, std::abs(toMiddle.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1)));
-    const float radius = std::tan(0.5f * placed.light.angularDiameter) * std::sqrt(shadows.lightPoint.x);
-    const float angle = 2 * std::numbers::pi_v<float> * shadows.lightPoint.y;
-    const glm::vec3 toPoint =
-        toMiddle + radius * (std::cos(angle) * aside + std::sin(angle) * glm::cross(toMiddle, aside));
+// From the square [0, 1)² to the unit disk, square ring by square ring.
+glm::vec2 onDisk(const glm::vec2& place) {
+    const float a = 2 * place.x - 1;
+    const float b = 2 * place.y - 1;
+    const float ring = std::max(std::abs(a), std::abs(b));
+    if (!(ring > 0)) return glm::vec2(0);
+    constexpr float eighth = std::numbers::pi_v<float> / 4;
+    float angle = 0;  // from the first axis; each side of the ring is a quarter turn
+    if (std::abs(a) > std::abs(b))
+        angle = a > 0 ? eighth * b / a : eighth * (4 + b / a);
+    else
+        angle = b > 0 ? eighth * (2 - a / b) : eighth * (6 - a / b);
+    return {ring * std::cos(angle), ring * std::sin(angle)};
+}
 
-    // From just above the facet, on the side that is seen.
+// What a light throws on a place (world, from the scene's origin) without obstacles, in lux across its direction.
+struct Incoming {
+    glm::vec3 illuminance{0.0f};
+    glm::vec3 toMiddle{0.0f};  // unit
+    float distance = 0;        // to the middle, m; 0: infinitely far
+};
+
+Incoming incomingAt(const PlacedLight& placed, const glm::dvec3& place) {
+    const Light& light = placed.light;
+    const glm::vec3 power = light.color * light.intensity;
+    if (light.type == LightType::directional) return {power, -glm::vec3(placed.direction), 0};
+    const glm::dvec3 offset = placed.position - place;
+    Incoming incoming;
+    incoming.distance = static_cast<float>(glm::length(offset));
+    if (!(incoming.distance > 0)) return incoming;
+    incoming.toMiddle = glm::vec3(offset / double{incoming.distance});
+    float share = 1 / (incoming.distance * incoming.distance);
+    if (light.range > 0) share *= std::clamp(1 - std::pow(incoming.distance / light.range, 4.0f), 0.0f, 1.0f);
+    if (light.type == LightType::spot) {
+        const float inner = std::cos(light.innerConeAngle);
+        const float outer = std::cos(light.outerConeAngle);
+        const float cosine = -glm::dot(glm::vec3(placed.direction), incoming.toMiddle);
+        const float cone = std::clamp((cosine - outer) / std::max(inner - outer, 1e-4f), 0.0f, 1.0f);
+        share *= cone * cone;
+    }
+    incoming.illuminance = power * share;
+    return incoming;
+}
+
+// Does something stand between the hit and the point of the light's disk, which faces the place that it shines on?
+bool hidden(const PlacedLight& placed, const Incoming& incoming, const TracedGeometry& geometry, const SurfaceHit& hit,
+            const ShadowRays& shadows) {
+    // The disk's axes, by the convention of the plan's points: the second is the light's own up.
+    const glm::vec3 front = incoming.toMiddle;
+    const glm::vec3 up = std::abs(front.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::vec3 right = glm::normalize(glm::cross(up, front));
+    const glm::vec2 at = onDisk(shadows.lightPoint);
+    const bool far = placed.light.type == LightType::directional;
+    const float radius = far ? std::tan(0.5f * placed.light.angularDiameter) : placed.light.radius;
+    const glm::vec3 aside = radius * (at.x * right + at.y * glm::cross(front, right));
+    const glm::vec3 toPoint = (far ? front : incoming.distance * front) + aside;
+
+    // From just above the facet, on the side that is seen. Nothing as near as the lamp is large hides it: it may be the
+    // lamp's own glass.
     const glm::vec3 place = hit.origin + hit.distance * hit.direction;
     const glm::vec3 facet = glm::normalize(hit.facet);
     const float lift = 1e-5f * std::max(1.0f, glm::length(place));
     const glm::vec3 above = place + (glm::dot(facet, hit.direction) > 0 ? -lift : lift) * facet;
-    return shadows.scene->occluded(above, glm::transpose(geometry.worldFromCamera) * toPoint, 0);
+    const glm::vec3 direction = glm::transpose(geometry.worldFromCamera) * toPoint;
+    const float reach = far ? std::numeric_limits<float>::infinity() : 1 - 2 * radius / glm::length(toPoint);
+    return reach > 0 && shadows.scene->occluded(above, direction, reach);
 }
 
 }  // namespace
@@ -135,11 +185,14 @@ glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, co
     const glm::vec3 normal = shadingNormal(geometry, corners, hit);
     const glm::vec3 albedo = base * (1 - geometry.material->metallicFactor) / std::numbers::pi_v<float>;
     glm::vec3 radiance = geometry.material->emissiveFactor;
+    const glm::dvec3 place =
+        geometry.camera + glm::dmat3(geometry.worldFromCamera) * glm::dvec3(hit.origin + hit.distance * hit.direction);
     for (const PlacedLight& light : world.lights) {
-        if (light.light.type != LightType::directional) continue;
-        const float cosine = std::max(0.0f, -glm::dot(normal, glm::vec3(light.direction)));
-        if (!(cosine > 0) || (shadows.scene != nullptr && hidden(light, geometry, hit, shadows))) continue;
-        radiance += albedo * light.light.color * light.light.intensity * cosine;
+        const Incoming incoming = incomingAt(light, place);
+        const float cosine = glm::dot(normal, incoming.toMiddle);
+        if (!(cosine > 0)) continue;
+        if (shadows.scene != nullptr && hidden(light, incoming, geometry, hit, shadows)) continue;
+        radiance += albedo * incoming.illuminance * cosine;
     }
     return radiance;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What a single ray sees of a surface: unlit surfaces, Lambert under the directional lights of the scene, with or
-// without shadows (nothing from the environment). What packets see, packet_shading.h.
+// What a single ray sees of a surface: unlit surfaces, Lambert under the lights of the scene, with or without shadows
+// (nothing from the environment). What packets see, packet_shading.h.
 
 #include <cstdint>
 

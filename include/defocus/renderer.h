@@ -81,7 +81,8 @@ public:
     // file is a PNG or JPEG. A metered exposure is that of the first image that is written.
     void write(const std::filesystem::path& path, const ImageView& image) const;
     // What is worth knowing of the file, the request and the frame that was started, a line each: damage, what isn't
-    // drawn, values that aren't used, a lens that blurs nothing, samples too few for the blur.
+    // drawn, values that aren't used, a lens that blurs nothing, samples too few for the blur, and that most of the PNG
+    // or JPEG that was written last is white or black.
     [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] SceneHandle scene() const;
 

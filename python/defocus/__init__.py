@@ -206,6 +206,7 @@ class Renderer:
         """Writes an image of this renderer's frame with its metadata; a PNG or JPEG is exposed and tone-mapped as the
         settings say."""
         self._native.write(path, _pixels(image))
+        self._warn()
 
     def close(self) -> None:
         self._native.close()

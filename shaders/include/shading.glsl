@@ -85,46 +85,52 @@ float slopeSpread(SurfacePoint point) {
 // Slopes that follow GGX of width α, each of them spread once more by a normal distribution of variance σ². Where the spread is the
 // wider of the two the sum is close to Beckmann's distribution, but far out, where that has nothing, it is what GGX was. With the
 // share 2σ² / (α² + 2σ²) of Beckmann's and the rest of GGX, both of width² α² + 2σ², it keeps all of GGX's tail, α²/(π tan⁴).
+//
+// What shines within the spread has the normal h, and is seen: those normals are of places in the pixel, or of level 0, which don't mask
+// each other as microfacets do. So masking is that of α, and for the spread's share the cosines are those of h, both v·h.
 struct Lobe {
+    float width;          // α
     float alpha;          // √(α² + 2σ²)
-    float beckmann;       // its share
+    float spread;         // its share, which is Beckmann's
 };
 
 Lobe lobeOf(SurfacePoint point, float spread) {
     float width = point.roughness * point.roughness;
     float alpha2 = clamp(width * width + spread, 1e-6, 1.0);
-    return Lobe(sqrt(alpha2), min(spread / alpha2, 1.0));
+    return Lobe(width, sqrt(alpha2), min(spread / alpha2, 1.0));
 }
 
 // One light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is known through its cosines
 // only: |l + v|² = 2 + 2 l·v, (n·h)² = (n·l + n·v)² / |l + v|², (v·h)² = |l + v|² / 4.
 void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec3 toLight, vec3 illuminance) {
     float cosine = dot(point.normal, toLight);
-    float nl = max(cosine, 0.0);
     float sum2 = max(2.0 + 2.0 * dot(toLight, point.toEye), 1e-6);
-    float cosines = max(nl + nv, 0.0);
+    float vh = 0.5 * sqrt(sum2);
+    float cosines = max(cosine + nv, 0.0);
     float cosines2 = cosines * cosines;
     float alpha2 = lobe.alpha * lobe.alpha;
     float base = max(cosines2 * (alpha2 - 1.0) + sum2, alpha2 * sum2);  // (n·h)² ≤ 1
-    float masking = max(mix(2.0 * nl * nv, cosines, lobe.alpha), 1e-4);
     float ggx = alpha2 / (base * base);
-    float away = max(cosines2, 1e-4);  // not along the surface
+    float away = max(cosines2, 1e-4 * sum2);  // not along the surface
     float beckmann = exp(-max(sum2 - away, 0.0) / (away * alpha2)) / (alpha2 * away * away);
-    float distribution = sum2 * sum2 * mix(ggx, beckmann, lobe.beckmann);
-    float specular = nv > 0.0 ? 0.5 * distribution / masking : 0.0;  // an averted normal reflects nothing
-    float g = 1.0 - 0.5 * sqrt(sum2);
+    float distribution = sum2 * sum2 * mix(ggx, beckmann, lobe.spread);
+    float shownL = max(mix(cosine, vh, lobe.spread), 0.0);   // of the normals that shine
+    float shownV = max(mix(nv, vh, lobe.spread), 0.0);       // averted ones reflect nothing
+    float masking = max(mix(2.0 * shownL * shownV, shownL + shownV, lobe.width), 1e-4);
+    float specular = shownV > 0.0 ? 0.5 * shownL * distribution / masking : 0.0;
+    float g = 1.0 - vh;
     float g2 = g * g;
     g = g2 * g2 * g;
 #ifdef COARSE_LEVEL
     float matt = meanCosine(cosine, point.agreement);
 #else
-    float matt = nl;
+    float matt = max(cosine, 0.0);
 #endif
     sums.diffuse += illuminance * (matt * (1.0 - g));
 #ifdef OWN_REFLECTANCE
     sums.matt += illuminance * matt;
 #endif
-    vec3 received = illuminance * (nl * specular);
+    vec3 received = illuminance * specular;
     sums.specular += received;
     sums.grazing += received * g;
 }

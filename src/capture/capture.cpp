@@ -250,6 +250,8 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
         ++figures.rendered;
         figures.renderMilliseconds += drawn->times.renderMilliseconds;
         figures.triangles += drawn->stats.trianglesDrawn;
+        if (figures.rendered == 1 && options.firstDrawn && !options.sampleRange)
+            options.firstDrawn(drawn->image, film.write);
         writer.add([drawn, &film, &options] { writeFrame(film, *drawn, options); });
     }
     writer.finish();

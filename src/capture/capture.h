@@ -42,6 +42,8 @@ struct FilmOptions {
     FilmSettings settings;                   // all but the encoding
     std::filesystem::path timings;           // the sidecar
     bool resume = false;                     // keep what is finished
+    // Gets the image of the first frame that is drawn whole, and how its pictures are written.
+    std::function<void(const Image&, const WriteOptions&)> firstDrawn;
 };
 
 // "frames/timings.jsonl", or of shard 2 of 8 "frames/timings.2-of-8.jsonl".

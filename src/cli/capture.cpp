@@ -27,9 +27,11 @@
 #include "core/message.h"
 #include "core/stopwatch.h"
 #include "frame/exposure.h"
+#include "frame/picture_warnings.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
+#include "frame/unused_settings.h"
 #include "gl/context.h"
 #include "render/methods.h"
 
@@ -151,6 +153,7 @@ void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepare
     prepared.world.pose = frame.pose;
     prepared.world.shutter = frame.shutter;
     const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
+    printWarnings(unusedSettings(arguments.request, *prepared.scene, frame.view.lens), global);
     printWarnings(planWarnings(plan, method), global);
 }
 
@@ -252,6 +255,16 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (arguments.dryRun) return printPlan(arguments, prepared, base, film);
     if (meters) meterFilm(arguments, prepared, base, film, global);
     progress = terminalProgress(global);
+    const auto hasCurve = [](const std::string& pattern) {
+        const std::string ending = fs::path(pattern).extension().string();
+        return ending != ".exr" && ending != ".EXR";
+    };
+    if (!shot.video.empty() || std::ranges::any_of(shot.outputs, hasCurve))
+        options.firstDrawn = [&](const Image& image, const WriteOptions& write) {
+            progress = {};  // the line of the progress makes room
+            printWarnings(clippingWarnings(image, write), global);
+            progress = terminalProgress(global);
+        };
     FilmFigures figures;
     figures.finishedBefore = static_cast<int>(film.size());
     if (!allThere) figures = renderFrames(arguments, prepared, base, film, options, use, global, progress);

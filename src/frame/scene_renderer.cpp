@@ -8,6 +8,7 @@
 #include "defocus/renderer.h"
 #include "frame/exposure.h"
 #include "frame/memory_budget.h"
+#include "frame/picture_warnings.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
@@ -90,7 +91,8 @@ private:
     std::array<std::vector<Pyramid>, pyramidKinds> otherPyramids_;  // that frames before had; the frame's own is empty
     double loadMilliseconds_ = 0;
     double pyramidMilliseconds_ = 0;
-    std::optional<double> metered_;  // EV, by the first image that was written and needed it
+    std::optional<double> metered_;     // EV, by the first image that was written and needed it
+    std::vector<std::string> clipped_;  // what is to be said of the 8-bit picture that was written last
     std::unique_ptr<GlContext> context_;
     std::unique_ptr<Renderer> renderer_;  // of the frame that was started; null: none was
     std::optional<FrameRun> run_;         // with the renderer
@@ -252,6 +254,7 @@ std::vector<std::string> SceneRenderer::State::warnings() const {
     add(ignoredWarnings(*frame_.scene));
     add(unusedSettings(request_, *frame_.scene, frame_.view.lens));
     if (run_) add(planWarnings(run_->plan(), *chosenMethod(request_).method));
+    add(clipped_);
     return lines;
 }
 
@@ -270,7 +273,10 @@ void SceneRenderer::State::write(const std::filesystem::path& path, const ImageV
     if (meters) metered_ = exposure;
     const RenderReport report{request_,      chosenMethod(request_).text(), frame_, run_->plan(),
                               run_->stats(), context_->software(),          0,      exposure};
-    writeImage(path, image, renderMetadata(report), WriteOptions{request_.toneMap, exposure});
+    const WriteOptions options{request_.toneMap, exposure};
+    writeImage(path, image, renderMetadata(report), options);
+    const std::string ending = path.extension().string();
+    if (ending != ".exr" && ending != ".EXR") clipped_ = clippingWarnings(image, options);
 }
 
 // ---- the public class -------------------------------------------------------------------------------------------

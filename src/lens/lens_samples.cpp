@@ -217,8 +217,12 @@ LensSample lensSample(const Aperture& aperture, Sequence sequence, std::uint64_t
     const SequencePoint point = sequencePoint(sequence, index, seed);
     const glm::vec2 pixel(belowOne(point.pixel.x), belowOne(point.pixel.y));
     const glm::vec2 light(belowOne(point.light.x), belowOne(point.light.y));
-    return {glm::vec2(apertureSample(aperture, point.lens)), pixel - 0.5f, belowOne(point.time), belowOne(point.band),
-            light};
+    return {glm::vec2(apertureSample(aperture, point.lens)),
+            pixel - 0.5f,
+            belowOne(point.time),
+            belowOne(point.band),
+            light,
+            static_cast<std::uint32_t>(index)};
 }
 
 std::vector<LensSample> lensSamples(const Lens& lens, Sequence sequence, std::uint64_t first, std::uint32_t count,

@@ -38,11 +38,12 @@ SequencePoint sequencePoint(Sequence sequence, std::uint64_t index, std::uint32_
 double radicalInverse(std::uint32_t base, std::uint64_t index);
 
 struct LensSample {
-    glm::vec2 lens{0.0f};   // (u, v) in the unit disk; +u right, +v up
-    glm::vec2 pixel{0.0f};  // offset from the pixel centre in px, each in [−0.5, 0.5); +x right, +y up
-    float time = 0.5f;      // [0, 1): from the shutter's opening to its closing
-    float band = 0.5f;      // [0, 1): place in the chromatic band, from red to blue
-    glm::vec2 light{0.5f};  // each in [0, 1): the point of every light (plan/shadows.h) from which shadows fall
+    glm::vec2 lens{0.0f};     // (u, v) in the unit disk; +u right, +v up
+    glm::vec2 pixel{0.0f};    // offset from the pixel centre in px, each in [−0.5, 0.5); +x right, +y up
+    float time = 0.5f;        // [0, 1): from the shutter's opening to its closing
+    float band = 0.5f;        // [0, 1): place in the chromatic band, from red to blue
+    glm::vec2 light{0.5f};    // each in [0, 1): the point of every light (plan/shadows.h) from which shadows fall
+    std::uint32_t index = 0;  // in the sequence
 };
 
 // Sample `index` of a sequence. With seed 0 the first is the middle of pixel, time and band, and the lens's centre

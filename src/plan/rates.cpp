@@ -8,6 +8,7 @@
 #include "plan/contact.h"
 #include "plan/lens_groups.h"
 #include "plan/sample_range.h"
+#include "plan/shadows.h"
 
 namespace defocus {
 
@@ -191,6 +192,9 @@ RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint3
     for (std::size_t i = 0; i < count; ++i) block.samples.samples[i].pixel = block.groups.samples[i / size].pixel;
     block.groups.moments.clear();
     block.groups.objects.clear();
+    // A group's image stands for all of its samples, with their points on the lights.
+    ShadowPlan& shadows = block.groups.shadows;
+    shadows.points = std::min(shadows.points * size, mostPointsPerSample(shadows.maps.size()));
     const std::vector<ObjectPlan> objects = std::exchange(block.samples.objects, {});
     for (std::size_t i = 0; i < objects.size(); ++i)
         divideObject(objects[i], sharedGroups(rates.objects[i].lensShare, block), block);

@@ -19,11 +19,12 @@ namespace {
 
 constexpr int leastMapSize = 128;  // px
 constexpr int mostMapSize = 2048;
-constexpr double leastShare = 0.01;       // of all light at the scene's middle: what casts a shadow
-constexpr double widestTangent = 3;       // half the field of view of one map
-constexpr double levelErrorTexels = 0.5;  // by which a caster's level may be off
-constexpr std::size_t mostBoxes = 64;     // that bound the casters one by one
-constexpr double nearShare = 1e-4;        // near plane of lights amid the scene, of its size
+constexpr double leastShare = 0.01;         // of all light at the scene's middle: what casts a shadow
+constexpr double widestTangent = 3;         // half the field of view of one map
+constexpr double levelErrorTexels = 0.5;    // by which a caster's level may be off
+constexpr std::size_t mostBoxes = 64;       // that bound the casters one by one
+constexpr double nearShare = 1e-4;          // near plane of lights amid the scene, of its size
+constexpr std::uint32_t smoothPoints = 64;  // on a light, of whose steps the eye sees little
 
 const glm::dvec3 luminanceWeights(0.2126, 0.7152, 0.0722);
 
@@ -147,6 +148,14 @@ std::vector<ShadowMap> chosenMaps(std::vector<Candidate> found) {
         for (int face = 0; face < one.faces; ++face)
             maps.push_back({.light = one.light, .face = one.faces > 1 ? face : -1});
     return maps;
+}
+
+// Of one sample on each light: a penumbra has as many steps as there are points, so that few samples take several. It
+// follows from how many samples the frame has by the end of this plan, which for whole blocks is enough.
+std::uint32_t pointsFor(const RenderSettings& settings, std::size_t maps) {
+    const std::uint64_t samples = std::uint64_t{settings.firstSample} + settings.sampleCount;
+    const std::uint64_t wanted = (smoothPoints + samples - 1) / std::max<std::uint64_t>(samples, 1);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(wanted, mostPointsPerSample(maps)));
 }
 
 // ---- projections
@@ -276,12 +285,19 @@ ShadowProjection localProjection(const FramePlan& plan, const PlacedLight& place
     return projection;
 }
 
-glm::dvec2 lightPoint(const LensSample& sample, std::uint32_t point, std::uint32_t points) {
-    if (points == 1) return glm::dvec2(sample.light);
-    return glm::fract(glm::dvec2(sample.light) + sequencePoint(Sequence::sobol, point, 0).light - 0.5);
+// Those of one sample follow each other in the sequence, so that those of all samples are as evenly spread as so many
+// samples' would be.
+glm::dvec2 lightPoint(const FramePlan& plan, const LensSample& sample, std::uint32_t point) {
+    if (plan.shadows.points == 1) return glm::dvec2(sample.light);
+    const std::uint64_t index = std::uint64_t{sample.index} * plan.shadows.points + point;
+    return sequencePoint(plan.settings.sequence, index, plan.settings.seed).light;
 }
 
 }  // namespace
+
+std::uint32_t mostPointsPerSample(std::size_t maps) {
+    return static_cast<std::uint32_t>(std::max<std::size_t>(mostShadowMaps / std::max<std::size_t>(maps, 1), 1));
+}
 
 glm::dvec2 diskPoint(const glm::dvec2& point) {
     const glm::dvec2 at = 2.0 * point - 1.0;
@@ -406,6 +422,7 @@ ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vec
         map.lightSize = light.type == LightType::directional ? light.angularDiameter : light.radius;
     }
     if (shadows.maps.empty()) return {};
+    shadows.points = pointsFor(plan.settings, shadows.maps.size());
     shadows.seen = seenCorners(plan);
 
     // As many texels across the scene as the image has pixels, and levels that they can't tell from full detail.
@@ -431,7 +448,7 @@ std::vector<ShadowProjection> shadowProjections(const World& world, const FrameP
     projections.reserve(plan.samples.size() * plan.shadows.points * plan.shadows.maps.size());
     for (const LensSample& sample : plan.samples)
         for (std::uint32_t point = 0; point < plan.shadows.points; ++point) {
-            const glm::dvec2 place = lightPoint(sample, point, plan.shadows.points);
+            const glm::dvec2 place = lightPoint(plan, sample, point);
             const glm::dvec2 onDisk = diskPoint(place);
             const glm::dvec2 shift = texelShift(sample, point);
             for (const ShadowMap& map : plan.shadows.maps) {

@@ -15,8 +15,9 @@
 
 namespace defocus {
 
-inline constexpr int surroundings = -1;           // as a light
-inline constexpr std::size_t mostShadowMaps = 8;  // a sample; weaker lights cast no shadow
+inline constexpr int surroundings = -1;  // as a light
+// A sample: weaker lights cast no shadow. What they leave is for several points on each light, where samples are few.
+inline constexpr std::size_t mostShadowMaps = 8;
 
 // Directions to the surroundings, the brighter the more often: of an equirectangular grid, cell by cell.
 class EnvironmentDirections {
@@ -47,7 +48,10 @@ struct ShadowProjection {
     glm::vec3 radiance{0.0f};  // of the surroundings, as EnvironmentDirections has it, over π
 };
 
-// Chooses lights, size and casters. `objects`: all of the world's, as the plan places them, drawn or not.
+// On each light, without more maps a sample than `mostShadowMaps`; `maps`: one of each light's.
+std::uint32_t mostPointsPerSample(std::size_t maps);
+
+// Chooses lights, points, size and casters. `objects`: all of the world's, as the plan places them, drawn or not.
 ShadowPlan planShadows(const World& world, const FramePlan& plan, const std::vector<ObjectPlan>& objects);
 
 // Those of all samples of the plan: plan.shadows.points of each, of each all maps.

@@ -120,12 +120,13 @@ std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
                        lights);
 }
 
-// Variance in px², along each axis, of the places in a pixel that one sample stands for, in block b of all samples: the
-// whole pixel's 1/12 in the first block, and its share after. It depends on the sample's number alone, so that blocks
-// add up to the image that is drawn at once, and vanishes as samples grow, so that highlights converge to what the
-// surface reflects.
+// Variance in px², along each axis, of the places that one sample stands for, in block b of all samples. In the first
+// block it is that of a normal distribution as wide as half a pixel: a glint that is smaller than a pixel is spread
+// over its neighbours, too, so that few samples make no single white pixels. After that it is its share. It depends on
+// the sample's number alone, so that blocks add up to the image that is drawn at once, and vanishes as samples grow, so
+// that highlights converge to what the surface reflects.
 float placesVariance(std::uint32_t block) {
-    return 1 / (12 * (static_cast<float>(block) + 1));
+    return 1 / (4 * (static_cast<float>(block) + 1));
 }
 
 // Values of a block start where any driver lets a buffer be bound: a vec4 in every 256 bytes.

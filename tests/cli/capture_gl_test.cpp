@@ -176,6 +176,23 @@ TEST_F(Capture, sampleSeedIsTheSameInEachFrameUnlessAskedFor) {
     EXPECT_NE(pixels("a0.exr"), pixels("a1.exr"));
 }
 
+TEST_F(Capture, warnsOfOptionsThatDoNothingAndOfClippedPictures) {
+    const auto warned = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"capture", "shot.json", "--range", "0"});
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return outcome.err;
+    };
+    const auto says = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
+    const std::string unused = warned({"--lod", "off", "--size-threshold", "2"});
+    EXPECT_TRUE(says(unused, "warning: --size-threshold does nothing: with --lod off")) << unused;
+    EXPECT_FALSE(says(unused, "of the picture is")) << unused;
+    const std::string black = warned({"--exposure", "-20", "-o", "black/####.png"});
+    EXPECT_TRUE(says(black, "of the picture is black at an exposure of -20 EV")) << black;
+    EXPECT_EQ(warned({"--exposure", "-20", "-o", "black/####.png", "--quiet"}), "");
+    EXPECT_FALSE(says(warned({"--exposure", "-20", "-o", "linear/####.exr"}), "of the picture is"));
+}
+
 TEST_F(Capture, dryRunPrintsAndWritesNothing) {
     const Outcome outcome = run({"capture", "shot.json", "--dry-run"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;

@@ -204,6 +204,14 @@ def test_warnings_are_python_s_and_come_once(meshes, tmp_path):
         assert len(messages) == len(set(messages)) and set(messages) == set(renderer.warnings)
 
 
+def test_a_clipped_picture_is_warned_of(meshes, tmp_path):
+    with defocus.Renderer(meshes / "staircase.gltf", size=(16, 12), samples=1, exposure=-20) as renderer:
+        image = renderer.render()
+        renderer.write(tmp_path / "linear.exr", image)
+        with pytest.warns(UserWarning, match="of the picture is black"):
+            renderer.write(tmp_path / "black.png", image)
+
+
 def test_names_of_files_may_hold_anything(meshes, small, tmp_path):
     odd = tmp_path / "späť ❤ a b.gltf"
     shutil.copy(meshes / "staircase.gltf", odd)

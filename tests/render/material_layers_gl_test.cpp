@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/lit_wall.h"
+#include "render/sheen_equations.h"
 
 namespace defocus {
 namespace {
@@ -118,26 +119,6 @@ TEST_F(MaterialLayers, whiteLayersOnWhiteThrowBackAllOfTheLight) {
 }
 
 // ---- sheen --------------------------------------------------------------------------------------
-
-// Estevez and Kulla 2017, as KHR_materials_sheen prints it.
-double sheenLambda(double cosine, double alpha) {
-    const auto l = [&](double x) {
-        const double t = (1 - alpha) * (1 - alpha);
-        const auto between = [&](double rough, double smooth) { return rough + (smooth - rough) * t; };
-        const double a = between(21.5473, 25.3245), b = between(3.82987, 3.32435), c = between(0.19823, 0.16801);
-        const double d = between(-1.97760, -1.27393), e = between(-4.32054, -4.85967);
-        return a / (1 + b * std::pow(x, c)) + d * x + e;
-    };
-    return cosine < 0.5 ? std::exp(l(cosine)) : std::exp(2 * l(0.5) - l(1 - cosine));
-}
-
-double sheenOf(double nl, double nv, double nh, double roughness) {
-    const double alpha = roughness * roughness;
-    const double sine = std::sqrt(std::max(1 - nh * nh, 0.0));
-    const double distribution = (2 + 1 / alpha) * std::pow(sine, 1 / alpha) / (2 * std::numbers::pi);
-    const double visibility = 1 / ((1 + sheenLambda(nv, alpha) + sheenLambda(nl, alpha)) * 4 * nv * nl);
-    return distribution * std::min(visibility, 1.0);
-}
 
 // ∫ D·V·(n·l) dl over the hemisphere, by the midpoint rule in √(n·l) and the azimuth.
 double sheenAlbedo(double nv, double roughness) {

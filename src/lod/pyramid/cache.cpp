@@ -141,8 +141,8 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
     });
 
     result.pyramids.resize(meshes.size());
-    std::mutex mutex;  // of `result` but for the pyramids, and of `done`
-    std::uint64_t done = 0;
+    PyramidProgress steps(meshes, progress);
+    std::mutex mutex;  // of `result` but for the pyramids
     const auto stillStoring = [&] {
         const std::scoped_lock lock(mutex);
         return result.failure.empty();
@@ -154,14 +154,16 @@ CachedPyramids cachedPyramids(const std::vector<Mesh>& meshes, const fs::path& f
         const PyramidKey key = worthIt ? pyramidKey(mesh, options) : PyramidKey{};
         std::optional<Pyramid> loaded = worthIt ? load(mesh, folder, key) : std::nullopt;
         const bool found = loaded.has_value();
-        pyramid = found ? std::move(*loaded) : buildPyramid(mesh, options, pyramidHelpers(mesh, triangles));
+        pyramid = found ? std::move(*loaded)
+                        : buildPyramid(mesh, options, pyramidHelpers(mesh, triangles),
+                                       [&](double share) { steps.reached(order[i], share); });
         const std::string failure =
             worthIt && !found && stillStoring() ? tryToStore(pyramid, mesh, folder, key) : std::string();
 
+        steps.reached(order[i], 1);
         const std::scoped_lock lock(mutex);
         if (found) ++result.loaded;
         if (result.failure.empty()) result.failure = failure;
-        report(progress, "pyramids", ++done, meshes.size());
     });
     return result;
 }

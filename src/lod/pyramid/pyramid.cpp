@@ -229,7 +229,14 @@ std::vector<double> vertexShares(LevelVertices vertices) {
     return vertices == LevelVertices::quarters ? std::vector{0.75, 0.5} : std::vector<double>();
 }
 
-Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {
+// Of the work, about: on one core collapses take half of it.
+constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
+
+Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
+              const std::function<void(double)>& step) {
+    const auto reach = [&](double share) {
+        if (step) step(share);
+    };
     // Join equal vertices; weld the positions of the rest.
     WeldedVertices unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
@@ -263,8 +270,9 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         Tasks tasks(helpers);
         simplification =
             simplify(vertices, positions, smoothing, levels[0].triangles,
-                     {options.leastTriangles, options.mostLevels - 1, fits, vertexShares(options.vertices)}, tasks,
-                     [&](std::uint32_t l, SimplifiedLevel level) {
+                     {options.leastTriangles, options.mostLevels - 1, fits, vertexShares(options.vertices),
+                      [&](double lost) { reach(shareOfCollapses * lost); }},
+                     tasks, [&](std::uint32_t l, SimplifiedLevel level) {
                          if (fits) std::call_once(prepared, prepare);
                          coarser[l] = fits ? fitted(*source, std::move(level)) : surviving(vertices, std::move(level));
                      });
@@ -273,6 +281,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         coarser.resize(simplification.levelCount);
         std::move(coarser.begin(), coarser.end(), std::back_inserter(levels));
     }
+    reach(shareUntilFitted);
     if (mesh.triangleCount() >= fewestToGiveBack) giveBackFreedMemory();
     pyramid.repairedFaces = simplification.repairedFaces;
     pyramid.end = simplification.end;
@@ -288,6 +297,7 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         for (std::size_t l = 1; l < levels.size(); ++l) tasks.add([&, l] { measure(levels[l], surface, diagonal); });
         tasks.wait();
     }
+    reach(shareUntilMeasured);
     {
         Tasks tasks(helpers);
         tasks.add([&] {
@@ -297,6 +307,8 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         for (std::size_t l = 1; l < levels.size(); ++l) tasks.add([&, l] { cluster(levels[l], positions); });
         tasks.wait();
     }
+
+    reach(shareUntilClustered);
 
     // Order vertices by survival.
     std::vector<TriangleSet<MeshVertexNumber>> triangles;
@@ -383,8 +395,26 @@ const char* levelVerticesName(LevelVertices vertices) {
     return "";
 }
 
-Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers) {
-    return build(mesh, options, helpers);
+Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
+                     const std::function<void(double)>& step) {
+    return build(mesh, options, helpers, step);
+}
+
+PyramidProgress::PyramidProgress(const std::vector<Mesh>& meshes, const Progress& progress)
+    : meshes_(meshes),
+      progress_(progress),
+      shares_(meshes.size(), 0),
+      total_(static_cast<double>(trianglesOf(meshes) + meshes.size())) {}
+
+void PyramidProgress::reached(std::size_t mesh, double share) {
+    if (!progress_) return;
+    const std::scoped_lock lock(mutex_);
+    reached_ += (share - shares_[mesh]) * static_cast<double>(meshes_[mesh].triangleCount() + 1);
+    finished_ += share >= 1 && shares_[mesh] < 1 ? 1 : 0;
+    shares_[mesh] = share;
+    constexpr std::uint64_t steps = 1000;
+    const auto done = static_cast<std::uint64_t>(steps * reached_ / total_);
+    report(progress_, "pyramids", finished_ == shares_.size() ? steps : std::min(done, steps - 1), steps);
 }
 
 std::uint64_t trianglesOf(std::span<const Mesh> meshes) {
@@ -411,12 +441,12 @@ std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const Pyrami
 
     const std::uint64_t all = trianglesOf(meshes);
     std::vector<Pyramid> pyramids(meshes.size());
-    std::mutex mutex;
-    std::uint64_t done = 0;
+    PyramidProgress steps(meshes, progress);
     parallelFor(meshes.size(), [&](std::size_t i) {
-        pyramids[order[i]] = build(meshes[order[i]], options, pyramidHelpers(meshes[order[i]], all));
-        const std::scoped_lock lock(mutex);
-        report(progress, "pyramids", ++done, meshes.size());
+        const std::size_t mesh = order[i];
+        pyramids[mesh] = build(meshes[mesh], options, pyramidHelpers(meshes[mesh], all),
+                               [&](double share) { steps.reached(mesh, share); });
+        steps.reached(mesh, 1);
     });
     return pyramids;
 }
@@ -424,7 +454,7 @@ std::vector<Pyramid> buildPyramids(const std::vector<Mesh>& meshes, const Pyrami
 Pyramid fullDetail(const Mesh& mesh) {
     PyramidOptions options;
     options.mostLevels = 1;
-    return build(mesh, options, 0);
+    return build(mesh, options, 0, {});
 }
 
 }  // namespace defocus

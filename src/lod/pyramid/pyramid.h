@@ -10,7 +10,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -106,8 +108,28 @@ const char* levelVerticesName(LevelVertices vertices);  // as the command line h
 
 // Builds a mesh's pyramid. Deterministic: same mesh, same pyramid, bit for bit. Level 0 keeps every triangle of the
 // mesh. Levels end where a further one would save less than a quarter of the triangles. Throws Error for an index
-// beyond the vertices. `helpers`: threads that fit and measure levels while the caller's goes on collapsing.
-Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0);
+// beyond the vertices. `helpers`: threads that fit and measure levels while the caller's goes on collapsing. `step`
+// gets the share of the work that is done, [0, 1], in steps of a hundredth or so, on the caller's thread.
+Pyramid buildPyramid(const Mesh& mesh, const PyramidOptions& options = {}, std::size_t helpers = 0,
+                     const std::function<void(double)>& step = {});
+
+// Sums up how far several pyramids are, by their triangles, and reports it; from any thread.
+class PyramidProgress {
+public:
+    // Both must outlive it.
+    PyramidProgress(const std::vector<Mesh>& meshes, const Progress& progress);
+    // Of mesh `mesh` this share is done, [0, 1].
+    void reached(std::size_t mesh, double share);
+
+private:
+    const std::vector<Mesh>& meshes_;
+    const Progress& progress_;
+    std::mutex mutex_;
+    std::vector<double> shares_;
+    std::size_t finished_ = 0;
+    double total_ = 0;    // triangles, and one a mesh
+    double reached_ = 0;  // of these
+};
 
 // Returns how many triangles the meshes have together.
 std::uint64_t trianglesOf(std::span<const Mesh> meshes);

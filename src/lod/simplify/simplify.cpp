@@ -17,6 +17,7 @@ namespace {
 
 // A poor collapse is made when good ones cost this much more.
 constexpr float poorPenalty = 10;
+constexpr std::size_t leastFacesToReport = 1000;  // fewer are gone before anyone looks
 // Up to this many faces every collapse is known at its cost at any time; coarse levels are what one sees best.
 constexpr std::size_t mostFacesToFollow = 8192;
 // Down to this many faces collapses are made in sweeps.
@@ -118,8 +119,14 @@ void requeueAround(Simplifier& s, VertexHandle survivor) {
     });
 }
 
+void reportLoss(Simplifier& s) {
+    s.facesAtReport = s.liveFaces - std::min(s.liveFaces, std::max(s.firstFaces / 100, leastFacesToReport));
+    s.lost(1 - static_cast<double>(s.liveFaces) / static_cast<double>(s.firstFaces));
+}
+
 void loseFace(Simplifier& s, VertexHandle v) {
     --s.liveFaces;
+    if (s.liveFaces < s.facesAtReport) reportLoss(s);
     if (s.components.empty()) return;
     Component& component = s.componentAt(v);
     --component.faces;
@@ -312,6 +319,10 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
     Simplifier s;
     prepareSimplifier(s, vertices, positions, smoothing, triangles);
     result.repairedFaces = s.repairedFaces;
+    if (options.lost) {
+        s.lost = options.lost;
+        s.firstFaces = s.facesAtReport = s.liveFaces;
+    }
 
     const auto takePicture = [&] {
         compact(s);

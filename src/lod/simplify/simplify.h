@@ -37,6 +37,8 @@ struct SimplifyOptions {
     // Instead of halving: how much of the mesh's vertices each level keeps, shrinking; vertices at one position are
     // one.
     std::vector<double> vertexShares = {};
+    // Gets the share of the triangles that are gone, [0, 1], again and again, on the thread of the call; may be empty.
+    std::function<void(double)> lost = {};
 };
 
 struct Ball {

@@ -2,6 +2,7 @@
 // The state of simplify() while it collapses edges. Private to this folder.
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -49,6 +50,9 @@ struct Simplifier {
     CollapseQueue queue;
     bool queued = false;  // vertices wait in it
     std::size_t liveFaces = 0;
+    std::size_t firstFaces = 0;  // of which `lost` gets the share that is lost, in steps of a hundredth
+    std::size_t facesAtReport = 0;
+    std::function<void(double)> lost;
     std::uint32_t repairedFaces = 0;
 
     std::vector<MeshVertexNumber> twins;  // see Simplification

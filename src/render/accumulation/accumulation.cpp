@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "gl/timer.h"
 #include "plan/sample_range.h"
+#include "plan/shadows.h"
 #include "render/accumulation/layer_sum.h"
 #include "render/accumulation/shared_images.h"
 #include "render/frame_clock.h"
@@ -20,14 +21,17 @@ namespace defocus {
 
 namespace {
 
-// As many layers as the memory allows, at most a block. What samples share takes at most half as much again.
+// As many layers as the memory allows, at most a block. What samples share takes at most half as many again, each with
+// the shadow maps of several samples.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          bool shares) {
     const LayerWindow window = layerWindow(plan);
+    const std::uint64_t shadowBytes =
+        shares ? shadowMapBytes(plan) * (2 + mostPointsPerSample(plan.shadows.maps.size())) / 3 : shadowMapBytes(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
                                          (plan.usesTransmission ? 2 : 1) +  // with the backdrop
-                                     shadowMapBytes(plan);
+                                     shadowBytes;
     const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * (shares ? 2 : 3) / 3;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));

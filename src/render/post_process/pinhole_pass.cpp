@@ -39,8 +39,7 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
     pinholes.trianglesDrawn = 0;
     pinholes.moments.clear();
     pinholes.shadows.points = lightPoints;
-    for (std::uint32_t i = 0; i < count; ++i)
-        pinholes.samples[i].light = glm::vec2(sequencePoint(Sequence::sobol, std::uint64_t{i} * lightPoints, 0).light);
+    for (std::uint32_t i = 0; i < count; ++i) pinholes.samples[i].index = i;
     for (ObjectPlan& object : pinholes.objects) {
         object.motion.clear();
         const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];

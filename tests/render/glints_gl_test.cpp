@@ -1,0 +1,123 @@
+// Glints of a glossy surface that are far smaller than a pixel: few samples make no single white pixels of them, and
+// the light that they send is what many samples say without the filter that spreads them.
+
+#include <gtest/gtest.h>
+
+#include "gl/context.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class Glints : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+private:
+    static inline std::unique_ptr<GlContext> context_;
+};
+
+// About 40 px across, with a ripple every 5 to 10 px.
+std::unique_ptr<SmallWorld> rippledBall(float roughness, float metallic) {
+    auto small = std::make_unique<SmallWorld>();
+    Material glossy;
+    glossy.baseColorFactor = metallic > 0 ? glm::vec4(0.8f, 0.8f, 0.8f, 1) : glm::vec4(0.02f, 0.02f, 0.02f, 1);
+    glossy.metallicFactor = metallic;
+    glossy.roughnessFactor = roughness;
+    small->scene.materials.push_back(glossy);
+    small->scene.meshes.push_back(bumpySphere(112, 88, 0));
+    small->scene.meshes.back().vertices.colors.clear();
+    place(*small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4)));
+    small->world.environment.type = EnvironmentType::none;
+    small->view.width = 64;
+    small->view.height = 48;
+    small->view.lens.dofEnabled = false;
+    small->world.pyramids = {fullDetail(small->scene.meshes[0])};
+    return small;
+}
+
+PlacedLight sun(const glm::dvec3& direction, float intensity) {
+    PlacedLight placed;
+    placed.light.intensity = intensity;
+    placed.direction = glm::normalize(direction);
+    return placed;
+}
+
+// Suns all around, evenly on a spiral from pole to pole (Vogel 1979), other ones for each `set`. One alone would say
+// more of where the ripples' caustics lie than of the light that they send.
+std::vector<PlacedLight> sunsAllAround(std::uint32_t set) {
+    constexpr int count = 60;
+    std::vector<PlacedLight> suns;
+    for (int i = 0; i < count; ++i) {
+        const double height = 1 - 2 * (i + radicalInverse(2, set)) / count;
+        const double azimuth = 2 * std::numbers::pi * ((2 - std::numbers::phi) * i + radicalInverse(3, set));
+        const double radius = std::sqrt(1 - height * height);
+        suns.push_back(sun({radius * std::cos(azimuth), height, radius * std::sin(azimuth)}, 0.5f));
+    }
+    return suns;
+}
+
+// `filtered`: as the first samples of a frame are; else as those after a million, which spread no glint.
+Image ballImage(const SmallWorld& small, std::uint32_t samples, bool filtered) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.firstSample = filtered ? 0 : 1u << 20;
+    settings.keepAll = true;
+    settings.lod = LodMode::off;
+    return imageInFloats(small.world, planFrame(small.world, small.view, settings));
+}
+
+double meanOf(const Image& image) {
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) sum += static_cast<double>(image.at(x, y)[0]);
+    return sum / (static_cast<double>(image.width) * image.height);
+}
+
+// How many times its brightest neighbour the worst pixel is; neighbours count as a dark grey at least.
+double worstPixel(const Image& image) {
+    double worst = 0;
+    for (int y = 1; y + 1 < image.height; ++y)
+        for (int x = 1; x + 1 < image.width; ++x) {
+            float brightest = 0.05f;
+            for (int row = y - 1; row <= y + 1; ++row)
+                for (int column = x - 1; column <= x + 1; ++column)
+                    if (row != y || column != x) brightest = std::max(brightest, image.at(column, row)[0]);
+            worst = std::max<double>(worst, image.at(x, y)[0] / brightest);
+        }
+    return worst;
+}
+
+TEST_F(Glints, fewSamplesMakeNoSingleWhitePixels) {
+    double unfiltered = 0;
+    for (const float metallic : {0.0f, 1.0f})
+        for (const float roughness : {0.05f, 0.2f})
+            for (const glm::dvec3& way : {glm::dvec3(1, -0.3, -0.2), glm::dvec3(-0.3, -0.8, -1)}) {
+                const auto small = rippledBall(roughness, metallic);
+                small->world.lights = {sun(way, 3)};
+                for (const std::uint32_t samples : {16u, 64u})
+                    EXPECT_LT(worstPixel(ballImage(*small, samples, true)), 3.5)
+                        << roughness << ' ' << metallic << ' ' << way.x << ' ' << samples;
+                unfiltered = std::max(unfiltered, worstPixel(ballImage(*small, 16, false)));
+            }
+    EXPECT_GT(unfiltered, 100) << "so many times as bright as its neighbours, or nothing is tested";
+}
+
+TEST_F(Glints, spreadingThemKeepsTheirLight) {
+    for (const float metallic : {0.0f, 1.0f})
+        for (const float roughness : {0.3f, 0.5f}) {
+            const auto small = rippledBall(roughness, metallic);
+            double few = 0, many = 0;
+            for (std::uint32_t set = 0; set < 4; ++set) {
+                small->world.lights = sunsAllAround(set);
+                few += meanOf(ballImage(*small, 16, true));
+                many += meanOf(ballImage(*small, 64, false));
+            }
+            EXPECT_NEAR(few, many, 0.02 * many) << roughness << ' ' << metallic << ' ' << few / many - 1;
+        }
+}
+
+}  // namespace
+}  // namespace defocus

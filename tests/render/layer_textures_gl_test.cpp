@@ -1,0 +1,203 @@
+// Textures of the KHR_materials extensions, slot by slot: which channel counts, how it is decoded, and that it scales
+// its factor, by pixels against the value that the texel gives.
+
+#include <gtest/gtest.h>
+
+#include "render/sheen_equations.h"
+#include "render/textured_wall.h"
+
+namespace defocus {
+namespace {
+
+using LayerTextures = LitWall;
+
+// Nothing of its own: black, and without reflections.
+Material blackMaterial() {
+    Material result;
+    result.baseColorFactor = {0, 0, 0, 1};
+    result.metallicFactor = 0;
+    result.specularFactor = 0;
+    return result;
+}
+
+std::unique_ptr<SmallWorld> texturedWall(const Material& material, TextureUse Material::*slot) {
+    auto small = litWall(material);
+    (small->scene.materials[0].*slot).texture = addTexture(small->scene, 4, scrambled);
+    return small;
+}
+
+// Of a decoded texel, from the driver's decoding.
+glm::dvec3 relativeErrors(const Texel& texel) {
+    return decodingErrors(texel) / decoded(texel);
+}
+
+// A wall whose material is `materialOf` the texel, lit by two suns, must show what `surfaceOf` the texel says.
+void expectSurface(const Material& material, TextureUse Material::*slot,
+                   const std::function<GltfSurface(const Texel&)>& surfaceOf, bool isColor = false) {
+    const auto small = texturedWall(material, slot);
+    small->world.lights = {sunFrom(fromWall(*small, {0.4, -0.2, -1}), 3), sunFrom(fromWall(*small, {-2, 0.5, -1}), 5)};
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        const GltfSurface surface = surfaceOf(texel);
+        const glm::dvec3 expected = litRadiance(surface, point, point.normal, small->world.lights);
+        const glm::dvec3 relative =
+            2e-5 + 1e-6 / std::pow(surface.roughness, 4) + (isColor ? relativeErrors(texel) : glm::dvec3(0));
+        expectRadiance(image, point, expected, relative * glm::max(expected, glm::dvec3(0.05)));
+    });
+}
+
+// ---- transmission and volume
+
+// A white sky that lights nothing, seen through the wall.
+void lightFromBehind(SmallWorld& small) {
+    small.world.environment.zenith = glm::vec3(1);
+    small.world.environment.lighting = 0;
+}
+
+TEST_F(LayerTextures, redOfTransmissionLetsThrough) {
+    Material glass = blackMaterial();
+    glass.baseColorFactor = {1, 0.5f, 0.25f, 1};
+    glass.roughnessFactor = 0;
+    glass.transmissionFactor = 0.8f;
+    const auto small = texturedWall(glass, &Material::transmission);
+    lightFromBehind(*small);
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        expectRadiance(image, point, 0.8 * texel[0] / 255 * glm::dvec3(1, 0.5, 0.25), glm::dvec3(1e-5));
+    });
+}
+
+// Beer and Lambert: c^(d/D).
+TEST_F(LayerTextures, greenOfThicknessAbsorbs) {
+    Material glass = blackMaterial();
+    glass.baseColorFactor = glm::vec4(1);
+    glass.roughnessFactor = 0;
+    glass.transmissionFactor = 1;
+    glass.thicknessFactor = 0.6f;
+    glass.attenuationColor = {0.5f, 0.25f, 0.75f};
+    glass.attenuationDistance = 0.5f;
+    const auto small = texturedWall(glass, &Material::thickness);
+    lightFromBehind(*small);
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        const double thickness = 0.6 * texel[1] / 255;
+        expectRadiance(image, point, glm::pow(glm::dvec3(0.5, 0.25, 0.75), glm::dvec3(thickness / 0.5)),
+                       glm::dvec3(1e-5));
+    });
+}
+
+// ---- reflectance
+
+Material glossyMaterial() {
+    Material result;
+    result.baseColorFactor = {0.2f, 0.1f, 0.3f, 1};
+    result.metallicFactor = 0;
+    result.roughnessFactor = 0.4f;
+    result.specularFactor = 0.7f;
+    result.ior = 2;  // reflects 1/9
+    return result;
+}
+
+TEST_F(LayerTextures, alphaOfSpecularScalesTheReflectance) {
+    expectSurface(glossyMaterial(), &Material::specular, [](const Texel& texel) {
+        const double share = 0.7 * texel[3] / 255;
+        return GltfSurface{{0.2, 0.1, 0.3}, 0, 0.4, glm::dvec3(share / 9), share};
+    });
+}
+
+TEST_F(LayerTextures, specularColourIsDecodedAndScaled) {
+    Material glossy = glossyMaterial();
+    glossy.baseColorFactor = {0, 0, 0, 1};  // so that the strongest channel, of the reflectance or of the light, is one
+    glossy.specularColorFactor = {1, 0.5f, 2};
+    expectSurface(
+        glossy, &Material::specularColor,
+        [](const Texel& texel) {
+            const glm::dvec3 colored = glm::min(decoded(texel) * glm::dvec3(1, 0.5, 2) / 9.0, glm::dvec3(1));
+            return GltfSurface{glm::dvec3(0), 0, 0.4, 0.7 * colored, 0.7};
+        },
+        true);
+}
+
+// ---- coat
+
+Material coatedMaterial() {
+    Material result = blackMaterial();
+    result.clearcoatFactor = 0.8f;
+    result.clearcoatRoughnessFactor = 0.3f;
+    return result;
+}
+
+TEST_F(LayerTextures, redOfClearcoatIsTheCoatedShare) {
+    const auto small = texturedWall(coatedMaterial(), &Material::clearcoat);
+    small->world.lights = {sunFrom(fromWall(*small, {0.3, -0.4, -1}), 3)};
+    const GltfSurface coat{glm::dvec3(0), 0, 0.3};
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        const glm::dvec3 whole = litRadiance(coat, point, point.normal, small->world.lights);
+        expectLitRadiance(image, point, 0.8 * texel[0] / 255 * whole, 0.3);
+    });
+}
+
+TEST_F(LayerTextures, greenOfClearcoatRoughnessIsRoughness) {
+    Material coated = coatedMaterial();
+    coated.clearcoatFactor = 1;
+    coated.clearcoatRoughnessFactor = 0.9f;
+    expectSurface(coated, &Material::clearcoatRoughness, [](const Texel& texel) {
+        return GltfSurface{glm::dvec3(0), 0, 0.9 * texel[1] / 255};
+    });
+}
+
+TEST_F(LayerTextures, theClearcoatNormalTiltsTheCoat) {
+    Material coated = coatedMaterial();
+    coated.clearcoatFactor = 1;
+    coated.clearcoatRoughnessFactor = 0.6f;
+    coated.clearcoatNormalScale = 0.4f;
+    const auto small = litWall(coated);
+    const auto tilted = [](int column, int row) {
+        const Texel texel = scrambled(column, row);
+        return Texel{texel[0], texel[1], 220, 255};
+    };
+    small->scene.materials[0].clearcoatNormal.texture = addTexture(small->scene, 4, tilted);
+    small->world.lights = {sunFrom(fromWall(*small, {0.3, -0.4, -1}), 3)};
+    const GltfSurface coat{glm::dvec3(0), 0, 0.6};
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        const glm::dvec3 local(0.4 * (2 * texel[0] / 255.0 - 1), 0.4 * (2 * texel[1] / 255.0 - 1), 2 * 220 / 255.0 - 1);
+        const glm::dvec3 normal = fromWall(*small, glm::normalize(local));
+        expectLitRadiance(image, point, litRadiance(coat, point, normal, small->world.lights), 0.6);
+    });
+}
+
+// ---- sheen
+
+// Cloth whose sheen is `sheenOf` the texel: its colour, its roughness.
+void expectSheen(const Material& cloth, TextureUse Material::*slot,
+                 const std::function<std::pair<glm::dvec3, double>(const Texel&)>& sheenOfTexel, bool isColor = false) {
+    const auto small = texturedWall(cloth, slot);
+    small->world.lights = {sunFrom(fromWall(*small, {1.5, -0.4, -1}), 4)};
+    const glm::dvec3 toLight = -glm::normalize(small->world.lights[0].direction);
+    forTexels(*small, asTheyAre, [&](const Image& image, const WallPoint& point, const Texel& texel) {
+        const auto& [color, roughness] = sheenOfTexel(texel);
+        const double nl = glm::dot(point.normal, toLight), nv = glm::dot(point.normal, point.toEye);
+        const double nh = glm::dot(point.normal, glm::normalize(toLight + point.toEye));
+        const glm::dvec3 expected = 4 * nl * sheenOf(nl, nv, nh, roughness) * color;
+        const glm::dvec3 relative = 0.001 + (isColor ? relativeErrors(texel) : glm::dvec3(0));
+        expectRadiance(image, point, expected, relative * expected + 1e-5);
+    });
+}
+
+TEST_F(LayerTextures, sheenColourIsDecodedAndScaled) {
+    Material cloth = blackMaterial();
+    cloth.sheenColorFactor = {0.5f, 1, 0.25f};
+    cloth.sheenRoughnessFactor = 0.5f;
+    expectSheen(
+        cloth, &Material::sheenColor,
+        [](const Texel& texel) { return std::pair(glm::dvec3(0.5, 1, 0.25) * decoded(texel), 0.5); }, true);
+}
+
+TEST_F(LayerTextures, alphaOfSheenRoughnessIsRoughness) {
+    Material cloth = blackMaterial();
+    cloth.sheenColorFactor = {0.5f, 1, 0.25f};
+    cloth.sheenRoughnessFactor = 0.9f;
+    expectSheen(cloth, &Material::sheenRoughness, [](const Texel& texel) {
+        return std::pair(glm::dvec3(0.5, 1, 0.25), std::max(0.9 * texel[3] / 255, 0.1));
+    });
+}
+
+}  // namespace
+}  // namespace defocus
