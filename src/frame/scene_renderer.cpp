@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/memory_limits.h"
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "defocus/renderer.h"
@@ -12,12 +13,15 @@
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "frame/scene_scale.h"
+#include "frame/tiled_frame.h"
 #include "frame/unused_settings.h"
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "plan/plan_text.h"
 #include "render/aov/aov.h"
 #include "render/frame_run.h"
+#include "render/layer_format.h"
+#include "render/tile_walk.h"
 #include "scene/ground.h"
 
 namespace defocus {
@@ -47,6 +51,48 @@ std::size_t pyramidKind(const Request& request) {
     return 1 + static_cast<std::size_t>(request.settings.levelVertices);
 }
 
+// A frame that is drawn in tiles, from the top, into a picture that is kept in main memory.
+struct TiledPicture {
+    TiledPicture(Renderer& renderer, FramePlan frame, std::vector<Band> rows)
+        : plan(std::move(frame)),
+          bands(std::move(rows)),
+          image(plan.view.width, plan.view.height, 4),
+          walk(renderer, plan, bands, [this](const Tile& tile, Image&& pixels) { placeTile(image, 0, tile, pixels); }) {
+    }
+    TiledPicture(const TiledPicture&) = delete;
+    TiledPicture& operator=(const TiledPicture&) = delete;
+
+    [[nodiscard]] std::uint32_t sampleTotal() const { return static_cast<std::uint32_t>(plan.samples.size()); }
+    // Of the picture as a whole.
+    [[nodiscard]] std::uint32_t samples() const {
+        return static_cast<std::uint32_t>(sampleTotal() * walk.rowsDone() / plan.view.height);
+    }
+    [[nodiscard]] RenderStats stats() const {
+        RenderStats stats = walk.stats();
+        stats.samples = samples();
+        return stats;
+    }
+
+    FramePlan plan;
+    std::vector<Band> bands;
+    Image image;  // what isn't drawn yet is nothing: black, of no coverage
+    TileWalk walk;
+};
+
+// Of a picture that is drawn in tiles, bytes a pixel in main memory: as it is kept, handed out, and encoded.
+constexpr std::uint64_t keptPixelBytes = 16 + 16 + 16;
+
+// Whether any frame of this size fits into the memory in one piece: there is no need to look at its plan.
+bool surelyFits(const Request& request, std::uint64_t limit) {
+    const std::uint64_t pixel = 2 * layerPixelBytes(LayerFormat::rgba32f) + sumPixelBytes + wholePixelBytes;
+    const std::uint64_t pixels = std::uint64_t(request.width) * std::uint64_t(request.height);
+    const std::uint64_t held = residentMemory();
+    const Shadows shadows = request.settings.shadows;
+    const bool maps = shadows == Shadows::on || (shadows == Shadows::automatic && request.ground);
+    const bool oneCell = cellsOf(request.width, request.height).size() == 1;
+    return oneCell && !maps && limit > held && pixels * pixel <= limit - held;
+}
+
 }  // namespace
 
 class SceneRenderer::State {
@@ -59,8 +105,12 @@ public:
 
     void start(const Request& request, const Progress& progress);
     bool advance();
-    [[nodiscard]] std::uint32_t samples() const { return renderer_ ? renderer_->samples() : 0; }
-    [[nodiscard]] std::uint32_t sampleTotal() const { return run_ ? run_->sampleTotal() : 0; }
+    [[nodiscard]] std::uint32_t samples() const {
+        return tiled_ ? tiled_->samples() : renderer_ ? renderer_->samples() : 0;
+    }
+    [[nodiscard]] std::uint32_t sampleTotal() const {
+        return tiled_ ? tiled_->sampleTotal() : run_ ? run_->sampleTotal() : 0;
+    }
     [[nodiscard]] Image image();
     [[nodiscard]] RenderStatistics statistics() const;
     [[nodiscard]] Aovs aovs();
@@ -82,6 +132,9 @@ private:
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
     void makeRenderer();
     void dropRenderer();
+    void startTiles();
+    [[nodiscard]] const FramePlan& plan() const { return tiled_ ? tiled_->plan : run_->plan(); }
+    [[nodiscard]] RenderStats stats() const { return tiled_ ? tiled_->stats() : run_->stats(); }
 
     bool named_;  // the scene, by the request
     Request first_, request_;
@@ -92,8 +145,9 @@ private:
     double pyramidMilliseconds_ = 0;
     std::optional<double> metered_;  // EV, by the first image that was written and needed it
     std::unique_ptr<GlContext> context_;
-    std::unique_ptr<Renderer> renderer_;  // of the frame that was started; null: none was
-    std::optional<FrameRun> run_;         // with the renderer
+    std::unique_ptr<Renderer> renderer_;   // of the frame that was started; null: none was
+    std::optional<FrameRun> run_;          // with the renderer
+    std::unique_ptr<TiledPicture> tiled_;  // of a frame that doesn't fit into memory in one piece
 };
 
 // Faults first: values, scene, lens, device; only then the long work.
@@ -168,8 +222,24 @@ void SceneRenderer::State::makeRenderer() {
 }
 
 void SceneRenderer::State::dropRenderer() {
+    tiled_.reset();
     run_.reset();
     renderer_.reset();
+}
+
+// Where the frame doesn't fit into memory in one piece, begins to draw it in tiles.
+void SceneRenderer::State::startTiles() {
+    tiled_.reset();
+    const std::uint64_t limit = memoryLimit(request_);
+    if (surelyFits(request_, limit)) return;
+    FramePlan plan = planFrame(frame_.world, frame_.view, frame_.settings);
+    if (!mustDrawInTiles(frame_.world, plan, request_, *chosenMethod(request_).method, limit)) return;
+    plan = planOfTiles(frame_.world, frame_.view, runSettings(frame_, request_));
+    TilingNeeds needs = measuredNeeds(frame_.world, plan, request_, *renderer_, limit);
+    needs.keptBytes = std::uint64_t(request_.width) * std::uint64_t(request_.height) * keptPixelBytes;
+    Tiling tiling = chosenTiling(needs);
+    renderer_->setWave(tiling.wave);
+    tiled_ = std::make_unique<TiledPicture>(*renderer_, std::move(plan), std::move(tiling.bands));
 }
 
 void SceneRenderer::State::start(const Request& request, const Progress& progress) {
@@ -199,7 +269,11 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
     frame_ = std::move(next);
     request_ = std::move(asked);
     try {
+        const bool inTilesBefore = tiled_ != nullptr;
         if (!renderer_) makeRenderer();
+        startTiles();
+        if (tiled_) return;
+        if (inTilesBefore) renderer_->setWave(0);
         run_->start(frame_.view, runSettings(frame_, request_), request_.stop);
     } catch (...) {
         dropRenderer();
@@ -210,14 +284,14 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
 bool SceneRenderer::State::advance() {
     checkStarted();
     const InContext use(*context_);
-    return run_->advance();
+    return tiled_ ? tiled_->walk.advance() : run_->advance();
 }
 
 Image SceneRenderer::State::image() {
     checkStarted();
     if (samples() == 0) fail("the image has no sample yet; call advance() first");
     const InContext use(*context_);
-    return renderer_->image();
+    return tiled_ ? tiled_->image : renderer_->image();
 }
 
 RenderStatistics SceneRenderer::State::statistics() const {
@@ -227,12 +301,12 @@ RenderStatistics SceneRenderer::State::statistics() const {
     statistics.device = context_->device();
     if (!renderer_) return statistics;
     const InContext use(*context_);
-    const RenderStats stats = run_->stats();
+    const RenderStats stats = this->stats();
     statistics.samples = stats.samples;
     statistics.setupMilliseconds = stats.setupMilliseconds;
     statistics.renderMilliseconds = stats.renderMilliseconds;
     statistics.trianglesDrawn = stats.trianglesDrawn;
-    statistics.trianglesAtFullDetail = run_->plan().trianglesAtFullDetail;
+    statistics.trianglesAtFullDetail = plan().trianglesAtFullDetail;
     statistics.stopped = stats.stopped;
     statistics.estimatedError = stats.estimatedError;
     statistics.gpuBytes = stats.peakBytes;
@@ -241,8 +315,9 @@ RenderStatistics SceneRenderer::State::statistics() const {
 
 Aovs SceneRenderer::State::aovs() {
     checkStarted();
+    if (tiled_) fail("the image is drawn in tiles, as it doesn't fit into memory, and AOVs show the whole image");
     const InContext use(*context_);
-    AovImages images = renderAovs(frame_.world, run_->plan());
+    AovImages images = renderAovs(frame_.world, plan());
     return {std::move(images.depth), std::move(images.coc), std::move(images.level)};
 }
 
@@ -251,13 +326,14 @@ std::vector<std::string> SceneRenderer::State::warnings() const {
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(ignoredWarnings(*frame_.scene));
     add(unusedSettings(request_, *frame_.scene, frame_.view.lens));
-    if (run_) add(planWarnings(run_->plan(), *chosenMethod(request_).method));
+    if (renderer_) add(planWarnings(plan(), *chosenMethod(request_).method));
+    if (tiled_) add(tiledSamplesNote(plan(), isAutomatic(request_)));
     return lines;
 }
 
 std::string SceneRenderer::State::planText() const {
     checkStarted();
-    return defocus::planJson(run_->plan());
+    return defocus::planJson(plan());
 }
 
 void SceneRenderer::State::write(const std::filesystem::path& path, const ImageView& image) {
@@ -268,8 +344,8 @@ void SceneRenderer::State::write(const std::filesystem::path& path, const ImageV
     const double exposure =
         meters && metered_ ? *metered_ : chosenExposure(request_, frame_.world, frame_.view, frame_.settings);
     if (meters) metered_ = exposure;
-    const RenderReport report{request_,      chosenMethod(request_).text(), frame_, run_->plan(),
-                              run_->stats(), context_->software(),          0,      exposure};
+    const RenderReport report{request_, chosenMethod(request_).text(), frame_, plan(),
+                              stats(),  context_->software(),          0,      exposure};
     writeImage(path, image, renderMetadata(report), WriteOptions{request_.toneMap, exposure});
 }
 

@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "image/exr_structure.h"
 #include "image/image_io.h"
 #include "image/oiio_names.h"
 #include "image/png_structure.h"
@@ -66,6 +67,7 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     if (format == "png") {
         image.bytes = checkedPng(encoded, name);
     } else {
+        if (format == "openexr") checkExrHeader(encoded, encoded.size(), name);
         const auto* first = reinterpret_cast<const unsigned char*>(encoded.data());
         image.bytes.assign(first, first + encoded.size());
     }

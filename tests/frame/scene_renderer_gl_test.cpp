@@ -334,5 +334,54 @@ TEST_F(SceneRendererTest, threadsMayRenderAtOnce) {
     EXPECT_EQ(second.pixels, other.pixels);
 }
 
+// A frame for which the memory is too little in one piece: the same bits, from the top.
+TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
+    Request request = smallRequest();
+    request.width = 1600;
+    request.height = 1200;
+    request.wave = 0;
+    request.settings.sampleCount = 4;
+    SceneRenderer renderer(request);
+    const Image whole = renderer.render();
+    const std::vector<std::string> warnings = renderer.warnings();
+
+    // In one piece the pixels alone take 370 MiB.
+    Request little = request;
+    little.memory = std::uint64_t{420} << 20;
+    SceneRenderer other(little);
+    other.start();
+    EXPECT_EQ(other.sampleTotal(), 4u);
+    EXPECT_EQ(other.samples(), 0u);
+    std::uint32_t before = 0;
+    int steps = 0;
+    for (bool more = true; more; ++steps) {
+        more = other.advance();
+        EXPECT_GE(other.samples(), before);
+        before = other.samples();
+    }
+    EXPECT_EQ(other.samples(), 4u);
+    EXPECT_GT(steps, 4) << "it was one piece";
+    EXPECT_TRUE(other.image().pixels == whole.pixels);
+    EXPECT_EQ(other.statistics().samples, 4u);
+    EXPECT_EQ(other.warnings(), warnings);
+    EXPECT_THROW(other.aovs(), std::exception);
+    other.write(folder_ / "image.exr", other.image());
+    EXPECT_TRUE(readImage(folder_ / "image.exr").pixels == whole.pixels);
+
+    // The next frame of the same renderer fits again.
+    Request small = little;
+    small.width = 96;
+    small.height = 72;
+    Request smallInOnePiece = small;
+    smallInOnePiece.memory.reset();
+    EXPECT_TRUE(other.render(small).pixels == render(smallInOnePiece).pixels);
+
+    little.memory = 1 << 20;
+    EXPECT_THROW(other.start(little), std::exception);
+    little.memory = std::uint64_t{420} << 20;
+    little.method = "circular";
+    EXPECT_THROW(other.start(little), std::exception);
+}
+
 }  // namespace
 }  // namespace defocus

@@ -91,6 +91,17 @@ TEST(Tiling, tooLittleMemorySaysWhatIsNeeded) {
     }
 }
 
+TEST(Tiling, picturesThatAreKeptLeaveLess) {
+    TilingNeeds needs = needsOf(1000, 1000, 200 << 20);
+    const Tiling alone = chosenTiling(needs);
+    needs.keptBytes = 48'000'000;
+    const Tiling beside = chosenTiling(needs);
+    EXPECT_GT(beside.bands.size(), alone.bands.size());
+    EXPECT_LE(bytesOf(needs, beside) + needs.keptBytes, 200u << 20);
+    needs.keptBytes = 200 << 20;
+    EXPECT_THROW(chosenTiling(needs), Error);
+}
+
 TEST(Tiling, shadowMapsTakeTheMemoryOfSamplesAtOnce) {
     TilingNeeds needs = needsOf(640, 480, 200 << 20);
     const std::uint64_t layer = std::uint64_t{640} * 480 * needs.layerPixel;
