@@ -14,6 +14,7 @@
 #include "frame/render_report.h"
 #include "frame/scene_scale.h"
 #include "frame/tiled_frame.h"
+#include "frame/tiled_picture.h"
 #include "frame/unused_settings.h"
 #include "gl/context.h"
 #include "image/image_io.h"
@@ -21,7 +22,6 @@
 #include "render/aov/aov.h"
 #include "render/frame_run.h"
 #include "render/layer_format.h"
-#include "render/tile_walk.h"
 #include "scene/ground.h"
 
 namespace defocus {
@@ -50,34 +50,6 @@ std::size_t pyramidKind(const Request& request) {
     if (request.settings.lod == LodMode::off) return 0;
     return 1 + static_cast<std::size_t>(request.settings.levelVertices);
 }
-
-// A frame that is drawn in tiles, from the top, into a picture that is kept in main memory.
-struct TiledPicture {
-    TiledPicture(Renderer& renderer, FramePlan frame, std::vector<Band> rows)
-        : plan(std::move(frame)),
-          bands(std::move(rows)),
-          image(plan.view.width, plan.view.height, 4),
-          walk(renderer, plan, bands, [this](const Tile& tile, Image&& pixels) { placeTile(image, 0, tile, pixels); }) {
-    }
-    TiledPicture(const TiledPicture&) = delete;
-    TiledPicture& operator=(const TiledPicture&) = delete;
-
-    [[nodiscard]] std::uint32_t sampleTotal() const { return static_cast<std::uint32_t>(plan.samples.size()); }
-    // Of the picture as a whole.
-    [[nodiscard]] std::uint32_t samples() const {
-        return static_cast<std::uint32_t>(sampleTotal() * walk.rowsDone() / plan.view.height);
-    }
-    [[nodiscard]] RenderStats stats() const {
-        RenderStats stats = walk.stats();
-        stats.samples = samples();
-        return stats;
-    }
-
-    FramePlan plan;
-    std::vector<Band> bands;
-    Image image;  // what isn't drawn yet is nothing: black, of no coverage
-    TileWalk walk;
-};
 
 // Of a picture that is drawn in tiles, bytes a pixel in main memory: as it is kept, handed out, and encoded.
 constexpr std::uint64_t keptPixelBytes = 16 + 16 + 16;
@@ -395,7 +367,7 @@ Image SceneRenderer::render(const Progress& progress, std::stop_token stop) {
     return render(state_->first(), progress, std::move(stop));
 }
 
-// At least one wave is drawn, so that there is an image.
+// At least one sample is drawn, so that there is an image.
 Image SceneRenderer::render(const Request& request, const Progress& progress, std::stop_token stop) {
     state_->start(request, progress);
     report(progress, "samples", 0, sampleTotal());
@@ -403,7 +375,7 @@ Image SceneRenderer::render(const Request& request, const Progress& progress, st
     do {
         more = advance();
         report(progress, "samples", samples(), sampleTotal());
-    } while (more && !stop.stop_requested());
+    } while (more && (!stop.stop_requested() || samples() == 0));
     return image();
 }
 

@@ -65,6 +65,10 @@ protected:
         std::string pattern = (std::filesystem::temp_directory_path() / "defocus-view-XXXXXX").string();
         ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
         folder_ = pattern;
+        const char* const driver = std::getenv("DEFOCUS_EXPECTED_DRIVER");
+        if (driver == nullptr) return;
+        static const bool drawsHere = draws(driver);
+        if (!drawsHere) GTEST_SKIP() << "skipped: no " << driver;
     }
     void TearDown() override {
         if (program_ > 0) stop(program_);
@@ -188,6 +192,12 @@ protected:
     }
 
 private:
+    // Whether a window is drawn by this driver.
+    bool draws(const std::string& driver) {
+        start({"--fish", "1", "--fish-triangles", "200", "--frames", "1"});
+        ended();
+        return state().value("device", "").find(driver) != std::string::npos;
+    }
     [[nodiscard]] std::uint64_t framesDrawn() const {
         const nlohmann::json now = state();
         return now.empty() ? 0 : now.at("frames").get<std::uint64_t>();
