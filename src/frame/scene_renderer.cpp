@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/memory_limits.h"
 #include "core/progress.h"
 #include "core/stopwatch.h"
@@ -104,7 +105,7 @@ private:
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
     void makeRenderer();
     void dropRenderer();
-    void startTiles();
+    void startTiles(bool asBefore);
     [[nodiscard]] const FramePlan& plan() const { return tiled_ ? tiled_->plan : run_->plan(); }
     [[nodiscard]] RenderStats stats() const { return tiled_ ? tiled_->stats() : run_->stats(); }
 
@@ -199,19 +200,35 @@ void SceneRenderer::State::dropRenderer() {
     renderer_.reset();
 }
 
-// Where the frame doesn't fit into memory in one piece, begins to draw it in tiles.
-void SceneRenderer::State::startTiles() {
-    tiled_.reset();
-    const std::uint64_t limit = memoryLimit(request_);
-    if (surelyFits(request_, limit)) return;
-    FramePlan plan = planFrame(frame_.world, frame_.view, frame_.settings);
-    if (!mustDrawInTiles(frame_.world, plan, request_, *chosenMethod(request_).method, limit)) return;
-    plan = planOfTiles(frame_.world, frame_.view, runSettings(frame_, request_));
-    TilingNeeds needs = measuredNeeds(frame_.world, plan, request_, *renderer_, limit);
-    needs.keptBytes = std::uint64_t(request_.width) * std::uint64_t(request_.height) * keptPixelBytes;
-    Tiling tiling = chosenTiling(needs);
-    renderer_->setWave(tiling.wave);
-    tiled_ = std::make_unique<TiledPicture>(*renderer_, std::move(plan), std::move(tiling.bands));
+// Sees to a renderer, and begins to draw the frame in tiles where it doesn't fit into memory in one piece. `asBefore`: as the frame before was
+// drawn, whose layers and sums are those of this one.
+void SceneRenderer::State::startTiles(bool asBefore) {
+    std::vector<Band> bands;
+    if (asBefore) {
+        if (!tiled_) return;
+        bands = std::move(tiled_->bands);
+        tiled_.reset();
+    } else {
+        const std::uint64_t limit = memoryLimit(request_);
+        tiled_.reset();
+        if (surelyFits(request_, limit)) {
+            if (!renderer_) makeRenderer();
+            return renderer_->setWave(0);
+        }
+        // What the frame before holds of memory goes before it is looked at.
+        dropRenderer();
+        giveBackFreedMemory();
+        makeRenderer();
+        const FramePlan plan = planFrame(frame_.world, frame_.view, frame_.settings);
+        if (!mustDrawInTiles(frame_.world, plan, request_, *chosenMethod(request_).method, limit)) return;
+        TilingNeeds needs = measuredNeeds(frame_.world, plan, request_, *renderer_, limit);
+        needs.keptBytes = std::uint64_t(request_.width) * std::uint64_t(request_.height) * keptPixelBytes;
+        Tiling tiling = chosenTiling(needs);
+        renderer_->setWave(tiling.wave);
+        bands = std::move(tiling.bands);
+    }
+    tiled_ = std::make_unique<TiledPicture>(
+        *renderer_, planOfTiles(frame_.world, frame_.view, runSettings(frame_, request_)), std::move(bands));
 }
 
 void SceneRenderer::State::start(const Request& request, const Progress& progress) {
@@ -229,6 +246,9 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
         addPyramids(next, progress);
         pyramidMilliseconds_ += next.pyramidMilliseconds;
     }
+    const bool sameNeeds = same && renderer_ && request.width == request_.width && request.height == request_.height &&
+                           request.settings.shadows == request_.settings.shadows &&
+                           request.stop.given() == request_.stop.given();
     Request asked = request;
     const InContext use(*context_);
 
@@ -241,11 +261,8 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
     frame_ = std::move(next);
     request_ = std::move(asked);
     try {
-        const bool inTilesBefore = tiled_ != nullptr;
-        if (!renderer_) makeRenderer();
-        startTiles();
+        startTiles(sameNeeds);
         if (tiled_) return;
-        if (inTilesBefore) renderer_->setWave(0);
         run_->start(frame_.view, runSettings(frame_, request_), request_.stop);
     } catch (...) {
         dropRenderer();

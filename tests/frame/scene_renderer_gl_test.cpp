@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/two_quads.h"
+#include "core/memory_limits.h"
 #include "defocus/defocus.h"
 #include "frame/own_context.h"
 #include "gl/context.h"
@@ -341,14 +342,18 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     request.height = 1200;
     request.wave = 0;
     request.settings.sampleCount = 4;
-    SceneRenderer renderer(request);
-    const Image whole = renderer.render();
-    const std::vector<std::string> warnings = renderer.warnings();
+    Image whole;
+    std::vector<std::string> warnings;
+    {
+        SceneRenderer renderer(request);
+        whole = renderer.render();
+        warnings = renderer.warnings();
+    }
 
     // In one piece the pixels alone take 370 MiB.
-    Request little = request;
-    little.memory = std::uint64_t{420} << 20;
-    SceneRenderer other(little);
+    constexpr std::uint64_t little = std::uint64_t{300} << 20;
+    request.memory = residentMemory() + little;
+    SceneRenderer other(request);
     other.start();
     EXPECT_EQ(other.sampleTotal(), 4u);
     EXPECT_EQ(other.samples(), 0u);
@@ -368,19 +373,25 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     other.write(folder_ / "image.exr", other.image());
     EXPECT_TRUE(readImage(folder_ / "image.exr").pixels == whole.pixels);
 
-    // The next frame of the same renderer fits again.
-    Request small = little;
+    // Another of the size, drawn as the one before.
+    Request moved = request;
+    moved.cameraPosition = movedRequest().cameraPosition;
+    const Image movedImage = other.render(moved);
+    moved.memory.reset();
+    EXPECT_TRUE(movedImage.pixels == render(moved).pixels);
+    // A small one fits, and so it does beside what the large one took.
+    Request small = request;
     small.width = 96;
     small.height = 72;
-    Request smallInOnePiece = small;
-    smallInOnePiece.memory.reset();
-    EXPECT_TRUE(other.render(small).pixels == render(smallInOnePiece).pixels);
+    const Image smallImage = other.render(small);
+    small.memory.reset();
+    EXPECT_TRUE(smallImage.pixels == render(small).pixels);
 
-    little.memory = 1 << 20;
-    EXPECT_THROW(other.start(little), std::exception);
-    little.memory = std::uint64_t{420} << 20;
-    little.method = "circular";
-    EXPECT_THROW(other.start(little), std::exception);
+    request.memory = 1 << 20;
+    EXPECT_THROW(other.start(request), std::exception);
+    request.memory = residentMemory() + little;
+    request.method = "circular";
+    EXPECT_THROW(other.start(request), std::exception);
 }
 
 }  // namespace

@@ -118,9 +118,10 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     const fs::path path = folder() / "image.exr";
     writeImage(path, pattern(4, 3), {{"owner", std::string("nobody")}});
     const std::vector<std::byte> whole = readFile(path);
-    const auto withSize = [&](std::string_view type, std::uint32_t size) {
+    const auto withSize = [&](const std::string& attribute, const std::string& type, std::uint32_t size) {
         std::string bytes(reinterpret_cast<const char*>(whole.data()), whole.size());
-        const std::size_t at = bytes.find(std::string(type) + '\0') + type.size() + 1;
+        const std::string begin = attribute + '\0' + type + '\0';
+        const std::size_t at = bytes.find(begin) + begin.size();
         for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(size >> (8 * i));
         writeFile(path, bytes);
     };
@@ -135,13 +136,13 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
             }
         }
     };
-    withSize("string", 6);  // what it is
+    withSize("owner", "string", 6);  // what it is
     EXPECT_NO_THROW(static_cast<void>(readImage(path)));
-    withSize("string", 2'000'000'000);
+    withSize("owner", "string", 2'000'000'000);
     expectRefused("owner");
-    withSize("box2i", 12);
+    withSize("dataWindow", "box2i", 12);
     expectRefused("dataWindow");
-    withSize("chlist", 54);
+    withSize("channels", "chlist", 54);
     expectRefused("channels");
 }
 
