@@ -49,7 +49,7 @@ LABEL_LETTERS = 42  # fit beside a plot; longer labels are smaller
 BASELINE = ("accumulation", "lod=off")  # what all else is seen against
 # Levels of detail in plots: label, number in the palette.
 MODES = {"off": ("full detail", 6), "nearest": ("nearest level", 0), "fractional": ("fractional levels", 1),
-         "continuous": ("continuous levels", 2)}
+         "continuous": ("continuous levels", 2), "multirate": ("multirate", 3)}
 
 
 # ---- data -----------------------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-// Depth (m), signed circle of confusion (px) and fractional level of the nearest surface through the pinhole.
+// Depth (m), signed circle of confusion (px), fractional level and images a lens sample of the nearest surface through the pinhole.
 
 #include "include/frame.glsl"
 #include "include/lens.glsl"
@@ -11,9 +11,12 @@ in Surface {
 layout(binding = 0) uniform sampler2D baseColorTexture;
 #endif
 
+layout(binding = 18) uniform samplerBuffer objectRates;   // by the object's number
+
 layout(location = 0) out float depthOut;
 layout(location = 1) out float cocOut;
 layout(location = 2) out float levelOut;
+layout(location = 3) out float rateOut;
 
 void main() {
 #ifdef ALPHA_MASK
@@ -36,4 +39,5 @@ void main() {
     vec2 size = frame.coc.z * vec2(1.0, frame.projection.x / frame.projection.y);
     cocOut = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, ivec2(size + 0.5)), cocScale);
     levelOut = object.values.x;
+    rateOut = texelFetch(objectRates, int(object.values.z)).r;
 }

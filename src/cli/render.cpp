@@ -43,8 +43,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 void parseAovs(const std::string& text, AovRequest& aovs) {
-    const std::vector<std::string> names = {"depth", "coc", "level", "work"};
-    const std::array<bool*, 4> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.work};
+    const std::vector<std::string> names = {"depth", "coc", "level", "rate", "work"};
+    const std::array<bool*, 5> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.rate, &aovs.work};
     for (const std::string& part : partsOf(text)) *wanted[parseChoice(part, names)] = true;
 }
 
@@ -61,11 +61,13 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         ->type_name("FILE")
         ->default_str("out.exr")
         ->group(group);
-    addParsed(command, "--aov", "depth,coc,level,work",
-              "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
-              "out.level.png (level of detail) and out.work.exr with out.work.png (triangles that touch each pixel, "
-              "summed over the lens samples of the accumulation, hidden ones too)",
-              [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
+    addParsed(
+        command, "--aov", "depth,coc,level,rate,work",
+        "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
+        "out.level.png (level of detail), out.rate.exr with out.rate.png (images that method multirate draws of an "
+        "object for a lens sample) and out.work.exr with out.work.png (triangles that touch each pixel, "
+        "summed over the lens samples of the accumulation, hidden ones too)",
+        [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
         ->group(group);
     addParsed(command, "--sample-range", "FIRST:END",
               "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
@@ -101,6 +103,8 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
     if (arguments.aovs.coc) paths.push_back(derivedPath(output, "coc.exr"));
     if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.exr"));
     if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.png"));
+    if (arguments.aovs.rate) paths.push_back(derivedPath(output, "rate.exr"));
+    if (arguments.aovs.rate) paths.push_back(derivedPath(output, "rate.png"));
     if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.exr"));
     if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.png"));
     return paths;
@@ -144,9 +148,13 @@ void writeAovs(const RenderArguments& arguments, const AovImages& images, const 
     const std::filesystem::path& output = arguments.outputs.front();
     if (arguments.aovs.depth) writeImage(derivedPath(output, "depth.exr"), images.depth, metadata);
     if (arguments.aovs.coc) writeImage(derivedPath(output, "coc.exr"), images.coc, metadata);
-    if (!arguments.aovs.level) return;
-    writeImage(derivedPath(output, "level.exr"), images.level, metadata);
-    writeImage(derivedPath(output, "level.png"), levelColourMap(images.level));
+    if (arguments.aovs.level) {
+        writeImage(derivedPath(output, "level.exr"), images.level, metadata);
+        writeImage(derivedPath(output, "level.png"), levelColourMap(images.level));
+    }
+    if (!arguments.aovs.rate) return;
+    writeImage(derivedPath(output, "rate.exr"), images.rate, metadata);
+    writeImage(derivedPath(output, "rate.png"), rateColourMap(images.rate));
 }
 
 void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Image& work, const Metadata& metadata,

@@ -16,8 +16,9 @@ struct AovRequest {
     bool depth = false;
     bool coc = false;
     bool level = false;
+    bool rate = false;
     bool work = false;
-    [[nodiscard]] bool surfaces() const { return depth || coc || level; }
+    [[nodiscard]] bool surfaces() const { return depth || coc || level || rate; }
     [[nodiscard]] bool any() const { return surfaces() || work; }
 };
 

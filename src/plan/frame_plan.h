@@ -74,6 +74,9 @@ struct ObjectPlan {
     // With LodMode::continuous, `coarse` and `fine` may share sample n. Then this share of its pixels draws `coarse`,
     // and the others draw `fine`.
     double boundaryShare = 0;
+    // What method "multirate" shares of it among lens samples, as an earlier frame had it; else it follows from the
+    // blur (plan/rates.h).
+    std::optional<double> heldLensShare;
     std::vector<VisibleLevel> visible;  // levels that are drawn in part; a level that isn't here is drawn whole
     double cocScale = 1;                // factor on the object's blur, ≥ 0
     Refinement refinement = Refinement::none;

@@ -167,8 +167,15 @@ FrameRates frameRates(const FramePlan& plan) {
     for (std::size_t i = 0; i < spread.size(); ++i) {
         rates.objects[i].lensShare = (leastShareBlur - spread[i]) / (leastShareBlur - wholeShareBlur);
         if (spread[i] > blurs[i]) rates.objects[i].reason = "it lies beside what shares less";
+        if (plan.objects[i].heldLensShare) rates.objects[i].lensShare = *plan.objects[i].heldLensShare;
     }
     return rates;
+}
+
+double imagesPerSample(const FramePlan& plan, const ObjectRates& rates) {
+    const auto count = static_cast<std::uint32_t>(plan.samples.size());
+    const std::uint32_t size = groupSamples(std::min(count, rateBlock));
+    return 1 - rates.lensShare + rates.lensShare / size;
 }
 
 RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint32_t first, std::uint32_t count) {

@@ -74,6 +74,10 @@ std::uint32_t groupSamples(std::uint32_t count);
 
 FrameRates frameRates(const FramePlan& plan);
 
+// Returns how many images of an object multirate draws for a sample of `plan`, on average over whole blocks: 1 where it
+// shares none, down to 1/4.
+double imagesPerSample(const FramePlan& plan, const ObjectRates& rates);
+
 // Returns samples [first, first + count) of `plan`, whose rates are `rates`; `first` is a multiple of 64 and `count` ≤
 // 64. With RenderSettings::keepAll, and without a lens, every sample draws everything, in the plan's own order and with
 // its own pixel offset.

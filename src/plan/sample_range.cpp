@@ -26,16 +26,22 @@ FramePlan samplesOf(const FramePlan& plan, std::uint32_t first, std::uint32_t co
     if (!plan.moments.empty()) part.moments.assign(plan.moments.begin() + first, plan.moments.begin() + first + count);
     part.settings.sampleCount = count;
     part.settings.firstSample += first;
-    part.trianglesDrawn = 0;
+    part.trianglesDrawn = trianglesDrawn(plan, first, count);
     for (ObjectPlan& object : part.objects) {
         object.coarse = within(object.coarse, first, count);
         object.fine = within(object.fine, first, count);
-        for (const LevelDraw& draw : {object.coarse, object.fine})
-            part.trianglesDrawn += std::uint64_t{draw.triangleCount} * draw.sampleCount;
         // The sample that both draw may be the last of `coarse` or lie outside.
         if (!boundarySample(object)) object.boundaryShare = 0;
     }
     return part;
+}
+
+std::uint64_t trianglesDrawn(const FramePlan& plan, std::uint32_t first, std::uint32_t count) {
+    std::uint64_t triangles = 0;
+    for (const ObjectPlan& object : plan.objects)
+        for (const LevelDraw& draw : {object.coarse, object.fine})
+            triangles += std::uint64_t{within(draw, first, count).sampleCount} * draw.triangleCount;
+    return triangles;
 }
 
 }  // namespace defocus

@@ -10,4 +10,7 @@ namespace defocus {
 // must lie within the plan. Objects stay in the plan even if none of these samples draws them.
 FramePlan samplesOf(const FramePlan& plan, std::uint32_t first, std::uint32_t count);
 
+// Returns how many triangles samples [first, first + count) of `plan` draw.
+std::uint64_t trianglesDrawn(const FramePlan& plan, std::uint32_t first, std::uint32_t count);
+
 }  // namespace defocus

@@ -34,7 +34,7 @@ constexpr KeyHelp keys[] = {
     {"Space", "play or pause the animation"},
     {", .", "one frame back, ahead"},
     {"P, O", "focus peaking, focus plane"},
-    {"C, L, N, Z", "blur, level, work, wireframe overlay"},
+    {"C, L, J, N, Z", "blur, level, rate, work, wireframe overlay"},
     {"X", "compare: next method on the right"},
     {"M", "difference on the right"},
     {"B", "popping test"},
@@ -100,6 +100,9 @@ void handlePlainKey(int code, const InputContext& context, ViewState& state, Vie
             break;
         case 'L':
             toggleOverlay(state, DisplayOverlay::level);
+            break;
+        case 'J':
+            toggleOverlay(state, DisplayOverlay::rate);
             break;
         case 'N':
             toggleOverlay(state, DisplayOverlay::work);

@@ -167,9 +167,12 @@ std::string countText(double count) {
 
 void seeSection(const PanelContext& context, ViewState& state) {
     if (!section("See why", false)) return;
-    rowLabel("Overlay", "Blur (C), level (L), or work: how many triangles touch each pixel in a lens sample (N)");
+    rowLabel(
+        "Overlay",
+        "Blur (C), level (L), rate: how many images of an object multirate draws for a lens sample (J), or work: how "
+        "many triangles touch each pixel in a lens sample (N)");
     int overlay = static_cast<int>(state.display.overlay);
-    if (ImGui::Combo("##overlay", &overlay, "none\0circle of confusion\0level of detail\0work\0"))
+    if (ImGui::Combo("##overlay", &overlay, "none\0circle of confusion\0level of detail\0rate\0work\0"))
         state.display.overlay = static_cast<DisplayOverlay>(overlay);
     rowLabel("Wireframe", "The triangles that are drawn, coloured by level (Z)");
     ImGui::Checkbox("##wireframe", &state.display.wireframe);

@@ -252,6 +252,7 @@ void ViewPicture::present(const PictureRequest& request) {
     if (aovsCurrent_) {
         inputs.coc = &aovs_->coc();
         inputs.level = &aovs_->level();
+        inputs.rate = &aovs_->rate();
         if (wireframeCurrent_) inputs.wireframe = &aovs_->wireframe();
     }
     if (workCurrent_) {

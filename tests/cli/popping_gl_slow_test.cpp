@@ -54,7 +54,7 @@ protected:
         visitor.sampleStep = [](const SampleStep&) {};
         visitor.frames = [&](std::span<const PoppingFrame> frames) {
             for (const PoppingFrame& each : frames) {
-                double& worst = each.mode == LodMode::nearest ? nearest : fractional;
+                double& worst = each.mode == PoppingMode::nearest ? nearest : fractional;
                 worst = std::max(worst, each.step.objects.rmse);
             }
         };

@@ -309,6 +309,19 @@ TEST_F(Render, aovsHoldDepthBlurAndLevel) {
     EXPECT_EQ(*level.at(10, 80), -1);
 }
 
+// The plane of focus holds the far square, which all groups of four samples share; the near one is blurred too much.
+TEST_F(Render, ratesAreTheImagesThatALensSampleTakes) {
+    ASSERT_EQ(run({"render", "quads.gltf", "--size", "128x96", "--samples", "64", "-o", "a.png", "--aov", "rate",
+                   "--focus-distance", "8", "--fstop", "0.5"})
+                  .exitCode,
+              0);
+    EXPECT_TRUE(fs::exists(folder() / "a.rate.png"));
+    const Image rate = readImage(folder() / "a.rate.exr");
+    EXPECT_EQ(*rate.at(63, 21), 1);
+    EXPECT_EQ(*rate.at(126, 48), 0.25f);
+    EXPECT_EQ(*rate.at(10, 80), -1);
+}
+
 TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
     Image images[2];
     for (int i = 0; i < 2; ++i) {

@@ -219,7 +219,7 @@ TEST(BenchDiff, readsScaling) {
 TEST(BenchDiff, readsPopping) {
     PoppingFrame frame;
     frame.samples = 8;
-    frame.mode = LodMode::fractional;
+    frame.mode = PoppingMode::fractional;
     frame.frame = 3;
     frame.step.objects.rmse = 0.02;
     PoppingFrame less = frame;

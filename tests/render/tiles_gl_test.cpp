@@ -64,7 +64,7 @@ void expectTheBitsOfOnePiece(const SmallWorld& small, const FramePlan& plan, con
 }
 
 FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = LodMode::fractional,
-                   std::uint32_t samples = 70) {
+                   std::uint32_t samples = 20) {
     RenderSettings settings;
     settings.sampleCount = samples;
     settings.lod = mode;
@@ -75,7 +75,7 @@ FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = Lod
 TEST_F(Tiles, haveTheBitsOfOnePieceAtEachKindOfLevel) {
     const auto small = fiveSpheres();
     for (const LodMode mode : {LodMode::off, LodMode::fractional, LodMode::continuous})
-        expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode), lodModeName(mode));
+        expectTheBitsOfOnePiece(*small, planWith(*small, small->view, mode, 70), lodModeName(mode));  // two blocks
 }
 
 TEST_F(Tiles, haveTheBitsOfOnePieceWithControlsOfTheBlur) {
@@ -145,7 +145,7 @@ TEST_F(Tiles, haveTheBitsOfOnePieceWhereGlassShowsWhatLiesElsewhere) {
 // An image of cells: each rounds window coordinates in its own way, and nothing else differs.
 TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
     const auto small = fiveSpheres();
-    const FramePlan plan = planWith(*small, small->view, LodMode::continuous);
+    const FramePlan plan = planWith(*small, small->view, LodMode::continuous, 70);
     const PixelRectangle cells[] = {{0, 0, 80, 64}, {80, 0, 80, 64}, {0, 64, 80, 56}, {80, 64, 80, 56}};
     std::vector<Tile> tiles, halves;
     for (const PixelRectangle& cell : cells) {

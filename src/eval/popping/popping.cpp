@@ -8,6 +8,7 @@
 
 #include "image/metrics.h"
 #include "image/tone_map.h"
+#include "plan/rates.h"
 #include "plan/visibility.h"
 #include "render/aov/aov.h"
 
@@ -23,6 +24,26 @@ Image rendered(Renderer& renderer, const FramePlan& plan) {
     }
     return renderer.image();
 }
+
+LodMode levelsOf(PoppingMode mode) {
+    switch (mode) {
+        case PoppingMode::nearest:
+            return LodMode::nearest;
+        case PoppingMode::continuous:
+            return LodMode::continuous;
+        default:
+            return LodMode::fractional;
+    }
+}
+
+// Of a precision that doesn't show in what is measured.
+struct Renderers {
+    std::unique_ptr<Renderer> accumulation;
+    std::unique_ptr<Renderer> multirate;
+    [[nodiscard]] Renderer& of(PoppingMode mode) const {
+        return mode == PoppingMode::multirate ? *multirate : *accumulation;
+    }
+};
 
 RenderSettings settingsOf(const PoppingOptions& options, std::uint32_t samples, LodMode mode) {
     RenderSettings settings = options.plan;
@@ -57,10 +78,12 @@ struct HeldPlan {
     std::vector<const ObjectPlan*> changed;  // of the plan that was held
 };
 
-// `plan` at the levels of the frame before, as far as that had its objects; none where nothing differs.
-std::optional<HeldPlan> atLevelsOf(const FramePlan& plan, const FramePlan& before) {
+// `plan` at the levels and rates of the frame before, as far as that had its objects; none where nothing differs.
+std::optional<HeldPlan> asBefore(const FramePlan& plan, const FramePlan& before, PoppingMode mode) {
     if (plan.samples.size() != before.samples.size()) return {};
     HeldPlan held{plan, {}};
+    const FrameRates rates = mode == PoppingMode::multirate ? frameRates(plan) : FrameRates{};
+    const FrameRates ratesBefore = mode == PoppingMode::multirate ? frameRates(before) : FrameRates{};
     for (std::size_t i = 0; i < plan.objects.size(); ++i) {
         ObjectPlan& object = held.plan.objects[i];
         const ObjectPlan* earlier = objectOf(before, object.object);
@@ -71,6 +94,11 @@ std::optional<HeldPlan> atLevelsOf(const FramePlan& plan, const FramePlan& befor
         object.coarse = earlier->coarse;
         object.fine = earlier->fine;
         object.boundaryShare = earlier->boundaryShare;
+        if (mode != PoppingMode::multirate) continue;
+        const auto place = static_cast<std::size_t>(earlier - before.objects.data());
+        object.heldLensShare = ratesBefore.objects[place].lensShare;
+        const bool counted = !held.changed.empty() && held.changed.back() == &plan.objects[i];
+        if (!counted && *object.heldLensShare != rates.objects[i].lensShare) held.changed.push_back(&plan.objects[i]);
     }
     if (held.changed.empty()) return {};
     markUsed(held.plan);
@@ -179,36 +207,39 @@ struct ModeState {
     Image image;  // display values
 };
 
-PoppingFrame frameOf(Renderer& renderer, const ModeState& before, const ModeState& now, const Image& expected,
-                     const Image& objects) {
+PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeState& before, const ModeState& now,
+                     const Image& expected, const Image& objects) {
     PoppingFrame frame;
+    frame.mode = mode;
     frame.speed = largestSpeed(now.plan, before.plan);
     frame.change = popBetween(expected, now.image, objects);
-    if (const std::optional<HeldPlan> held = atLevelsOf(now.plan, before.plan))
-        frame.step = popBetween(displayColours(rendered(renderer, held->plan)), now.image,
+    if (const std::optional<HeldPlan> held = asBefore(now.plan, before.plan, mode))
+        frame.step = popBetween(displayColours(rendered(renderers.of(mode), held->plan)), now.image,
                                 pixelsOf(held->changed, now.plan, objects));
     return frame;
 }
 
-std::vector<PoppingFrame> measureMovement(World& world, Renderer& renderer, const std::vector<MovementFrame>& movement,
-                                          const std::vector<Image>& masks, const PoppingOptions& options,
-                                          std::uint32_t samples, const std::function<void()>& step) {
+std::vector<PoppingFrame> measureMovement(World& world, const Renderers& renderers,
+                                          const std::vector<MovementFrame>& movement, const std::vector<Image>& masks,
+                                          const PoppingOptions& options, std::uint32_t samples,
+                                          const std::function<void()>& step) {
     std::vector<PoppingFrame> frames;
     std::array<ModeState, poppingModes.size()> before;
     Image referenceBefore;
     for (std::size_t t = 0; t < movement.size(); ++t) {
         const View& view = movement[t].view;
         poseWorld(world, movement[t]);
-        const Image reference = displayColours(rendered(renderer, planOf(world, view, options, samples, LodMode::off)));
+        const Image reference =
+            displayColours(rendered(*renderers.accumulation, planOf(world, view, options, samples, LodMode::off)));
         for (std::size_t m = 0; m < poppingModes.size(); ++m) {
+            const PoppingMode mode = poppingModes[m];
             ModeState now;
-            now.plan = planOf(world, view, options, samples, poppingModes[m]);
-            now.image = displayColours(rendered(renderer, now.plan));
+            now.plan = planOf(world, view, options, samples, levelsOf(mode));
+            now.image = displayColours(rendered(renderers.of(mode), now.plan));
             if (t > 0) {
                 const Image expected = carriedOn(before[m].image, reference, referenceBefore);
-                PoppingFrame frame = frameOf(renderer, before[m], now, expected, masks[t]);
+                PoppingFrame frame = frameOf(renderers, mode, before[m], now, expected, masks[t]);
                 frame.samples = samples;
-                frame.mode = poppingModes[m];
                 frame.frame = static_cast<int>(t);
                 frames.push_back(frame);
             }
@@ -285,6 +316,10 @@ std::optional<SampleStep> measureSampleStep(const World& world, Renderer& render
 
 }  // namespace
 
+std::string_view poppingModeName(PoppingMode mode) {
+    return mode == PoppingMode::multirate ? "multirate" : lodModeName(levelsOf(mode));
+}
+
 Image objectPixels(const Image& level, const Image& coc) {
     // Each pixel marks the disk around it, row by row, as the beginning and the end of a run.
     const int width = level.width;
@@ -318,7 +353,8 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
                     const Progress& progress) {
     RendererOptions precise = options.renderer;
     if (precise.layerFormat == LayerFormat::automatic) precise.layerFormat = LayerFormat::rgba32f;
-    const std::unique_ptr<Renderer> renderer = methodNamed("accumulation").make(world, precise);
+    const Renderers renderers{methodNamed("accumulation").make(world, precise),
+                              methodNamed("multirate").make(world, precise)};
     const MovementFrame own{view, world.pose};
     std::vector<std::vector<MovementFrame>> movements;  // first of all: they know what is impossible
     for (const Movement movement : options.movements) {
@@ -333,13 +369,14 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
 
     // Objects held still.
     for (const std::uint32_t samples : options.sampleCounts)
-        if (const auto step = measureSampleStep(world, *renderer, view, options, samples)) visitor.sampleStep(*step);
+        if (const auto step = measureSampleStep(world, *renderers.accumulation, view, options, samples))
+            visitor.sampleStep(*step);
 
     // Movements.
     for (std::size_t m = 0; m < movements.size(); ++m) {
         const std::vector<Image> masks = masksOf(world, movements[m], options);
         for (const std::uint32_t samples : options.sampleCounts) {
-            std::vector<PoppingFrame> frames = measureMovement(world, *renderer, movements[m], masks, options, samples,
+            std::vector<PoppingFrame> frames = measureMovement(world, renderers, movements[m], masks, options, samples,
                                                                [&] { report(progress, "frames", ++done, total); });
             for (PoppingFrame& frame : frames) frame.movement = options.movements[m];
             visitor.frames(frames);

@@ -1,15 +1,16 @@
 #pragma once
 // Measures how much levels of detail pop, that is what they add to the change from frame to frame while camera, focus
-// or scene move. It compares three modes: the nearest level; samples that are split between two levels (fractional);
-// and the same with the sample at the boundary split over its pixels (continuous).
+// or scene move. It compares four modes: the nearest level; samples that are split between two levels (fractional); the
+// same with the sample at the boundary split over its pixels (continuous); and fractional levels drawn by the method
+// "multirate", whose lens rates change too.
 //
 // The truth is full detail at the SAME lens samples. So the noise cancels, and full detail itself measures 0. Let I be
 // a frame of the mode and R the same frame at full detail, both display-encoded:
 //   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). The bench takes its RMSE, and the FLIP between I_t and the frame that it
 //           should have become, I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. Besides pops, it contains all other
 //           errors of the levels that move with the camera.
-//   step:   I_t minus the same view and pose drawn with the levels and splits of the frame before. This is the pop
-//           alone.
+//   step:   I_t minus the same view and pose drawn with the levels, splits and lens rates of the frame before. This is
+//           the pop alone.
 // Both are measured over the whole image and over the objects' pixels, which an object or its blur touches in either
 // frame. For the step, only the objects count whose draws differ. So quiet objects don't dilute a pop, and its error is
 // about the same whether one object pops in a frame or several do.
@@ -20,14 +21,15 @@
 // Continuous levels change a share Δλ·N of the sample's pixels in every frame, which gives √(c/w)·√(Δλ/N): half as much
 // at a quarter of the speed.
 //
-// Held equal between modes: scene, views, lens samples, thresholds, size, renderer. Layers are 32-bit floats unless the
-// options say otherwise, so that their rounding isn't taken for an error of the levels.
+// Held equal between modes: scene, views, lens samples, thresholds, size and, but for multirate, renderer. Layers are
+// 32-bit floats unless the options say otherwise, so that their rounding isn't taken for an error of the levels.
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/progress.h"
@@ -36,7 +38,12 @@
 
 namespace defocus {
 
-inline constexpr std::array poppingModes = {LodMode::nearest, LodMode::fractional, LodMode::continuous};
+enum class PoppingMode { nearest, fractional, continuous, multirate };
+
+inline constexpr std::array poppingModes = {PoppingMode::nearest, PoppingMode::fractional, PoppingMode::continuous,
+                                            PoppingMode::multirate};
+
+std::string_view poppingModeName(PoppingMode mode);
 
 struct PoppingOptions {
     std::vector<Movement> movements = {Movement::focusPull, Movement::dolly, Movement::turntable};
@@ -61,7 +68,7 @@ struct Pop {
 struct PoppingFrame {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
-    LodMode mode = LodMode::off;
+    PoppingMode mode = PoppingMode::nearest;
     int frame = 0;     // t, 1 or more
     double speed = 0;  // the largest |λ_t − λ_{t−1}| of all objects
     Pop change;

@@ -67,7 +67,7 @@ ordered_json summaryJson(const PopSummary& summary) {
 ordered_json rowJson(const PoppingRow& row) {
     ordered_json json = {{"movement", movementName(row.movement)},
                          {"samples", row.samples},
-                         {"lod", lodModeName(row.mode)},
+                         {"lod", poppingModeName(row.mode)},
                          {"frames", row.frames},
                          {"largestSpeed", row.speed}};
     for (const NamedMeasure& measure : measures) json[measure.name] = summaryJson(row.*measure.place);
@@ -101,7 +101,7 @@ std::vector<PoppingRow> poppingRows(std::span<const PoppingFrame> frames) {
     }
     for (PoppingRow& row : rows) {
         const auto nearest = std::ranges::find_if(rows, [&](const PoppingRow& other) {
-            return other.mode == LodMode::nearest && other.movement == row.movement && other.samples == row.samples;
+            return other.mode == PoppingMode::nearest && other.movement == row.movement && other.samples == row.samples;
         });
         for (const NamedMeasure& measure : measures) {
             PopSummary& summary = row.*measure.place;
@@ -117,14 +117,14 @@ std::string poppingHeader() {
         "{:<10} {:>7} {:<10} {:>7}  {:^40}  {:^31}\n"
         "{:<10} {:>7} {:<10} {:>7}  {:>8} {:>5} {:>8} {:>7} {:>8}  {:>8} {:>7} {:>8} {:>7}\n",
         "", "", "", "fastest", "pop alone: RMSE, objects' pixels", "whole change, objects' pixels", "movement",
-        "samples", "levels", "l/frame", "worst", "frame", "99 %", "of near", "FLIP", "RMSE", "of near", "FLIP",
+        "samples", "mode", "l/frame", "worst", "frame", "99 %", "of near", "FLIP", "RMSE", "of near", "FLIP",
         "of near");
 }
 
 std::string poppingLine(const PoppingRow& row) {
     return fmt::format(
         "{:<10} {:>7} {:<10} {:>7.4f}  {:>8.5f} {:>5} {:>8.5f} {:>7} {:>8.5f}  {:>8.5f} {:>7} {:>8.5f} {:>7}\n",
-        movementName(row.movement), row.samples, lodModeName(row.mode), row.speed, row.stepRmse.worst,
+        movementName(row.movement), row.samples, poppingModeName(row.mode), row.speed, row.stepRmse.worst,
         row.stepRmse.worstFrame, row.stepRmse.percentile99, fraction(row.stepRmse.ofNearest), row.stepFlip.worst,
         row.changeRmse.worst, fraction(row.changeRmse.ofNearest), row.changeFlip.worst,
         fraction(row.changeFlip.ofNearest));
@@ -144,9 +144,9 @@ std::string poppingSummary(std::span<const PoppingRow> rows) {
     for (const PoppingRow& row : rows) most = std::max(most, row.samples);
     std::string text =
         fmt::format("\nlargest pop at {} samples, of the nearest level's (pop alone, RMSE / FLIP):\n", most);
-    for (const LodMode mode : poppingModes) {
-        if (mode == LodMode::nearest) continue;
-        text += fmt::format("  {:<10}", lodModeName(mode));
+    for (const PoppingMode mode : poppingModes) {
+        if (mode == PoppingMode::nearest) continue;
+        text += fmt::format("  {:<10}", poppingModeName(mode));
         for (const PoppingRow& row : rows)
             if (row.samples == most && row.mode == mode)
                 text += fmt::format("  {} {} / {}", movementName(row.movement), fraction(row.stepRmse.ofNearest),
@@ -161,8 +161,8 @@ std::string poppingCsv(std::span<const PoppingFrame> frames) {
     for (const NamedMeasure& measure : measures) text += fmt::format(",{}", measure.name);
     text += '\n';
     for (const PoppingFrame& frame : frames) {
-        text += fmt::format("{},{},{},{},{:.6g}", movementName(frame.movement), frame.samples, lodModeName(frame.mode),
-                            frame.frame, frame.speed);
+        text += fmt::format("{},{},{},{},{:.6g}", movementName(frame.movement), frame.samples,
+                            poppingModeName(frame.mode), frame.frame, frame.speed);
         for (const NamedMeasure& measure : measures) text += fmt::format(",{:.6g}", measure.of(frame));
         text += '\n';
     }
@@ -178,11 +178,12 @@ std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const Sa
         {"change",
          "(I_t - I_t-1) - (R_t - R_t-1) of display values, R at full detail and the same lens samples; FLIP between "
          "I_t and I_t-1 + (R_t - R_t-1), clipped"},
-        {"step", "I_t against the same view at the levels and splits of frame t-1"},
+        {"step", "I_t against the same view at the levels, splits and lens rates of frame t-1"},
         {"objects", "unless a name ends in Image: over the pixels that objects and their blur touch in either frame"},
         {"speed", "the largest change of an object's fractional level from frame to frame"},
         {"fullDetail", "differs from the reference by nothing: it is the reference"}};
-    document["heldEqual"] = "scene, views, lens samples, thresholds, image size, layer format, renderer";
+    document["heldEqual"] =
+        "scene, views, lens samples, thresholds, image size, layer format and, but for multirate, renderer";
     for (const char* list : {"rows", "sampleSteps"}) document[list] = ordered_json::array();
     for (const PoppingRow& row : poppingRows(frames)) document["rows"].push_back(rowJson(row));
     for (const SampleStep& step : steps) document["sampleSteps"].push_back(stepJson(step));

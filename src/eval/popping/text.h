@@ -21,7 +21,7 @@ struct PopSummary {
 struct PoppingRow {
     Movement movement = Movement::focusPull;
     std::uint32_t samples = 0;
-    LodMode mode = LodMode::off;
+    PoppingMode mode = PoppingMode::nearest;
     int frames = 0;  // number of changes, one less than the number of views
     double speed = 0;
     PopSummary changeRmse, changeFlip, stepRmse, stepFlip;  // over the objects' pixels

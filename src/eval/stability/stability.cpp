@@ -25,6 +25,7 @@ std::vector<StabilityCase> stabilityCases() {
     addValueCases(cases);
     addSplitCases(cases);
     addLevelCases(cases);
+    addRateCases(cases);
     addTracedCases(cases);
     return cases;
 }

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "gl/timer.h"
+#include "plan/sample_range.h"
 #include "render/accumulation/layer_sum.h"
+#include "render/accumulation/shared_images.h"
 #include "render/frame_clock.h"
 #include "render/shadow_maps.h"
 #include "render/surface_pass.h"
@@ -17,15 +20,15 @@ namespace defocus {
 
 namespace {
 
-// As many layers as the memory allows, at most a block.
-std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked,
-                         LayerFormat format) {
+// As many layers as the memory allows, at most a block. What samples share takes at most half as much again.
+std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
+                         bool shares) {
     const LayerWindow window = layerWindow(plan);
     const std::uint64_t layerBytes = std::uint64_t{static_cast<std::uint32_t>(window.layerWidth)} *
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
                                          (plan.usesTransmission ? 2 : 1) +  // with the backdrop
                                      shadowMapBytes(plan);
-    const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes;
+    const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * (shares ? 2 : 3) / 3;
     const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
 }
@@ -37,8 +40,8 @@ bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {
 
 class AccumulationRenderer final : public Renderer {
 public:
-    AccumulationRenderer(const World& world, const RendererOptions& options)
-        : options_(options), wave_(options.wave), scene_(world) {}
+    AccumulationRenderer(const World& world, const RendererOptions& options, std::unique_ptr<SharedImages> shared)
+        : options_(options), wave_(options.wave), scene_(world), shared_(std::move(shared)) {}
 
     void setWave(std::uint32_t samples) override { wave_ = samples > 0 ? samples : options_.wave; }
 
@@ -48,9 +51,10 @@ public:
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
-        for (GpuTimer* timer : {&shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
+        for (GpuTimer* timer :
+             {&sharedTimer_, &shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
             timer->reset();
-        prepareDraws();
+        prepareFrame();
     }
 
     void continueWith(const FramePlan& plan) override {
@@ -60,16 +64,17 @@ public:
         clock_.beginSetup();
         samplesBefore_ = samples();
         plan_ = plan;
-        prepareDraws();
+        prepareFrame();
     }
 
     bool advance() override {
         const std::uint32_t first = sum_->samples() - samplesBefore_;  // of the plan's
         const auto total = static_cast<std::uint32_t>(plan_.samples.size());
         if (first >= total) return false;
+        if (shared_ && first > 0 && first % blockSamples == 0) prepareDraws(first);
         const std::uint32_t count = std::min({sum_->info().layers, total - first, blockSamples - first % blockSamples});
         clock_.beginWave();
-        drawWave(first, count);
+        drawWave(first - drawsBegin_, count);
         clock_.endWave();
         if (first + count == total) clock_.endFrame();
         return first + count < total;
@@ -90,6 +95,7 @@ public:
         clock_.fill(stats);
         stats.wave = sum_->info().layers;
         stats.layerFormat = layerFormatName(sum_->info().format);
+        if (shared_) stats.passes.push_back({"shared", sharedTimer_.milliseconds()});
         if (!shadows_->defines().empty()) stats.passes.push_back({"shadows", shadowTimer_.milliseconds()});
         stats.passes.push_back({"opaque", opaqueTimer_.milliseconds()});
         if (drawsSky()) stats.passes.push_back({"sky", skyTimer_.milliseconds()});
@@ -99,15 +105,27 @@ public:
     }
 
 private:
-    void prepareDraws() {
+    void prepareFrame() {
         scene_.prepare(plan_);
-        frame_.upload(scene_.world(), plan_, sum_->info().layers);
-        shadows_->prepare(plan_, frame_);
-        surfaces_->prepare(plan_, frame_, &*shadows_);
-        stats_.peakBytes = std::max<std::uint64_t>(
-            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + shadows_->bytes() + sum_->bytes());
+        if (shared_) shared_->prepareFrame(plan_);
+        prepareDraws(0);
         clock_.beginFrame();
     }
+
+    // What is drawn from the plan's sample `first` on, to the end or, where samples share, to the end of the block.
+    void prepareDraws(std::uint32_t first) {
+        drawsBegin_ = first;
+        const auto total = static_cast<std::uint32_t>(plan_.samples.size());
+        if (shared_) block_ = shared_->prepareBlock(first, std::min(blockSamples, total - first));
+        frame_.upload(scene_.world(), draws(), sum_->info().layers);
+        shadows_->prepare(draws(), frame_);
+        surfaces_->prepare(draws(), frame_, &*shadows_);
+        stats_.peakBytes = std::max<std::uint64_t>(
+            stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + shadows_->bytes() + sum_->bytes() +
+                                  (shared_ ? shared_->bytes() : 0));
+    }
+
+    [[nodiscard]] const FramePlan& draws() const { return shared_ ? block_ : plan_; }
 
     // The sums and the pass that fills them, made anew only when size or format change.
     void prepareTarget() {
@@ -115,24 +133,27 @@ private:
         const LayerWindow window = layerWindow(plan_);
         const LayerSumInfo info{.width = window.layerWidth,
                                 .height = window.layerHeight,
-                                .layers = chosenWave(plan_, options_, wave_, format),
+                                .layers = chosenWave(plan_, options_, wave_, format, shared_ != nullptr),
                                 .format = format,
                                 .shaderFolder = options_.shaderFolder,
                                 .sumWidth = window.width,
                                 .sumHeight = window.height};
         const bool sameFormat = sum_ && sum_->info().format == format;
-        if (!sum_ || !sameSizes(sum_->info(), info) || !sameFormat) {
+        const bool sameTarget = sameFormat && sameSizes(sum_->info(), info);
+        if (!sameTarget) {
+            if (shared_) shared_->releaseTarget();
             sum_.reset();  // before the new one is made: both may not fit
             sum_.emplace(info);
         }
+        const SurfacePassInfo pass{.fragmentShader = "accumulation/object.frag",
+                                   .defines = layerFormatDefines(format),
+                                   .vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers,
+                                   .shaderFolder = options_.shaderFolder};
         if (!sameFormat) {
-            const bool vertexShaderLayers = vertexShaderMayPickLayer() && !options_.geometryShaderLayers;
-            shadows_.emplace(scene_, vertexShaderLayers, options_.shaderFolder);
-            surfaces_.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
-                                                      .defines = layerFormatDefines(format),
-                                                      .vertexShaderLayers = vertexShaderLayers,
-                                                      .shaderFolder = options_.shaderFolder});
+            shadows_.emplace(scene_, pass.vertexShaderLayers, pass.shaderFolder);
+            surfaces_.emplace(scene_, pass);
         }
+        if (shared_ && !sameTarget) shared_->prepareTarget(scene_, pass, *sum_);
         sum_->reset(plan_.tile ? std::optional(window) : std::nullopt);
     }
 
@@ -148,42 +169,48 @@ private:
         timer.end();
     }
 
+    // Samples [first, first + count) of draws().
     void drawWave(std::uint32_t first, std::uint32_t count) {
+        if (shared_) timed(sharedTimer_, [&] { stats_.trianglesDrawn += shared_->draw(first, count); });
         if (!shadows_->defines().empty()) timed(shadowTimer_, [&] { shadows_->draw(first, count); });
         timed(opaqueTimer_, [&] {
             sum_->beginWave();
+            if (shared_) shared_->copyToLayers(first, count);
             surfaces_->drawOpaque(first, count);
         });
         if (drawsSky()) timed(skyTimer_, [&] { surfaces_->drawSky(first, count); });
         if (surfaces_->hasTranslucent())
             timed(translucentTimer_, [&] { surfaces_->drawTranslucent(first, count, sum_->layerColors()); });
         timed(sumTimer_, [&] { sum_->endWave(frame_, first, count); });
-        for (const ObjectPlan& object : plan_.objects)
-            for (const LevelDraw& draw : {object.coarse, object.fine}) {
-                const std::uint32_t begin = std::max(first, draw.firstSample);
-                const std::uint32_t end = std::min(first + count, draw.firstSample + draw.sampleCount);
-                if (begin < end) stats_.trianglesDrawn += std::uint64_t{end - begin} * draw.triangleCount;
-            }
+        stats_.trianglesDrawn += trianglesDrawn(draws(), first, count);
     }
 
     RendererOptions options_;
     std::uint32_t wave_;  // K asked for; 0: as many as waveBytes allow
     GpuScene scene_;
     FramePlan plan_;
-    std::uint32_t samplesBefore_ = 0;  // in the sum when the plan was begun
+    std::uint32_t samplesBefore_ = 0;       // in the sum when the plan was begun
+    std::unique_ptr<SharedImages> shared_;  // null: every sample draws everything
+    FramePlan block_;                       // what the samples of the block draw by themselves, where they share
+    std::uint32_t drawsBegin_ = 0;          // the plan's sample that is the first of draws()
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<ShadowMaps> shadows_;
     std::optional<SurfacePass> surfaces_;
     mutable FrameClock clock_;
-    mutable GpuTimer shadowTimer_, opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
+    mutable GpuTimer sharedTimer_, shadowTimer_, opaqueTimer_, skyTimer_, translucentTimer_, sumTimer_;
     RenderStats stats_;
 };
 
 }  // namespace
 
 std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options) {
-    return std::make_unique<AccumulationRenderer>(world, options);
+    return std::make_unique<AccumulationRenderer>(world, options, nullptr);
+}
+
+std::unique_ptr<Renderer> makeSharingAccumulation(const World& world, const RendererOptions& options,
+                                                  std::unique_ptr<SharedImages> shared) {
+    return std::make_unique<AccumulationRenderer>(world, options, std::move(shared));
 }
 
 }  // namespace defocus

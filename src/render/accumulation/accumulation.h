@@ -4,11 +4,15 @@
 
 #include <memory>
 
+#include "render/accumulation/shared_images.h"
 #include "render/methods.h"
 
 namespace defocus {
 
 // Needs a current GL 4.5 context, which must outlive the renderer.
 std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options);
+// The same, with images that samples of a block share.
+std::unique_ptr<Renderer> makeSharingAccumulation(const World& world, const RendererOptions& options,
+                                                  std::unique_ptr<SharedImages> shared);
 
 }  // namespace defocus

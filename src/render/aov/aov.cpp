@@ -9,10 +9,39 @@
 
 #include "gl/read_back.h"
 #include "image/colour_map.h"
+#include "plan/rates.h"
 #include "render/colour_texture.h"
 #include "render/post_process/pinhole_pass.h"
 
 namespace defocus {
+
+namespace {
+
+constexpr GLuint ratesUnit = 18;  // of shaders/aov/aov.frag
+
+// By the objects' numbers in the world; 1 for what isn't drawn.
+TexelBuffer rateTexels(const World& world, const FramePlan& plan) {
+    std::vector<float> texels(std::max<std::size_t>(world.pose.objects.size(), 1), 1);
+    const FrameRates rates = frameRates(plan);
+    for (std::size_t i = 0; i < plan.objects.size(); ++i)
+        texels[static_cast<std::size_t>(plan.objects[i].object)] =
+            static_cast<float>(imagesPerSample(plan, rates.objects[i]));
+    return {texels, GL_R32F, 1, "the objects' rates"};
+}
+
+// `share` (0 … 1) by viridis, and black where `value` is negative.
+template <typename Share>
+Image colourMapOf(const Image& values, const Share& share) {
+    Image colours(values.width, values.height, 3);
+    for (std::size_t i = 0; i < values.pixels.size(); ++i) {
+        const float value = values.pixels[i];
+        const glm::vec3 colour = value < 0 ? glm::vec3(0) : viridis(std::clamp(share(value), 0.0f, 1.0f));
+        for (glm::length_t c = 0; c < 3; ++c) colours.pixels[i * 3 + static_cast<std::size_t>(c)] = colour[c];
+    }
+    return colours;
+}
+
+}  // namespace
 
 AovPass::AovPass(const World& world, std::filesystem::path shaderFolder)
     : shaderFolder_(std::move(shaderFolder)),
@@ -34,8 +63,9 @@ void AovPass::makeTargets(int width, int height) {
     depth_ = texture(TextureFormat::r32f);
     coc_ = texture(TextureFormat::r32f);
     level_ = texture(TextureFormat::r32f);
+    rate_ = texture(TextureFormat::r32f);
     depthBuffer_ = texture(TextureFormat::depth32f);
-    target_ = Target({&depth_, &coc_, &level_}, &depthBuffer_);
+    target_ = Target({&depth_, &coc_, &level_, &rate_}, &depthBuffer_);
     wireframe_ = GlTexture();
 }
 
@@ -46,10 +76,11 @@ void AovPass::draw(const FramePlan& plan) {
     // Clear to what lies behind everything.
     target_.bind();
     glDepthMask(GL_TRUE);
-    const float behind[3] = {
+    const float behind[4] = {
         std::numeric_limits<float>::infinity(),
-        static_cast<float>(circleOfConfusion(plan.coc, std::numeric_limits<double>::infinity(), plan.view.width)), -1};
-    for (GLint i = 0; i < 3; ++i) {
+        static_cast<float>(circleOfConfusion(plan.coc, std::numeric_limits<double>::infinity(), plan.view.width)), -1,
+        -1};
+    for (GLint i = 0; i < 4; ++i) {
         const float value[4] = {behind[i], 0, 0, 0};
         glClearNamedFramebufferfv(target_.name(), GL_COLOR, i, value);
     }
@@ -59,6 +90,8 @@ void AovPass::draw(const FramePlan& plan) {
     scene_.prepare(pinhole_);
     frame_.upload(scene_.world(), pinhole_, 1);
     surfaces_.prepare(pinhole_, frame_);
+    rates_ = rateTexels(scene_.world(), plan);
+    rates_.attach(ratesUnit);
     surfaces_.drawSurfaces(0, 1);
 }
 
@@ -86,17 +119,15 @@ void AovPass::drawWireframe() {
 AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder) {
     AovPass pass(world, shaderFolder);
     pass.draw(plan);
-    return {readBack(pass.depth(), 1), readBack(pass.coc(), 1), readBack(pass.level(), 1)};
+    return {readBack(pass.depth(), 1), readBack(pass.coc(), 1), readBack(pass.level(), 1), readBack(pass.rate(), 1)};
 }
 
 Image levelColourMap(const Image& level) {
-    Image colours(level.width, level.height, 3);
-    for (std::size_t i = 0; i < level.pixels.size(); ++i) {
-        const float value = level.pixels[i];
-        const glm::vec3 colour = value < 0 ? glm::vec3(0) : viridis(std::min(value / coarsestShownLevel, 1.0f));
-        for (glm::length_t c = 0; c < 3; ++c) colours.pixels[i * 3 + static_cast<std::size_t>(c)] = colour[c];
-    }
-    return colours;
+    return colourMapOf(level, [](float value) { return value / coarsestShownLevel; });
+}
+
+Image rateColourMap(const Image& rate) {
+    return colourMapOf(rate, [](float value) { return std::log2(value) / std::log2(leastShownRate); });
 }
 
 }  // namespace defocus

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gl/target.h"
+#include "gl/texel_buffer.h"
 #include "image/image.h"
 #include "render/surface_pass.h"
 
@@ -14,6 +15,7 @@ struct AovImages {
     Image depth;  // m along the view axis; infinity where nothing is
     Image coc;    // signed circle of confusion, px, > 0 behind the focus plane; the value at infinity where nothing is
     Image level;  // the object's fractional level λ; −1 where nothing is
+    Image rate;   // the images of the object that "multirate" draws for a lens sample, 1/4 … 1; −1 where nothing is
 };
 
 // The same as textures (r32f, row 0 at the bottom), for frame after frame of one world. Needs a current GL context.
@@ -29,6 +31,7 @@ public:
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
     [[nodiscard]] const GlTexture& coc() const { return coc_; }
     [[nodiscard]] const GlTexture& level() const { return level_; }
+    [[nodiscard]] const GlTexture& rate() const { return rate_; }
     [[nodiscard]] const GlTexture& wireframe() const { return wireframe_; }
 
 private:
@@ -40,7 +43,8 @@ private:
     SurfacePass edges_;
     FrameUniforms frame_;
     FramePlan pinhole_;
-    GlTexture depth_, coc_, level_, depthBuffer_, wireframe_, levelColours_;
+    TexelBuffer rates_;  // of the world's objects
+    GlTexture depth_, coc_, level_, rate_, depthBuffer_, wireframe_, levelColours_;
     Target target_, wireTarget_;
 };
 
@@ -49,6 +53,13 @@ AovImages renderAovs(const World& world, const FramePlan& plan, const std::files
 
 // λ from which on levels look alike in colour maps.
 inline constexpr float coarsestShownLevel = 8;
+
+// Images a lens sample from which on rates look alike in colour maps.
+inline constexpr float leastShownRate = 1.0f / 4;
+
+// Rates as colours that a person can read: an image for each lens sample dark violet, one for two in the middle, and
+// one for four or more yellow (viridis), black where nothing is.
+Image rateColourMap(const Image& rate);
 
 // λ as colours that a person can read: level 0 dark violet to level 8 and beyond yellow (viridis), black where nothing
 // is.

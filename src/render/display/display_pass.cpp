@@ -49,8 +49,9 @@ void DisplayPass::draw(const DisplayInputs& inputs, const DisplaySettings& setti
         target_ = Target({&texture_});
     }
     target_.bind();
-    const GlTexture* textures[] = {inputs.first, inputs.second,    inputs.coc,
-                                   inputs.level, inputs.wireframe, inputs.work};
+    // An overlay shows levels or rates, not both.
+    const GlTexture* values = settings.overlay == DisplayOverlay::rate ? inputs.rate : inputs.level;
+    const GlTexture* textures[] = {inputs.first, inputs.second, inputs.coc, values, inputs.wireframe, inputs.work};
     for (GLuint unit = 0; unit < 6; ++unit) (textures[unit] != nullptr ? *textures[unit] : black_).attach(unit);
     (settings.overlay == DisplayOverlay::work ? workColours_ : levelColours_).attach(6);
     const Program& chosen = programFor(inputs, settings);

@@ -17,6 +17,7 @@ enum class DisplayOverlay {
     none,
     coc,    // circle of confusion: orange in front of the focus plane, blue behind
     level,  // objects by their level λ, dark violet (0) to yellow (8)
+    rate,   // objects by the images that a lens sample takes (method multirate), dark violet (1) to yellow (1/4)
     work,   // triangles that touch a pixel in a lens sample: black (none) to pale yellow (mostShownWork), logarithmic
 };
 
@@ -32,8 +33,8 @@ struct DisplaySettings {
     double differenceGain = 4;
 
     [[nodiscard]] bool needsAovs() const {
-        return overlay == DisplayOverlay::coc || overlay == DisplayOverlay::level || focusPeaking || focusPlane ||
-               wireframe;
+        return overlay == DisplayOverlay::coc || overlay == DisplayOverlay::level || overlay == DisplayOverlay::rate ||
+               focusPeaking || focusPlane || wireframe;
     }
 };
 
@@ -43,6 +44,7 @@ struct DisplayInputs {
     const GlTexture* second = nullptr;
     const GlTexture* coc = nullptr;  // of AovPass
     const GlTexture* level = nullptr;
+    const GlTexture* rate = nullptr;
     const GlTexture* wireframe = nullptr;
     const GlTexture* work = nullptr;  // of WorkPass
     std::uint32_t workSamples = 1;    // that are in it

@@ -148,14 +148,14 @@ TEST(PoppingPixels, growByHalfTheBlur) {
 std::vector<PoppingFrame> ramp() {
     std::vector<PoppingFrame> frames;
     for (int i = 0; i <= 100; ++i)
-        for (const LodMode mode : {LodMode::nearest, LodMode::fractional}) {
+        for (const PoppingMode mode : {PoppingMode::nearest, PoppingMode::fractional}) {
             PoppingFrame frame;
             frame.movement = Movement::dolly;
             frame.samples = 8;
             frame.mode = mode;
             frame.frame = 101 - i;
             frame.speed = 0.01 * i;
-            frame.step.objects.rmse = mode == LodMode::nearest ? i : 0.5 * i;
+            frame.step.objects.rmse = mode == PoppingMode::nearest ? i : 0.5 * i;
             frames.push_back(frame);
         }
     return frames;
@@ -164,7 +164,7 @@ std::vector<PoppingFrame> ramp() {
 TEST(PoppingRows, holdWorstPercentileAndShareOfTheNearestLevel) {
     const std::vector<PoppingRow> rows = poppingRows(ramp());
     ASSERT_EQ(rows.size(), 2u);
-    EXPECT_EQ(rows[0].mode, LodMode::nearest);
+    EXPECT_EQ(rows[0].mode, PoppingMode::nearest);
     EXPECT_EQ(rows[0].frames, 101);
     EXPECT_DOUBLE_EQ(rows[0].speed, 1);
     EXPECT_DOUBLE_EQ(rows[0].stepRmse.worst, 100);
@@ -189,7 +189,7 @@ TEST(PoppingRows, keepMovementsAndNumbersOfSamplesApart) {
     ASSERT_EQ(rows.size(), 6u);
     for (const PoppingRow& row : rows) {
         EXPECT_EQ(row.frames, 101);
-        EXPECT_DOUBLE_EQ(row.stepRmse.ofNearest, row.mode == LodMode::nearest ? 1 : 0.5);
+        EXPECT_DOUBLE_EQ(row.stepRmse.ofNearest, row.mode == PoppingMode::nearest ? 1 : 0.5);
     }
 }
 
