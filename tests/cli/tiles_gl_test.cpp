@@ -148,8 +148,8 @@ TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
 // Frames of a film are drawn in tiles too, and their files are the bytes of those in one piece.
 TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
     const auto film = [&](const std::string& name, std::vector<std::string> more) {
-        more.insert(more.begin(), {"--range", "0:1", "--size", size, "--samples", "3", "-o", name + "/#.exr", "-o",
-                                   name + "/#.png", "-o", name + "/#.jpg"});
+        more.insert(more.begin(), {"--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o", name + "/#.exr",
+                                   "-o", name + "/#.png", "-o", name + "/#.jpg"});
         return capture(more);
     };
     ASSERT_EQ(film("whole", {}).exitCode, 0);
@@ -158,8 +158,8 @@ TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
     for (const char* name : {"0.exr", "0.png", "0.jpg", "1.exr", "1.png", "1.jpg"})
         EXPECT_TRUE(bytesOf(std::string("tiles/") + name) == bytesOf(std::string("whole/") + name)) << name;
     // They are finished, whatever the memory.
-    EXPECT_NE(run({"capture", "shot.json", "--range", "0:1", "--size", size, "--samples", "3", "-o", "tiles/#.exr",
-                   "--memory", "350MiB", "--resume"})
+    EXPECT_NE(run({"capture", "shot.json", "--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o",
+                   "tiles/#.exr", "--memory", "350MiB", "--resume"})
                   .err.find("2 of them there before"),
               std::string::npos);
 }
