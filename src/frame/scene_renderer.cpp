@@ -200,8 +200,8 @@ void SceneRenderer::State::dropRenderer() {
     renderer_.reset();
 }
 
-// Sees to a renderer, and begins to draw the frame in tiles where it doesn't fit into memory in one piece. `asBefore`: as the frame before was
-// drawn, whose layers and sums are those of this one.
+// Sees to a renderer, and begins to draw the frame in tiles where it doesn't fit into memory in one piece. `asBefore`:
+// as the frame before was drawn, whose layers and sums are those of this one.
 void SceneRenderer::State::startTiles(bool asBefore) {
     std::vector<Band> bands;
     if (asBefore) {
