@@ -46,6 +46,15 @@ std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std
     return needs.shared ? left / (device + host) : std::min(left / device, needs.hostMemory / host);
 }
 
+// Of `length` rows, `most` of them in a band. Up to half as many more where that makes all of one height: sums of
+// another are made while drivers still hold those of before.
+int bandCount(int length, int most) {
+    const int fewest = (length + most - 1) / most;
+    for (int count = fewest; count <= fewest + fewest / 2; ++count)
+        if (length % count == 0) return count;
+    return fewest;
+}
+
 [[noreturn]] void failForMemory(const TilingNeeds& needs, int cellWidth, std::uint64_t layers, int rows) {
     const std::uint64_t perRow = static_cast<std::uint64_t>(cellWidth) * (sumPixelBytes + tilePixelBytes) +
                                  static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
@@ -100,7 +109,7 @@ Tiling chosenTiling(const TilingNeeds& asked) {
         const int first = std::max(cell.top, needs.rows.first);
         const int end = std::min(cell.top + cell.height, needs.rows.end);
         if (first >= end) continue;
-        const int count = (end - first + rows - 1) / rows;
+        const int count = bandCount(end - first, rows);
         const int each = (end - first + count - 1) / count;
         for (int top = first; top < end; top += each)
             tiling.bands.push_back(bandOf(cells, {top, std::min(top + each, end)}));
