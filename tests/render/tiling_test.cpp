@@ -104,7 +104,7 @@ TEST(Tiling, tooLittleMemorySaysWhatIsNeeded) {
 TEST(Tiling, picturesThatAreKeptLeaveLess) {
     TilingNeeds needs = needsOf(1000, 1000, 120 << 20);
     const Tiling alone = chosenTiling(needs);
-    needs.keptBytes = 48'000'000;
+    needs.keptBytes = 90'000'000;
     const Tiling beside = chosenTiling(needs);
     EXPECT_GT(beside.bands.size(), alone.bands.size());
     EXPECT_LE(bytesOf(needs, beside) + needs.keptBytes, 120u << 20);
