@@ -17,6 +17,7 @@ Needs matplotlib and Pillow (Debian: python3-matplotlib). The program carries th
 import base64
 import csv
 import datetime
+import fcntl
 import html
 import io
 import json
@@ -1008,12 +1009,31 @@ def page(parts, folder, report):
             f'{text}</main><div id="tip" role="status" hidden></div><script>{SCRIPT}</script></body></html>\n')
 
 
+def remove_abandoned(path):
+    """Goes unless somebody is writing it."""
+    try:
+        with open(path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            path.unlink()
+    except OSError:
+        pass
+
+
 def write_whole(path, text):
-    """The file appears whole or not at all."""
-    with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, prefix=".", delete=False) as file:
+    """The file appears whole or not at all; what a run that was killed has left in the making goes."""
+    prefix = f".{path.name}."
+    for left in path.parent.glob(f"{prefix}*"):
+        remove_abandoned(left)
+    with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=path.parent, prefix=prefix, delete=False) as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            pass  # a file system without locks: nobody else gets one either
         file.write(text)
-    os.chmod(file.name, 0o644)
-    os.replace(file.name, path)
+        file.flush()
+        os.fsync(file.fileno())
+        os.chmod(file.name, 0o644)
+        os.replace(file.name, path)
 
 
 def main(arguments):

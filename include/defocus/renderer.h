@@ -59,12 +59,16 @@ public:
     // levels or method. Throws Error as the constructor does, and for another scene.
     void start();
     void start(const Request& request);
-    // Draws some more samples; false once the frame is done.
+    // Draws some more samples; false once the frame is done. A frame that doesn't fit into memory in one piece
+    // (Request::memory) is drawn in tiles from the top, each with all samples, to the same bits; start() throws Error
+    // where it can't be.
     bool advance();
-    // Samples in the image so far, and when the frame is done.
+    // Samples in the image so far, and when the frame is done. With tiles, the mean over the image's rows, rounded
+    // down.
     [[nodiscard]] std::uint32_t samples() const;
     [[nodiscard]] std::uint32_t sampleTotal() const;
-    // The image of the samples so far, linear, 4 channels; with no sample yet it throws Error.
+    // The image of the samples so far, linear, 4 channels; with no sample yet it throws Error. Tiles that aren't
+    // finished are black and of no coverage.
     [[nodiscard]] Image image();
     [[nodiscard]] RenderStatistics statistics() const;
 
@@ -72,7 +76,7 @@ public:
     Image render(const Progress& progress = {}, std::stop_token stop = {});
     Image render(const Request& request, const Progress& progress = {}, std::stop_token stop = {});
 
-    // Of the frame that was started last.
+    // Of the frame that was started last; throws Error where it is drawn in tiles.
     [[nodiscard]] Aovs aovs();
     // The FramePlan of the frame that was started last as JSON, as `defocus plan --json` prints it: blur, level and
     // samples of each object, and what is left out and why.

@@ -11,10 +11,13 @@
 
 #include "capture/frame_files.h"
 #include "capture/frame_writer.h"
+#include "capture/tile_files.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "frame/tiled_frame.h"
+#include "image/image_rows.h"
 #include "lens/photographic_exposure.h"
 #include "plan/frame_plan.h"
 #include "render/frame_run.h"
@@ -89,12 +92,22 @@ struct DrawnFrame {
     FrameTimes times;
 };
 
-DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, const FilmOptions& options,
-                     const FilmMetadata& metadata, const std::function<void(double)>& step) {
-    const Clock::time_point start = Clock::now();
+void takeMoment(World& world, const SequenceFrame& frame) {
     world.pose = frame.pose;
     world.shutter = frame.shutter;
     world.lights = frame.lights;
+}
+
+RenderSettings settingsOf(const SequenceFrame& frame, const FilmOptions& options) {
+    RenderSettings settings = frame.settings;
+    if (options.automatic) settings.sampleCount = automaticSamples;
+    return settings;
+}
+
+DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, const FilmOptions& options,
+                     const FilmMetadata& metadata, const std::function<void(double)>& step) {
+    const Clock::time_point start = Clock::now();
+    takeMoment(world, frame);
     DrawnFrame drawn;
     FramePlan plan;
 
@@ -107,9 +120,7 @@ DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, cons
         drawn.stats.samples = drawn.part.frameSamples;
     } else {
         FrameRun run(world, renderer);
-        RenderSettings settings = frame.settings;
-        if (options.automatic) settings.sampleCount = automaticSamples;
-        run.start(frame.view, settings, options.stop);
+        run.start(frame.view, settingsOf(frame, options), options.stop);
         drawn.times.planMilliseconds = run.planMilliseconds();
         do {
             step(static_cast<double>(run.samples()) / run.sampleTotal());
@@ -125,6 +136,15 @@ DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, cons
     return drawn;
 }
 
+// Of a file of the frame: all that its frame has, and what it is made of.
+Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& ofFrame) {
+    Metadata metadata = ofFrame;
+    metadata[settingsAttribute] = film.settings[file];
+    const std::string ending = film.files[file].extension().string();
+    if (ending != ".exr" && ending != ".png") metadata["comments"] = film.settings[file];  // all that a JPEG holds
+    return metadata;
+}
+
 void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& options) {
     const Clock::time_point start = Clock::now();
     for (std::size_t i = 0; i < film.files.size(); ++i) {
@@ -134,14 +154,72 @@ void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& opt
             writePart(path, drawn.part);
             continue;
         }
-        Metadata metadata = drawn.metadata;
-        metadata[settingsAttribute] = film.settings[i];
-        const std::string ending = path.extension().string();
-        if (ending != ".exr" && ending != ".png") metadata["comments"] = film.settings[i];  // all that a JPEG holds
-        writeImage(path, drawn.image, metadata, film.write);
+        writeImage(path, drawn.image, fileMetadata(film, i, drawn.metadata), film.write);
     }
     drawn.times.writeMilliseconds = millisecondsSince(start);
     appendTimes(options, film, drawn.frame, drawn.stats, drawn.times);
+}
+
+// ---- what fits
+// -------------------------------------------------------------------------------------------------------
+
+// How the frames of a film fit into memory, by its first one: all have the same size.
+struct FilmMemory {
+    bool alone = false;  // one piece, once the frames before are written
+    Tiling tiles;        // no bands: in one piece
+};
+
+FilmMemory memoryOf(const SequenceFrame& frame, World& world, Renderer& renderer, const FilmOptions& options) {
+    FilmMemory memory;
+    if (!options.method->needsGl) return memory;
+    takeMoment(world, frame);
+    const FramePlan plan = planOfTiles(world, frame.view, settingsOf(frame, options));
+    Request request = options.settings.request;
+    request.stop = options.stop;
+    if (mustDrawInTiles(world, plan, request, *options.method, options.memoryLimit)) {
+        if (options.sampleRange) refuseTiles(plan, options.memoryLimit, "--sample-range keeps sums of the whole image");
+        memory.tiles = chosenTiling(measuredNeeds(world, plan, request, renderer, options.memoryLimit));
+        renderer.setWave(memory.tiles.wave);
+        return memory;
+    }
+    TilingNeeds needs = tilingNeeds(world, plan, {0, plan.view.height}, request, options.memoryLimit);
+    const std::uint64_t pixels = std::uint64_t(plan.view.width) * std::uint64_t(plan.view.height);
+    needs.keptBytes = (framesWaiting + 1) * pixels * bandPixelBytes;
+    memory.alone = request.memory && !fitsInOnePiece(needs);
+    return memory;
+}
+
+// Draws the frame and writes it row by row: no more of it is ever in memory.
+DrawnFrame filmInTiles(const FilmFrame& film, SequenceFrame frame, World& world, Renderer& renderer,
+                       const Tiling& tiling, const FilmOptions& options, const FilmMetadata& metadata,
+                       const std::function<void(double)>& step) {
+    const Clock::time_point start = Clock::now();
+    takeMoment(world, frame);
+    const FramePlan plan = planOfTiles(world, frame.view, settingsOf(frame, options));
+    DrawnFrame drawn;
+    drawn.times.planMilliseconds = millisecondsSince(start);
+    TileRun run{.renderer = renderer, .plan = plan, .metadata = {}};
+    run.step = [&](double rows) { step(rows / plan.view.height); };
+    std::vector<ImageRowWriter> writers;
+    for (const Band& band : tiling.bands) {
+        const Image rows = drawnBand(band, run, band.rows.first);
+        drawn.times.renderMilliseconds = millisecondsSince(start) - drawn.times.writeMilliseconds;
+        const Clock::time_point writing = Clock::now();
+        if (writers.empty()) {
+            drawn.metadata = metadata(frame, plan, run.stats);
+            for (std::size_t i = 0; i < film.files.size(); ++i)
+                writers.emplace_back(film.files[i], plan.view.width, plan.view.height, rows.channels,
+                                     fileMetadata(film, i, drawn.metadata), film.write);
+        }
+        for (ImageRowWriter& writer : writers) writer.write(rows);
+        if (&band == &tiling.bands.back())
+            for (ImageRowWriter& writer : writers) writer.finish();
+        drawn.times.writeMilliseconds += millisecondsSince(writing);
+    }
+    drawn.stats = run.stats;
+    drawn.frame = std::move(frame);
+    appendTimes(options, film, drawn.frame, drawn.stats, drawn.times);
+    return drawn;
 }
 
 // ---- progress
@@ -230,6 +308,7 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
     const Clock::time_point start = Clock::now();
     FilmFigures figures;
     FrameWriter writer(framesWaiting);
+    std::optional<FilmMemory> memory;
     const auto total = static_cast<double>(std::max(wanted, 1));
     for (const FilmFrame& film : frames) {
         if (film.finished) {
@@ -245,17 +324,29 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
             report(progress, stage, static_cast<std::uint64_t>(1000 * (figures.rendered + share)),
                    static_cast<std::uint64_t>(1000 * total));
         };
+        SequenceFrame frame = frameAt(shot, base, film.frame);
+        if (!memory) memory = memoryOf(frame, world, renderer, options);
+        const bool tiles = !memory->tiles.bands.empty();
         auto drawn = std::make_shared<DrawnFrame>(
-            drawFrame(frameAt(shot, base, film.frame), world, renderer, options, metadata, step));
+            tiles ? filmInTiles(film, std::move(frame), world, renderer, memory->tiles, options, metadata, step)
+                  : drawFrame(std::move(frame), world, renderer, options, metadata, step));
         ++figures.rendered;
         figures.renderMilliseconds += drawn->times.renderMilliseconds;
         figures.triangles += drawn->stats.trianglesDrawn;
-        if (figures.rendered == 1 && options.firstDrawn && !options.sampleRange)
+        if (figures.rendered == 1 && options.firstDrawn && !options.sampleRange && !tiles)
             options.firstDrawn(drawn->image, film.write);
-        writer.add([drawn, &film, &options] { writeFrame(film, *drawn, options); });
+        if (memory->alone)
+            writeFrame(film, *drawn, options);
+        else if (!tiles)
+            writer.add([drawn, &film, &options] { writeFrame(film, *drawn, options); });
     }
     writer.finish();
     figures.totalMilliseconds = millisecondsSince(start);
+    if (memory) {
+        int tiles = 0;
+        for (const Band& band : memory->tiles.bands) tiles += static_cast<int>(band.tiles.size());
+        figures.tiles = std::max(tiles, 1);
+    }
     return figures;
 }
 

@@ -16,6 +16,7 @@
 #include "capture/settings_hash.h"
 #include "core/progress.h"
 #include "image/image_io.h"
+#include "render/methods.h"
 #include "render/renderer.h"
 
 namespace defocus {
@@ -44,6 +45,8 @@ struct FilmOptions {
     bool resume = false;                     // keep what is finished
     // Gets the image of the first frame that is drawn whole, and how its pictures are written.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
+    const Method* method = nullptr;          // that draws
+    std::uint64_t memoryLimit = 0;           // bytes that the process may take in all
 };
 
 // "frames/timings.jsonl", or of shard 2 of 8 "frames/timings.2-of-8.jsonl".
@@ -56,6 +59,7 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
 
 struct FilmFigures {
     int rendered = 0;
+    int tiles = 1;  // that a frame was drawn in
     int finishedBefore = 0;
     double renderMilliseconds = 0;  // of the rendered frames, each from its plan to its image
     double totalMilliseconds = 0;   // wall clock, until the last file was written
@@ -67,7 +71,9 @@ struct FilmFigures {
 using FilmMetadata = std::function<Metadata(const SequenceFrame&, const FramePlan&, const RenderStats&)>;
 
 // Renders those that aren't finished. `world` takes each frame's pose and lights; `renderer` was made for it. Before
-// each frame `stop` is asked. Throws Error for a file that can't be written, with what is finished kept.
+// each frame `stop` is asked. Frames that don't fit into memory in one piece are drawn in tiles and written row by row,
+// with the same bits; those that fit alone are written before the next is drawn. Throws Error for a file that can't be
+// written, with what is finished kept, and for frames that fit in no way.
 FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, Renderer& renderer,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress = {});

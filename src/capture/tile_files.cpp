@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 #include "image/image_rows.h"
+#include "render/tile_walk.h"
 
 namespace defocus {
 
@@ -44,37 +45,6 @@ TileHeader headerOf(const ImageRowReader& reader, const fs::path& path) {
     dropFileAttributes(header.metadata);
     header.metadata.erase(tileAttribute);
     return header;
-}
-
-void addStats(RenderStats& sum, const RenderStats& tile) {
-    RenderStats added = tile;
-    added.setupMilliseconds += sum.setupMilliseconds;
-    added.renderMilliseconds += sum.renderMilliseconds;
-    added.gpuMilliseconds += sum.gpuMilliseconds;
-    added.trianglesDrawn += sum.trianglesDrawn;
-    added.peakBytes = std::max(sum.peakBytes, tile.peakBytes);
-    sum = std::move(added);
-}
-
-// The rows of a band.
-Image drawnBand(const Band& band, TileRun& run, double rowsDone) {
-    const double rowsOfTile =
-        static_cast<double>(band.rows.end - band.rows.first) / static_cast<double>(band.tiles.size());
-    Image rows;
-    for (const Tile& tile : band.tiles) {
-        run.renderer.start(tileOf(run.plan, tile));
-        while (run.renderer.advance())
-            if (run.step) run.step(rowsDone + rowsOfTile * run.renderer.samples() / run.renderer.sampleTotal());
-        rowsDone += rowsOfTile;
-        addStats(run.stats, run.renderer.stats());
-        ++run.tiles;
-        Image image = run.renderer.image();
-        if (band.tiles.size() == 1) return image;
-        if (rows.empty()) rows = Image(run.plan.view.width, image.height, image.channels);
-        for (int y = 0; y < image.height; ++y)
-            std::copy_n(image.at(0, y), image.width * image.channels, rows.at(tile.area.left, y));
-    }
-    return rows;
 }
 
 std::string rowsText(const RowRange& rows) {
@@ -132,6 +102,24 @@ bool isTileFile(const fs::path& path) try {
 
 TileHeader readTileHeader(const fs::path& path) {
     return headerOf(ImageRowReader(path), path);
+}
+
+Image drawnBand(const Band& band, TileRun& run, double rowsDone) {
+    Image rows;
+    const std::vector<Band> one = {band};
+    TileWalk walk(run.renderer, run.plan, one, [&](const Tile& tile, Image&& pixels) {
+        if (band.tiles.size() == 1) {
+            rows = std::move(pixels);
+            return;
+        }
+        if (rows.empty()) rows = Image(run.plan.view.width, pixels.height, pixels.channels);
+        placeTile(rows, band.rows.first, tile, pixels);
+    });
+    while (walk.advance())
+        if (run.step) run.step(rowsDone + walk.rowsDone());
+    addTileStats(run.stats, walk.stats());
+    run.tiles += walk.tiles();
+    return rows;
 }
 
 bool writeTile(const fs::path& path, TileHeader header, const std::vector<Band>& bands, TileRun& run) {

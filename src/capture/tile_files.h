@@ -48,17 +48,22 @@ bool isTileFile(const std::filesystem::path& path);
 // Throws Error naming the file.
 TileHeader readTileHeader(const std::filesystem::path& path);
 
-// Draws the bands of a tiling and writes them as one file, with a few rows in memory. `stop` is asked after each band:
-// once it says so, nothing is written and the result is false. Throws Error naming the file.
+// What draws bands, and what they take.
 struct TileRun {
     Renderer& renderer;
-    const FramePlan& plan;  // of the whole frame
-    std::function<Metadata(const RenderStats&)> metadata;
+    const FramePlan& plan;                                 // of the whole frame
+    std::function<Metadata(const RenderStats&)> metadata;  // of the files
     std::function<void(double rowsDone)> step = {};
     std::function<bool()> stop = {};
     RenderStats stats = {};  // of all that was drawn, added up
     int tiles = 0;
 };
+
+// The rows of a band, over the whole width. `rowsDone`: of the bands before, for `step`.
+Image drawnBand(const Band& band, TileRun& run, double rowsDone);
+
+// Draws the bands of a tiling and writes them as one file, with a few rows in memory. `stop` is asked after each band:
+// once it says so, nothing is written and the result is false. Throws Error naming the file.
 bool writeTile(const std::filesystem::path& path, TileHeader header, const std::vector<Band>& bands, TileRun& run);
 
 // The tiles in the order of their rows. Throws Error for tiles that overlap, are missing or are of other settings,

@@ -27,6 +27,7 @@
 #include "core/message.h"
 #include "core/stopwatch.h"
 #include "frame/exposure.h"
+#include "frame/memory_budget.h"
 #include "frame/picture_warnings.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
@@ -179,15 +180,19 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
             "and {:.2f} M triangles a frame)",
             figures.rendered, total, total / render, render, 1000 * render / figures.rendered,
             static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
+    if (figures.tiles > 1) text += fmt::format(", each in {} tiles", figures.tiles);
     printMessage("{}\n", text);
 }
 
 FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-                         const std::vector<FilmFrame>& film, const FilmOptions& options, const MethodUse& use,
+                         const std::vector<FilmFrame>& film, FilmOptions& options, const MethodUse& use,
                          const GlobalOptions& global, const Progress& progress) try {
+    options.method = use.method;
+    options.memoryLimit = memoryLimit(arguments.request);
     RendererOptions rendererOptions;
     rendererOptions.layerFormat = arguments.request.layerFormat;
     rendererOptions.wave = arguments.request.wave;
+    rendererOptions.waveBytes = waveBytesWithin(options.memoryLimit);
     rendererOptions.shaderFolder = global.shaderDir;
     rendererOptions.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = use.method->make(prepared.world, rendererOptions);
@@ -381,7 +386,7 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
         ->type_name("FILE")
         ->group("Scene");
     addMethodSettings(*command, arguments->request);
-    addDeveloperSettings(*command, arguments->request, {"memory"});
+    addDeveloperSettings(*command, arguments->request);
     command->footer(
         "Options replace what the shot says.\n\n"
         "Examples:\n"

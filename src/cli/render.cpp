@@ -27,6 +27,7 @@
 #include "frame/prepared_frame.h"
 #include "frame/program_facts.h"
 #include "frame/render_report.h"
+#include "frame/tiled_frame.h"
 #include "frame/unused_settings.h"
 #include "gl/context.h"
 #include "image/image_io.h"
@@ -244,6 +245,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     const RenderStats stats = tiled ? tiled->stats : arguments.sampleRange ? renderer->stats() : run.stats();
     progress = {};
     if (!counted) warnOfPlan(plan, stats.samples);
+    if (tiled) printWarnings(tiledSamplesNote(plan, isAutomatic(arguments.request)), global);
 
     // Write.
     const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();

@@ -12,25 +12,13 @@
 #include "cli/stop_signal.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/memory_limits.h"
-#include "frame/memory_budget.h"
-#include "render/automatic_samples.h"
-#include "render/frame_uniforms.h"
+#include "frame/tiled_frame.h"
 
 namespace defocus {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// With as many samples as the blur asks for, where nobody gave a number: no picture is at hand to be judged.
-FramePlan planOfTiles(const RenderArguments& arguments, const PreparedFrame& frame) {
-    RenderSettings settings = frame.settings;
-    if (!isAutomatic(arguments.request)) return planFrame(frame.world, frame.view, settings);
-    settings.sampleCount = blockSamples;
-    settings.sampleCount = samplesForBlur(planFrame(frame.world, frame.view, settings));
-    return planFrame(frame.world, frame.view, settings);
-}
 
 RowRange wantedRows(const RenderArguments& arguments, int height) {
     if (!arguments.tile) return {0, height};
@@ -78,22 +66,6 @@ FoundTiles tilesIn(const fs::path& folder, const TileHeader& wanted) {
     return found;
 }
 
-// What a tile's row costs beside its pixels is known once one was drawn: the scene is on the device then, and the
-// shaders are built.
-TilingNeeds measuredNeeds(const RenderArguments& arguments, const PreparedFrame& frame, const FramePlan& plan,
-                          Renderer& renderer, std::uint64_t limit) {
-    const RowRange all{0, plan.view.height};
-    const TilingNeeds before = tilingNeeds(frame.world, plan, all, arguments.request, limit);
-    const Tile trial = trialTile(plan);
-    const std::uint64_t drawn = trialBytes(before, trial);
-    renderer.setWave(1);
-    renderer.start(tileOf(plan, trial));
-    renderer.advance();
-    static_cast<void>(renderer.image());  // drivers hold on to layers until what was drawn of them is read
-    const std::uint64_t held = renderer.stats().peakBytes;
-    return tilingNeeds(frame.world, plan, all, arguments.request, limit, drawn, held > drawn ? held - drawn : 0);
-}
-
 // Bands of `rows`, as memory allows.
 std::vector<Band> bandsOf(TilingNeeds needs, const RowRange& rows) {
     needs.rows = rows;
@@ -133,21 +105,14 @@ std::string frameSettings(const RenderArguments& arguments, const PreparedFrame&
 bool drawsInTiles(const RenderArguments& arguments, const PreparedFrame& frame, const Method& method,
                   std::uint64_t limit) {
     if (arguments.tile) return true;
-    if (!method.needsGl || (!method.drawsTiles && !arguments.request.memory)) return false;
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    const TilingNeeds needs = tilingNeeds(frame.world, plan, {0, plan.view.height}, arguments.request, limit);
-    if (fitsInOnePiece(needs)) {
+    if (!mustDrawInTiles(frame.world, plan, arguments.request, method, limit)) {
         if (arguments.resume)
             throw UsageError("--resume goes on with tiles, and this frame fits into memory in one piece");
         return false;
     }
-    const auto refuse = [&](const std::string& reason) {
-        fail("{} x {} px don't fit into {} in one piece, and {}", plan.view.width, plan.view.height, bytesText(limit),
-             reason);
-    };
-    if (!method.drawsTiles) refuse(fmt::format("method '{}' can't draw tiles; 'accumulation' can", method.name));
+    const auto refuse = [&](const char* reason) { refuseTiles(plan, limit, reason); };
     if (arguments.sampleRange) refuse("--sample-range keeps sums of the whole image; --tile shares its rows instead");
-    if (arguments.request.stop.given()) refuse("--target-error and --time-limit judge the whole image; give --samples");
     if (arguments.aovs.any()) refuse("--aov shows the whole image");
     if (std::ranges::any_of(arguments.outputs, isStandardOutput)) refuse("tiles are joined to files alone");
     return true;
@@ -156,7 +121,7 @@ bool drawsInTiles(const RenderArguments& arguments, const PreparedFrame& frame, 
 TiledFrame renderTiles(const RenderArguments& arguments, const PreparedFrame& frame, Renderer& renderer,
                        std::uint64_t limit, const std::string& settings, const TileMetadata& metadata,
                        const Progress& progress) {
-    TiledFrame tiled{.plan = planOfTiles(arguments, frame), .stats = {}};
+    TiledFrame tiled{.plan = planOfTiles(frame.world, frame.view, runSettings(frame, arguments.request)), .stats = {}};
     const FramePlan& plan = tiled.plan;
     TileHeader header{plan.view.width, plan.view.height, wantedRows(arguments, plan.view.height), settings, "", {}};
     if (arguments.tile) header.share = fmt::format("{}/{}", arguments.tile->index, arguments.tile->count);
@@ -201,7 +166,7 @@ TiledFrame renderTiles(const RenderArguments& arguments, const PreparedFrame& fr
     };
     run.step(0);
     if (!missing.empty()) {
-        const TilingNeeds needs = measuredNeeds(arguments, frame, plan, renderer, limit);
+        const TilingNeeds needs = measuredNeeds(frame.world, plan, arguments.request, renderer, limit);
         for (const RowRange& rows : missing) {
             const std::vector<Band> bands = bandsOf(needs, rows);
             renderer.setWave(chosenTiling(needs).wave);

@@ -42,7 +42,8 @@ TilingNeeds tilingNeeds(const World& world, const FramePlan& plan, const RowRang
     needs.waveBytes = RendererOptions{}.waveBytes;
     needs.askedWave = request.wave;
     needs.shared = currentIsSoftware();
-    needs.hostMemory = beyond(limit, beyond(residentMemory(), needs.shared ? drawn : 0));
+    needs.elsewhere = beyond(residentMemory(), needs.shared ? drawn : 0);
+    needs.hostMemory = beyond(limit, needs.elsewhere);
     needs.deviceMemory = needs.hostMemory;
     if (!needs.shared) {
         const std::uint64_t free = threeQuarters(freeDeviceMemory().value_or(freeMemory()) + drawn);

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/memory.h"
+#include "core/memory_limits.h"
 #include "core/progress.h"
 #include "core/stopwatch.h"
 #include "defocus/renderer.h"
@@ -13,12 +15,15 @@
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
 #include "frame/scene_scale.h"
+#include "frame/tiled_frame.h"
+#include "frame/tiled_picture.h"
 #include "frame/unused_settings.h"
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "plan/plan_text.h"
 #include "render/aov/aov.h"
 #include "render/frame_run.h"
+#include "render/layer_format.h"
 #include "scene/ground.h"
 
 namespace defocus {
@@ -48,6 +53,20 @@ std::size_t pyramidKind(const Request& request) {
     return 1 + static_cast<std::size_t>(request.settings.levelVertices);
 }
 
+// Of a picture that is drawn in tiles, bytes a pixel in main memory: as it is kept, handed out, and encoded.
+constexpr std::uint64_t keptPixelBytes = 16 + 16 + 16;
+
+// Whether any frame of this size fits into the memory in one piece: there is no need to look at its plan.
+bool surelyFits(const Request& request, std::uint64_t limit) {
+    const std::uint64_t pixel = 2 * layerPixelBytes(LayerFormat::rgba32f) + sumPixelBytes + wholePixelBytes;
+    const std::uint64_t pixels = std::uint64_t(request.width) * std::uint64_t(request.height);
+    const std::uint64_t held = residentMemory();
+    const Shadows shadows = request.settings.shadows;
+    const bool maps = shadows == Shadows::on || (shadows == Shadows::automatic && request.ground);
+    const bool oneCell = cellsOf(request.width, request.height).size() == 1;
+    return oneCell && !maps && limit > held && pixels * pixel <= limit - held;
+}
+
 }  // namespace
 
 class SceneRenderer::State {
@@ -60,8 +79,12 @@ public:
 
     void start(const Request& request, const Progress& progress);
     bool advance();
-    [[nodiscard]] std::uint32_t samples() const { return renderer_ ? renderer_->samples() : 0; }
-    [[nodiscard]] std::uint32_t sampleTotal() const { return run_ ? run_->sampleTotal() : 0; }
+    [[nodiscard]] std::uint32_t samples() const {
+        return tiled_ ? tiled_->samples() : renderer_ ? renderer_->samples() : 0;
+    }
+    [[nodiscard]] std::uint32_t sampleTotal() const {
+        return tiled_ ? tiled_->sampleTotal() : run_ ? run_->sampleTotal() : 0;
+    }
     [[nodiscard]] Image image();
     [[nodiscard]] RenderStatistics statistics() const;
     [[nodiscard]] Aovs aovs();
@@ -83,6 +106,9 @@ private:
     void handOnPyramids(PreparedFrame& next, std::size_t kind);
     void makeRenderer();
     void dropRenderer();
+    void startTiles(bool asBefore);
+    [[nodiscard]] const FramePlan& plan() const { return tiled_ ? tiled_->plan : run_->plan(); }
+    [[nodiscard]] RenderStats stats() const { return tiled_ ? tiled_->stats() : run_->stats(); }
 
     bool named_;  // the scene, by the request
     Request first_, request_;
@@ -94,8 +120,9 @@ private:
     std::optional<double> metered_;     // EV, by the first image that was written and needed it
     std::vector<std::string> clipped_;  // what is to be said of the 8-bit picture that was written last
     std::unique_ptr<GlContext> context_;
-    std::unique_ptr<Renderer> renderer_;  // of the frame that was started; null: none was
-    std::optional<FrameRun> run_;         // with the renderer
+    std::unique_ptr<Renderer> renderer_;   // of the frame that was started; null: none was
+    std::optional<FrameRun> run_;          // with the renderer
+    std::unique_ptr<TiledPicture> tiled_;  // of a frame that doesn't fit into memory in one piece
 };
 
 // Faults first: values, scene, lens, device; only then the long work.
@@ -170,8 +197,40 @@ void SceneRenderer::State::makeRenderer() {
 }
 
 void SceneRenderer::State::dropRenderer() {
+    tiled_.reset();
     run_.reset();
     renderer_.reset();
+}
+
+// Sees to a renderer, and begins to draw the frame in tiles where it doesn't fit into memory in one piece. `asBefore`:
+// as the frame before was drawn, whose layers and sums are those of this one.
+void SceneRenderer::State::startTiles(bool asBefore) {
+    std::vector<Band> bands;
+    if (asBefore) {
+        if (!tiled_) return;
+        bands = std::move(tiled_->bands);
+        tiled_.reset();
+    } else {
+        const std::uint64_t limit = memoryLimit(request_);
+        tiled_.reset();
+        if (surelyFits(request_, limit)) {
+            if (!renderer_) makeRenderer();
+            return renderer_->setWave(0);
+        }
+        // What the frame before holds of memory goes before it is looked at.
+        dropRenderer();
+        giveBackFreedMemory();
+        makeRenderer();
+        const FramePlan plan = planFrame(frame_.world, frame_.view, frame_.settings);
+        if (!mustDrawInTiles(frame_.world, plan, request_, *chosenMethod(request_).method, limit)) return;
+        TilingNeeds needs = measuredNeeds(frame_.world, plan, request_, *renderer_, limit);
+        needs.keptBytes = std::uint64_t(request_.width) * std::uint64_t(request_.height) * keptPixelBytes;
+        Tiling tiling = chosenTiling(needs);
+        renderer_->setWave(tiling.wave);
+        bands = std::move(tiling.bands);
+    }
+    tiled_ = std::make_unique<TiledPicture>(
+        *renderer_, planOfTiles(frame_.world, frame_.view, runSettings(frame_, request_)), std::move(bands));
 }
 
 void SceneRenderer::State::start(const Request& request, const Progress& progress) {
@@ -189,6 +248,9 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
         addPyramids(next, progress);
         pyramidMilliseconds_ += next.pyramidMilliseconds;
     }
+    const bool sameNeeds = same && renderer_ && request.width == request_.width && request.height == request_.height &&
+                           request.settings.shadows == request_.settings.shadows &&
+                           request.stop.given() == request_.stop.given();
     Request asked = request;
     const InContext use(*context_);
 
@@ -201,7 +263,8 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
     frame_ = std::move(next);
     request_ = std::move(asked);
     try {
-        if (!renderer_) makeRenderer();
+        startTiles(sameNeeds);
+        if (tiled_) return;
         run_->start(frame_.view, runSettings(frame_, request_), request_.stop);
     } catch (...) {
         dropRenderer();
@@ -212,14 +275,14 @@ void SceneRenderer::State::start(const Request& request, const Progress& progres
 bool SceneRenderer::State::advance() {
     checkStarted();
     const InContext use(*context_);
-    return run_->advance();
+    return tiled_ ? tiled_->walk.advance() : run_->advance();
 }
 
 Image SceneRenderer::State::image() {
     checkStarted();
     if (samples() == 0) fail("the image has no sample yet; call advance() first");
     const InContext use(*context_);
-    return renderer_->image();
+    return tiled_ ? tiled_->image : renderer_->image();
 }
 
 RenderStatistics SceneRenderer::State::statistics() const {
@@ -229,12 +292,12 @@ RenderStatistics SceneRenderer::State::statistics() const {
     statistics.device = context_->device();
     if (!renderer_) return statistics;
     const InContext use(*context_);
-    const RenderStats stats = run_->stats();
+    const RenderStats stats = this->stats();
     statistics.samples = stats.samples;
     statistics.setupMilliseconds = stats.setupMilliseconds;
     statistics.renderMilliseconds = stats.renderMilliseconds;
     statistics.trianglesDrawn = stats.trianglesDrawn;
-    statistics.trianglesAtFullDetail = run_->plan().trianglesAtFullDetail;
+    statistics.trianglesAtFullDetail = plan().trianglesAtFullDetail;
     statistics.stopped = stats.stopped;
     statistics.estimatedError = stats.estimatedError;
     statistics.gpuBytes = stats.peakBytes;
@@ -243,8 +306,9 @@ RenderStatistics SceneRenderer::State::statistics() const {
 
 Aovs SceneRenderer::State::aovs() {
     checkStarted();
+    if (tiled_) fail("the image is drawn in tiles, as it doesn't fit into memory, and AOVs show the whole image");
     const InContext use(*context_);
-    AovImages images = renderAovs(frame_.world, run_->plan());
+    AovImages images = renderAovs(frame_.world, plan());
     return {std::move(images.depth), std::move(images.coc), std::move(images.level)};
 }
 
@@ -253,14 +317,15 @@ std::vector<std::string> SceneRenderer::State::warnings() const {
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(ignoredWarnings(*frame_.scene));
     add(unusedSettings(request_, *frame_.scene, frame_.view.lens));
-    if (run_) add(planWarnings(run_->plan(), *chosenMethod(request_).method));
+    if (renderer_) add(planWarnings(plan(), *chosenMethod(request_).method));
+    if (tiled_) add(tiledSamplesNote(plan(), isAutomatic(request_)));
     add(clipped_);
     return lines;
 }
 
 std::string SceneRenderer::State::planText() const {
     checkStarted();
-    return defocus::planJson(run_->plan());
+    return defocus::planJson(plan());
 }
 
 void SceneRenderer::State::write(const std::filesystem::path& path, const ImageView& image) {
@@ -271,8 +336,8 @@ void SceneRenderer::State::write(const std::filesystem::path& path, const ImageV
     const double exposure =
         meters && metered_ ? *metered_ : chosenExposure(request_, frame_.world, frame_.view, frame_.settings);
     if (meters) metered_ = exposure;
-    const RenderReport report{request_,      chosenMethod(request_).text(), frame_, run_->plan(),
-                              run_->stats(), context_->software(),          0,      exposure};
+    const RenderReport report{request_, chosenMethod(request_).text(), frame_, plan(),
+                              stats(),  context_->software(),          0,      exposure};
     const WriteOptions options{request_.toneMap, exposure};
     writeImage(path, image, renderMetadata(report), options);
     const std::string ending = path.extension().string();
@@ -325,7 +390,7 @@ Image SceneRenderer::render(const Progress& progress, std::stop_token stop) {
     return render(state_->first(), progress, std::move(stop));
 }
 
-// At least one wave is drawn, so that there is an image.
+// At least one sample is drawn, so that there is an image.
 Image SceneRenderer::render(const Request& request, const Progress& progress, std::stop_token stop) {
     state_->start(request, progress);
     report(progress, "samples", 0, sampleTotal());
@@ -333,7 +398,7 @@ Image SceneRenderer::render(const Request& request, const Progress& progress, st
     do {
         more = advance();
         report(progress, "samples", samples(), sampleTotal());
-    } while (more && !stop.stop_requested());
+    } while (more && (!stop.stop_requested() || samples() == 0));
     return image();
 }
 

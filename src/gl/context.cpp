@@ -57,30 +57,41 @@ struct Candidate {
     std::string name;
     EGLenum platform = EGL_NONE;  // EGL_NONE: the default display
     void* native = nullptr;
+    std::string missing = {};  // why it can't be tried; empty: it can
 };
+
+// GPUs, then software; without any, one candidate that says why.
+std::vector<Candidate> devices(const char* extensions) {
+    const auto none = [](std::string why) {
+        return std::vector<Candidate>{{"EGL devices", EGL_PLATFORM_DEVICE_EXT, nullptr, std::move(why)}};
+    };
+    for (const char* needed : {"EGL_EXT_platform_base", "EGL_EXT_platform_device"})
+        if (!listed(extensions, needed)) return none(fmt::format("the driver has no {}", needed));
+    if (!listed(extensions, "EGL_EXT_device_enumeration") && !listed(extensions, "EGL_EXT_device_base"))
+        return none("the driver has no EGL_EXT_device_enumeration");
+    std::array<EGLDeviceEXT, 32> found{};
+    EGLint count = 0;
+    if (eglQueryDevicesEXT(static_cast<EGLint>(found.size()), found.data(), &count) != EGL_TRUE)
+        return none(fmt::format("eglQueryDevicesEXT: {}", eglErrorName(eglGetError())));
+    if (count == 0) return none("there are none");
+    std::vector<Candidate> result, software;
+    for (EGLint i = 0; i < count; ++i) {
+        const EGLDeviceEXT device = found[static_cast<std::size_t>(i)];
+        const bool isSoftware = listed(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
+        Candidate candidate{fmt::format("EGL device {}{}", i, isSoftware ? " (software)" : ""), EGL_PLATFORM_DEVICE_EXT,
+                            device};
+        (isSoftware ? software : result).push_back(std::move(candidate));
+    }
+    result.insert(result.end(), software.begin(), software.end());
+    return result;
+}
 
 std::vector<Candidate> candidates() {
     const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    std::vector<Candidate> result;
-    if (listed(extensions, "EGL_EXT_platform_base") && listed(extensions, "EGL_EXT_platform_device") &&
-        (listed(extensions, "EGL_EXT_device_enumeration") || listed(extensions, "EGL_EXT_device_base"))) {
-        std::array<EGLDeviceEXT, 32> devices{};
-        EGLint count = 0;
-        if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_TRUE) {
-            std::vector<Candidate> software;
-            for (EGLint i = 0; i < count; ++i) {
-                const EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
-                const bool isSoftware =
-                    listed(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
-                Candidate candidate{fmt::format("EGL device {}{}", i, isSoftware ? " (software)" : ""),
-                                    EGL_PLATFORM_DEVICE_EXT, device};
-                (isSoftware ? software : result).push_back(std::move(candidate));
-            }
-            result.insert(result.end(), software.begin(), software.end());
-        }
-    }
-    if (listed(extensions, "EGL_MESA_platform_surfaceless"))
-        result.push_back({"surfaceless platform", EGL_PLATFORM_SURFACELESS_MESA, nullptr});
+    std::vector<Candidate> result = devices(extensions);
+    constexpr const char* surfaceless = "EGL_MESA_platform_surfaceless";
+    result.push_back({"surfaceless platform", EGL_PLATFORM_SURFACELESS_MESA, nullptr,
+                      listed(extensions, surfaceless) ? "" : fmt::format("the driver has no {}", surfaceless)});
     result.push_back({"default display", EGL_NONE, nullptr});
     return result;
 }
@@ -204,7 +215,7 @@ std::unique_ptr<GlContext> createHeadlessContext() {
     auto context = std::make_unique<HeadlessContext>();
     std::string reasons;
     for (const Candidate& candidate : candidates()) {
-        const std::string reason = context->open(candidate);
+        const std::string reason = candidate.missing.empty() ? context->open(candidate) : candidate.missing;
         if (reason.empty()) {
             context->log().push_back(
                 fmt::format("{}: {}, OpenGL {}", candidate.name, context->device(), context->driver()));

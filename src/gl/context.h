@@ -1,6 +1,7 @@
 #pragma once
 // A current OpenGL 4.5 core context without a window, through EGL: device enumeration first (GPUs before software),
-// then the surfaceless platform, then the default display. Every step that failed keeps its reason.
+// then the surfaceless platform, then the default display. Every step that failed, or that the driver has no extension
+// for, keeps its reason.
 
 #include <memory>
 #include <string>

@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "image/exr_structure.h"
 #include "image/image_io.h"
 #include "image/oiio_names.h"
 #include "image/png_structure.h"
@@ -53,10 +54,31 @@ std::optional<std::string_view> formatOf(std::span<const std::byte> encoded) {
     return std::nullopt;
 }
 
+// Bytes as a file that ends where they do, and begins there too: OpenImageIO's own reads before the beginning where a
+// damaged file says that something lies there.
+class CheckedMemory final : public OIIO::Filesystem::IOMemReader {
+public:
+    using IOMemReader::IOMemReader;
+
+    size_t read(void* into, size_t count) override {
+        const size_t done = pread(into, count, m_pos);
+        m_pos += static_cast<int64_t>(done);
+        return done;
+    }
+    size_t pread(void* into, size_t count, int64_t offset) override {
+        const auto bytes = buffer();
+        const auto size = static_cast<int64_t>(bytes.size());
+        if (offset < 0 || offset >= size) return 0;
+        const size_t done = std::min(count, static_cast<size_t>(size - offset));
+        std::memcpy(into, bytes.data() + offset, done);
+        return done;
+    }
+};
+
 // A reader and what it reads from, which must outlive it.
 struct OpenImage {
     std::vector<unsigned char> bytes;
-    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
+    std::unique_ptr<CheckedMemory> memory;
     std::unique_ptr<OIIO::ImageInput> input;
     OIIO::ImageSpec spec;
 };
@@ -66,10 +88,11 @@ OpenImage openImage(std::span<const std::byte> encoded, std::string_view format,
     if (format == "png") {
         image.bytes = checkedPng(encoded, name);
     } else {
+        if (format == "openexr") checkExrHeader(encoded, encoded.size(), name);
         const auto* first = reinterpret_cast<const unsigned char*>(encoded.data());
         image.bytes.assign(first, first + encoded.size());
     }
-    image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(image.bytes.data(), image.bytes.size());
+    image.memory = std::make_unique<CheckedMemory>(image.bytes.data(), image.bytes.size());
     image.input = OIIO::ImageInput::create(std::string(format), false, nullptr, image.memory.get());
     if (!image.input) fail("{}: cannot be read: {}", name, firstLine(OIIO::geterror()));
 

@@ -9,10 +9,13 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "image/exr_structure.h"
 #include "image/image_encoding.h"
 #include "image/image_read.h"
 #include "image/oiio_names.h"
@@ -29,6 +32,15 @@ ImageView rowsOf(const ImageView& image, int first, int count) {
     rows.height = count;
     rows.pixels = image.pixels.subspan(static_cast<std::size_t>(first) * row, static_cast<std::size_t>(count) * row);
     return rows;
+}
+
+// As much of a file as any header takes that it is worth looking at.
+std::vector<std::byte> beginOf(const std::filesystem::path& path) {
+    std::vector<std::byte> head(std::size_t{1} << 16);
+    std::ifstream file(path, std::ios::binary);
+    file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    return head;
 }
 
 }  // namespace
@@ -161,6 +173,7 @@ ImageRowReader::ImageRowReader(const std::filesystem::path& path) : state_(std::
     std::error_code status;
     if (!std::filesystem::is_regular_file(path, status))
         static_cast<void>(readFile(path));  // says why it can't be read
+    checkExrHeader(beginOf(path), std::filesystem::file_size(path), s.name);
     s.input = OIIO::ImageInput::create("openexr");
     if (!s.input) fail("{}: cannot be read: {}", s.name, firstLine(OIIO::geterror()));
     if (!s.input->open(s.name, s.spec)) fail("{}: cannot be read: {}", s.name, firstLine(s.input->geterror()));

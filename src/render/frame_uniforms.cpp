@@ -20,7 +20,8 @@ constexpr std::size_t mostConstantLights = 4;
 constexpr double goldenRatio = 0.618033988749894848;
 
 // The uniform blocks of shaders/include/frame.glsl and lighting.glsl, std140.
-constexpr int mostLights = 64;  // 64 lights of 48 bytes: a fifth of the 16 KiB every driver gives a block
+constexpr int mostLights = 64;
+constexpr std::size_t everyDriversBlock = 16 << 10;  // bytes: GL_MAX_UNIFORM_BLOCK_SIZE is that or more
 
 struct GpuLight {
     glm::vec4 directionType;
@@ -43,6 +44,7 @@ struct GpuLighting {
     std::array<glm::vec4, 9> irradiance;
     std::array<GpuLight, mostLights> lights;
 };
+static_assert(sizeof(GpuFrame) <= everyDriversBlock && sizeof(GpuLighting) <= everyDriversBlock);
 
 GpuLight gpuLight(const PlacedLight& placed) {
     const Light& light = placed.light;

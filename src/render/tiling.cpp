@@ -1,6 +1,7 @@
 #include "render/tiling.h"
 
 #include <algorithm>
+#include <string>
 
 #include "core/error.h"
 #include "core/memory_limits.h"
@@ -22,14 +23,50 @@ std::vector<PixelRectangle> cellsFor(const TilingNeeds& needs) {
     return cellsOf(needs.width, needs.height);
 }
 
+// Software drivers still hold the layers of the tile before while new ones are made.
+std::uint64_t layerCopies(const TilingNeeds& needs) {
+    return needs.shared ? 2 : 1;
+}
+
+// What is left beside pictures that are kept.
+TilingNeeds besidePictures(TilingNeeds needs) {
+    const auto take = [&](std::uint64_t& memory) { memory -= std::min(memory, needs.keptBytes); };
+    take(needs.hostMemory);
+    if (needs.shared) take(needs.deviceMemory);
+    return needs;
+}
+
 // Rows of a band, where the layers take `layers` bytes.
 std::uint64_t rowsThatFit(const TilingNeeds& needs, std::uint64_t cellWidth, std::uint64_t layers) {
-    if (needs.shared) layers *= 2;  // software drivers still hold those of the tile before while new ones are made
+    layers *= layerCopies(needs);
     if (layers >= needs.deviceMemory) return 0;
     const std::uint64_t device = cellWidth * sumPixelBytes;
     const std::uint64_t host = cellWidth * tilePixelBytes + static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
     const std::uint64_t left = needs.deviceMemory - layers;
     return needs.shared ? left / (device + host) : std::min(left / device, needs.hostMemory / host);
+}
+
+// Of `length` rows, `most` of them in a band. Up to half as many more where that makes all of one height: sums of
+// another are made while drivers still hold those of before.
+int bandCount(int length, int most) {
+    const int fewest = (length + most - 1) / most;
+    for (int count = fewest; count <= fewest + fewest / 2; ++count)
+        if (length % count == 0) return count;
+    return fewest;
+}
+
+[[noreturn]] void failForMemory(const TilingNeeds& needs, int cellWidth, std::uint64_t layers, int rows) {
+    const std::uint64_t perRow = static_cast<std::uint64_t>(cellWidth) * (sumPixelBytes + tilePixelBytes) +
+                                 static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
+    const std::uint64_t least =
+        layers * layerCopies(needs) + perRow * static_cast<std::uint64_t>(rows) + needs.keptBytes;
+    // With a twentieth more, for what a run takes more than another.
+    const std::string enough =
+        needs.shared && needs.elsewhere > 0
+            ? fmt::format(": --memory {:.0f}MiB would do", static_cast<double>(least + needs.elsewhere) * 1.05 / 0x1p20)
+            : "";
+    fail("{} x {} px take at least {} beside the scene and the program, and {} is left{}", needs.width, needs.height,
+         bytesText(least), bytesText(needs.deviceMemory), enough);
 }
 
 // The tiles of rows that lie in one row of cells.
@@ -47,12 +84,13 @@ bool fitsInOnePiece(const TilingNeeds& needs) {
     if (cellsFor(needs).size() > 1) return false;
     const std::uint64_t pixels = product(needs.width, needs.height);
     const std::uint64_t device = pixels * (needs.layerPixel + sumPixelBytes) + needs.layerMaps;
-    const std::uint64_t host = pixels * wholePixelBytes;
+    const std::uint64_t host = pixels * wholePixelBytes + needs.keptBytes;
     return needs.shared ? device + host <= needs.deviceMemory
                         : device <= needs.deviceMemory && host <= needs.hostMemory;
 }
 
-Tiling chosenTiling(const TilingNeeds& needs) {
+Tiling chosenTiling(const TilingNeeds& asked) {
+    const TilingNeeds needs = besidePictures(asked);
     const std::vector<PixelRectangle> cells = cellsFor(needs);
     const PixelRectangle& largest = cells.front();
     const std::uint64_t layer = product(largest.width, largest.height) * needs.layerPixel + needs.layerMaps;
@@ -62,12 +100,7 @@ Tiling chosenTiling(const TilingNeeds& needs) {
     tiling.wave = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wave, 1, mostLayers));
     const std::uint64_t fitting = rowsThatFit(needs, static_cast<std::uint64_t>(largest.width), tiling.wave * layer);
     const int wanted = std::min(leastRows, needs.rows.end - needs.rows.first);
-    if (fitting < static_cast<std::uint64_t>(wanted)) {
-        const std::uint64_t perRow = static_cast<std::uint64_t>(largest.width) * (sumPixelBytes + tilePixelBytes) +
-                                     static_cast<std::uint64_t>(needs.width) * bandPixelBytes;
-        fail("{} x {} px take at least {} beside the scene and the program, and {} is left", needs.width, needs.height,
-             bytesText(layer + perRow * static_cast<std::uint64_t>(wanted)), bytesText(needs.deviceMemory));
-    }
+    if (fitting < static_cast<std::uint64_t>(wanted)) failForMemory(asked, largest.width, tiling.wave * layer, wanted);
     const int rows = static_cast<int>(std::min<std::uint64_t>(fitting, static_cast<std::uint64_t>(needs.height)));
 
     // The rows of each row of cells, in equal bands but for the last: layers and sums are made anew where sizes differ.
@@ -76,7 +109,7 @@ Tiling chosenTiling(const TilingNeeds& needs) {
         const int first = std::max(cell.top, needs.rows.first);
         const int end = std::min(cell.top + cell.height, needs.rows.end);
         if (first >= end) continue;
-        const int count = (end - first + rows - 1) / rows;
+        const int count = bandCount(end - first, rows);
         const int each = (end - first + count - 1) / count;
         for (int top = first; top < end; top += each)
             tiling.bands.push_back(bandOf(cells, {top, std::min(top + each, end)}));

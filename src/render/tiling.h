@@ -20,6 +20,8 @@ struct TilingNeeds {
     std::uint64_t deviceMemory = 0;  // for layers and sums
     std::uint64_t hostMemory = 0;    // for rows on their way to a file
     bool shared = true;              // both are the same memory
+    std::uint64_t elsewhere = 0;     // of the same memory, for the scene and the program; 0: not known
+    std::uint64_t keptBytes = 0;     // of whole pictures that are kept in main memory meanwhile
     bool mayUseCells = true;         // false: the whole image is one cell, whatever its size
 };
 
@@ -45,8 +47,8 @@ inline constexpr std::uint64_t wholePixelBytes = 16 + 16 + 16;
 // Whether all of the image fits in one piece, with one layer or more; `rows` aren't looked at.
 bool fitsInOnePiece(const TilingNeeds& needs);
 
-// Bands that fit, all of the same height but the last of a row of cells. Throws Error, saying what it takes, where not
-// even bands of a few rows do.
+// Bands that fit, all of the same height but the last of a row of cells. Throws Error, saying what it takes and how
+// much memory would do, where not even bands of a few rows do.
 Tiling chosenTiling(const TilingNeeds& needs);
 
 }  // namespace defocus

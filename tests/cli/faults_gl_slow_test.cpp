@@ -6,9 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "cli/become_program.h"
 #include "cli/shots.h"
@@ -134,6 +136,51 @@ TEST_F(Faults, aBenchThatIsKilledLeavesWholeReports) {
 }
 
 // Tiles that are finished stay, whatever ends the run, and the frame is the one of an undisturbed run.
+// Drawn by another process, whose plots take it longest: the page is that of before, or the new one.
+TEST_F(Faults, aReportThatIsKilledIsWhole) {
+    if (std::system("python3 -c 'import matplotlib, PIL' 2>/dev/null || "
+                    "/usr/bin/python3 -c 'import matplotlib, PIL' 2>/dev/null") != 0)
+        GTEST_SKIP() << "matplotlib is needed (Debian: python3-matplotlib)";
+    const Words line = {"bench",         "popping", "quads.gltf", "--quiet", "--size",         "16x12",
+                        "--fstop",       "0.5",     "--counts",   "2",       "--frames",       "2",
+                        "--path-frames", "6",       "--report",   "report",  "--allow-changed"};
+    const auto whole = [&] {
+        const std::string page = bytesOf("report/index.html");
+        return page.starts_with("<!doctype html>") && page.ends_with("</html>\n");
+    };
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(ran(line), 0) << said();
+    const auto lasts = std::chrono::steady_clock::now() - begin;
+    ASSERT_TRUE(whole());
+    std::mt19937 random(5);
+    int killed = 0;
+    for (int i = 0; i < 10; ++i) {
+        if (i % 2 == 0) fs::remove(folder() / "report/index.html");
+        const bool before = fs::exists(folder() / "report/index.html");
+        const pid_t child = ::fork();
+        if (child == 0) {
+            ::setpgid(0, 0);
+            become(line);
+        }
+        ::setpgid(child, child);
+        std::this_thread::sleep_for(lasts * std::uniform_real_distribution(0.1, 1.0)(random));
+        ::kill(-child, SIGKILL);  // with the process that draws
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        killed += WIFSIGNALED(status) ? 1 : 0;
+        EXPECT_TRUE(whole() || (!before && !fs::exists(folder() / "report/index.html"))) << i;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report")) {
+            const bool json = entry.path().extension() == ".json" && entry.path().filename().string().front() != '.';
+            EXPECT_TRUE(!json || nlohmann::json::accept(textOf(entry.path()))) << entry.path();
+        }
+    }
+    EXPECT_GT(killed, 0);
+    // What they left in the making is gone with the next run.
+    ASSERT_EQ(ran(line), 0) << said();
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report"))
+        EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+}
+
 TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
     const Words line = {"render", "quads.gltf", "--quiet", "--size", "1600x1200", "--samples",
                         "3",      "--memory",   "350MiB",  "-o",     "out.exr",   "--resume"};
@@ -238,6 +285,22 @@ TEST_F(Faults, aDriverOutOfMemoryInTheMiddleKeepsTheFramesBefore) {
         EXPECT_TRUE(bytesOf("frames/0007.exr") == bytesOf("whole/0007.exr"));
     }
     EXPECT_GT(partly, 0) << "it never failed in the middle";
+}
+
+// What a driver lacks is said, whether another way leads to a picture or none.
+TEST_F(Faults, extensionsThatADriverLacksAreNamed) {
+    const Words line = {"render", "quads.gltf", "--size", "16x12", "--samples", "1", "-o", "a.exr", "--verbose"};
+    EXPECT_EQ(ran(line, {{"FAULT_EGL", "EGL_EXT_platform_device"}}), 0) << said();
+    EXPECT_NE(said().find("EGL devices: the driver has no EGL_EXT_platform_device\n"), std::string::npos) << said();
+    EXPECT_NE(said().find("surfaceless platform: "), std::string::npos) << said();
+
+    const std::string all = "EGL_EXT_platform_device,EGL_MESA_platform_surfaceless";
+    EXPECT_EQ(ran(line, {{"FAULT_EGL", all}, {"EGL_PLATFORM", "x11"}, {"DISPLAY", ":-1"}}), 1);
+    const std::string text = said();
+    EXPECT_NE(text.find("no OpenGL 4.5 context: EGL devices: the driver has no EGL_EXT_platform_device; surfaceless "
+                        "platform: the driver has no EGL_MESA_platform_surfaceless; default display: eglInitialize"),
+              std::string::npos)
+        << text;
 }
 
 #endif

@@ -1,6 +1,8 @@
 // Frames in tiles by the program: the bits of one piece, whether machines share the rows or memory is short; what
 // doesn't belong together is refused; memory stays within what was asked for.
 
+#include <algorithm>
+
 #include "cli/shots.h"
 #include "image/image_io.h"
 
@@ -130,6 +132,55 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
     expectRefused(run(inTiles({"-o", "x.exr", "--method", "circular"}, "300MiB")), 1, "'circular'");
     expectRefused(run(inTiles({"-o", "x.exr", "--aov", "depth"}, "300MiB")), 1, "--aov");
     expectRefused(run(inTiles({"-o", "x.exr"}, "1MiB")), 1, "at least");
+}
+
+TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
+    const std::string said = run(inTiles({"-o", "x.exr"}, "1MiB")).err;
+    const std::string option = "--memory ";
+    const std::size_t begin = said.find(option);
+    ASSERT_NE(begin, std::string::npos) << said;
+    const std::size_t value = begin + option.size();
+    const std::string enough = said.substr(value, said.find(' ', value) - value);
+    const Outcome outcome = run(inTiles({"-o", "x.exr"}, enough.c_str()));
+    EXPECT_EQ(outcome.exitCode, 0) << enough << ": " << outcome.err;
+}
+
+// Frames of a film are drawn in tiles too, and their files are the bytes of those in one piece.
+TEST_F(ShortOfMemory, aFilmHasTheBytesOfFramesInOnePiece) {
+    const auto film = [&](const std::string& name, std::vector<std::string> more) {
+        more.insert(more.begin(), {"--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o", name + "/#.exr",
+                                   "-o", name + "/#.png", "-o", name + "/#.jpg"});
+        return capture(more);
+    };
+    ASSERT_EQ(film("whole", {}).exitCode, 0);
+    const Outcome tiles = film("tiles", {"--memory", "350MiB"});
+    ASSERT_EQ(tiles.exitCode, 0) << tiles.err;
+    for (const char* name : {"0.exr", "0.png", "0.jpg", "1.exr", "1.png", "1.jpg"})
+        EXPECT_TRUE(bytesOf(std::string("tiles/") + name) == bytesOf(std::string("whole/") + name)) << name;
+    // They are finished, whatever the memory.
+    EXPECT_NE(run({"capture", "shot.json", "--range", "0:1", "--size", "1600x1200", "--samples", "3", "-o",
+                   "tiles/#.exr", "--memory", "350MiB", "--resume"})
+                  .err.find("2 of them there before"),
+              std::string::npos);
+}
+
+TEST_F(ShortOfMemory, whatAFilmCannotCutIsRefusedByName) {
+    const auto refused = [&](std::vector<std::string> more, const std::string& why) {
+        more.insert(more.begin(), {"--range", "0:1", "--size", size, "-o", "x/#.exr", "--memory", "300MiB"});
+        expectRefused(capture(more), 1, why);
+    };
+    refused({"--method", "circular"}, "'circular'");
+    refused({"--target-error", "0.01"}, "--target-error");
+    refused({"--samples", "128", "--sample-range", "0:64"}, "--sample-range");
+}
+
+TEST_F(ShortOfMemory, samplesThatTheBlurAloneChoseAreSaid) {
+    std::vector<std::string> words = inTiles({"-o", "x.exr"});
+    words.erase(std::ranges::find(words, "--quiet"));
+    *(std::ranges::find(words, "--samples") + 1) = "auto";
+    const Outcome outcome = run(words);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("lens samples, as many as the blur may need"), std::string::npos) << outcome.err;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // environment:
 //   FAULT_LOCKS=1      flock(2) says that the file system has no locks
 //   FAULT_CLOCK=1      the wall clock goes back by an hour each time that it is read
+//   FAULT_EGL=A,B      EGL doesn't list these of its extensions
 //   FAULT_GL_MEMORY=N  from the Nth question for OpenGL's error on, every second one is answered by out of memory: who
 //                      takes what there was of errors, allocates, and asks again, then finds it
 
@@ -12,6 +13,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <ctime>
+#include <set>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace {
@@ -26,6 +30,7 @@ long jump() {
 }
 
 constexpr unsigned outOfMemory = 0x0505;  // GL_OUT_OF_MEMORY
+constexpr int eglExtensions = 0x3055;     // EGL_EXTENSIONS
 
 // Epoxy's entry points are variables. Called for the first time, one looks for the driver's function and becomes it.
 using GetError = unsigned (*)();
@@ -41,7 +46,29 @@ unsigned failing() {
     return now <= 0 && now % 2 == 0 ? outOfMemory : error;
 }
 
+using QueryString = const char* (*)(void*, int);
+QueryString* queryEntry = nullptr;
+QueryString realQuery = nullptr;
+
+const char* withoutExtensions(void* display, int name) {
+    *queryEntry = realQuery;
+    const char* const text = realQuery(display, name);
+    realQuery = std::exchange(*queryEntry, &withoutExtensions);
+    if (text == nullptr || name != eglExtensions) return text;
+    static std::set<std::string> kept;  // what was returned once stays
+    const std::string hidden = "," + std::string(std::getenv("FAULT_EGL")) + ",";
+    std::istringstream words(text);
+    std::string left;
+    for (std::string word; words >> word;)
+        if (hidden.find("," + word + ",") == std::string::npos) left += word + " ";
+    return kept.insert(left).first->c_str();
+}
+
 [[gnu::constructor]] void begin() {
+    if (asked("FAULT_EGL")) {
+        queryEntry = static_cast<QueryString*>(::dlsym(RTLD_DEFAULT, "epoxy_eglQueryString"));
+        if (queryEntry != nullptr) realQuery = std::exchange(*queryEntry, &withoutExtensions);
+    }
     if (!asked("FAULT_GL_MEMORY")) return;
     entry = static_cast<GetError*>(::dlsym(RTLD_DEFAULT, "epoxy_glGetError"));
     if (entry != nullptr) real = std::exchange(*entry, &failing);

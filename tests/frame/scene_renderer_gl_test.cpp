@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/two_quads.h"
+#include "core/memory_limits.h"
 #include "defocus/defocus.h"
 #include "frame/own_context.h"
 #include "gl/context.h"
@@ -332,6 +333,65 @@ TEST_F(SceneRendererTest, threadsMayRenderAtOnce) {
     b.join();
     EXPECT_EQ(first.pixels, one.pixels);
     EXPECT_EQ(second.pixels, other.pixels);
+}
+
+// A frame for which the memory is too little in one piece: the same bits, from the top.
+TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
+    Request request = smallRequest();
+    request.width = 1600;
+    request.height = 1200;
+    request.wave = 0;
+    request.settings.sampleCount = 4;
+    Image whole;
+    std::vector<std::string> warnings;
+    {
+        SceneRenderer renderer(request);
+        whole = renderer.render();
+        warnings = renderer.warnings();
+    }
+
+    // In one piece the pixels alone take 370 MiB.
+    constexpr std::uint64_t little = std::uint64_t{300} << 20;
+    request.memory = residentMemory() + little;
+    SceneRenderer other(request);
+    other.start();
+    EXPECT_EQ(other.sampleTotal(), 4u);
+    EXPECT_EQ(other.samples(), 0u);
+    std::uint32_t before = 0;
+    int steps = 0;
+    for (bool more = true; more; ++steps) {
+        more = other.advance();
+        EXPECT_GE(other.samples(), before);
+        before = other.samples();
+    }
+    EXPECT_EQ(other.samples(), 4u);
+    EXPECT_GT(steps, 1) << "it was one piece, which is drawn at once";
+    EXPECT_TRUE(other.image().pixels == whole.pixels);
+    EXPECT_EQ(other.statistics().samples, 4u);
+    EXPECT_EQ(other.warnings(), warnings);
+    EXPECT_THROW(other.aovs(), std::exception);
+    other.write(folder_ / "image.exr", other.image());
+    EXPECT_TRUE(readImage(folder_ / "image.exr").pixels == whole.pixels);
+
+    // Another of the size, drawn as the one before.
+    Request moved = request;
+    moved.cameraPosition = movedRequest().cameraPosition;
+    const Image movedImage = other.render(moved);
+    moved.memory.reset();
+    EXPECT_TRUE(movedImage.pixels == render(moved).pixels);
+    // A small one fits, and so it does beside what the large one took.
+    Request small = request;
+    small.width = 96;
+    small.height = 72;
+    const Image smallImage = other.render(small);
+    small.memory.reset();
+    EXPECT_TRUE(smallImage.pixels == render(small).pixels);
+
+    request.memory = 1 << 20;
+    EXPECT_THROW(other.start(request), std::exception);
+    request.memory = residentMemory() + little;
+    request.method = "circular";
+    EXPECT_THROW(other.start(request), std::exception);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "fuzz/targets.h"
@@ -15,7 +17,7 @@ namespace {
 const defocus::FuzzTarget* target = nullptr;
 }
 
-extern "C" int LLVMFuzzerInitialize(int* /*count*/, char*** /*arguments*/) {
+extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
     const char* const name = std::getenv("DEFOCUS_FUZZ_TARGET");
     try {
         target = &defocus::fuzzTargetNamed(name != nullptr ? name : "");
@@ -23,6 +25,13 @@ extern "C" int LLVMFuzzerInitialize(int* /*count*/, char*** /*arguments*/) {
         std::fprintf(stderr, "DEFOCUS_FUZZ_TARGET: %s\n", error.what());
         std::exit(2);
     }
+    // libFuzzer would make up nothing longer than the longest seed.
+    static std::string length = "-max_len=" + std::to_string(target->mostBytes);
+    static std::vector<char*> words(*arguments, *arguments + *count);
+    words.insert(words.begin() + 1, length.data());
+    words.push_back(nullptr);
+    *count += 1;
+    *arguments = words.data();
     if (const char* const folder = std::getenv("DEFOCUS_FUZZ_SEEDS")) {
         std::filesystem::create_directories(folder);
         std::size_t number = 0;

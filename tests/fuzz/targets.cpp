@@ -12,19 +12,26 @@
 #include <string_view>
 #include <utility>
 
+#include "capture/frame_files.h"
+#include "capture/partial.h"
 #include "capture/shot_json.h"
+#include "capture/tile_files.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/memory_limits.h"
 #include "frame/prepared_frame.h"
 #include "frame/settings.h"
 #include "image/image_io.h"
+#include "image/image_rows.h"
 #include "image/metrics.h"
 #include "image/scratch_folder.h"
 #include "lens/aperture.h"
 #include "lod/pyramid/file.h"
 #include "lod/shapes.h"
 #include "plan/frame_plan.h"
+#include "scene/gltf/builder.h"
 #include "scene/gltf/gltf.h"
+#include "scene/ground.h"
 
 namespace defocus {
 namespace {
@@ -75,15 +82,92 @@ void runGltf(std::span<const std::byte> bytes) {
         request.width = 64;
         request.height = 48;
         request.settings.sampleCount = 8;
-        PreparedFrame frame = placeFrame(scene, request);
-        for (const Mesh& mesh : scene->meshes) frame.world.pyramids.push_back(buildPyramid(mesh));
-        static_cast<void>(planFrame(frame.world, frame.view, frame.settings));
+        // In the air, and then on a ground with shadows.
+        std::vector<Pyramid> pyramids;
+        for (const bool ground : {false, true}) {
+            request.ground = ground;
+            setGround(request, *scene);
+            PreparedFrame frame = placeFrame(scene, request);
+            while (pyramids.size() < scene->meshes.size())
+                pyramids.push_back(buildPyramid(scene->meshes[pyramids.size()]));
+            frame.world.pyramids = pyramids;
+            static_cast<void>(planFrame(frame.world, frame.view, frame.settings));
+        }
     } catch (const Error&) {  // refused
     }
 }
 
+// Lights, each extension of materials, a texture that is moved, and an animation of them: what the models of others
+// have too little of, or in files too large to be fuzzed.
+std::string furnishedScene() {
+    GltfBuilder file;
+    // A grey PNG of one pixel.
+    const std::vector<std::uint8_t> png = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+        0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
+        0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x68, 0x00, 0x00, 0x00, 0x82, 0x00, 0x81,
+        0x77, 0xcd, 0x72, 0xb6, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    file.add("images", {{"bufferView", file.view(png)}, {"mimeType", "image/png"}});
+    file.add("textures", {{"source", 0}});
+    const nlohmann::json texture = {
+        {"index", 0},
+        {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"rotation", 0.1}, {"scale", {2, 2}}}}}}};
+    file.add("materials",
+             {{"emissiveFactor", {1, 1, 1}},
+              {"extensions",
+               {{"KHR_materials_clearcoat",
+                 {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0.1}, {"clearcoatNormalTexture", texture}}},
+                {"KHR_materials_sheen",
+                 {{"sheenColorFactor", {1, 0.5, 0}}, {"sheenRoughnessFactor", 0.3}, {"sheenColorTexture", texture}}},
+                {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 1, 2}}}},
+                {"KHR_materials_ior", {{"ior", 1.8}}},
+                {"KHR_materials_emissive_strength", {{"emissiveStrength", 5}}}}}});
+    file.add("materials",
+             {{"extensions",
+               {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}, {"transmissionTexture", texture}}},
+                {"KHR_materials_volume",
+                 {{"thicknessFactor", 0.2}, {"attenuationDistance", 0.5}, {"attenuationColor", {1, 0, 0}}}}}}});
+    file.add("materials",
+             {{"extensions",
+               {{"KHR_materials_pbrSpecularGlossiness",
+                 {{"diffuseFactor", {1, 1, 1, 1}}, {"specularFactor", {0, 0, 0}}, {"glossinessFactor", 0.7}}}}}});
+    file.add("materials",
+             {{"alphaMode", "BLEND"}, {"extensions", {{"KHR_materials_unlit", nlohmann::json::object()}}}});
+    const int positions = file.positions(unitTriangle);
+    const int coordinates = file.floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
+    for (int material = 0; material < 4; ++material)
+        file.mesh(nlohmann::json::array({{{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", coordinates}}},
+                                          {"material", material}}}),
+                  {{"translation", {0, 0, material}}});
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"intensity", 3}},
+        {{"type", "point"}, {"intensity", 10}, {"range", 5}},
+        {{"type", "spot"}, {"color", {1, 0, 0}}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}}};
+    for (int light = 0; light < 3; ++light)
+        file.add("nodes",
+                 {{"translation", {light, 2, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+    const int times = file.floats({0, 1}, "SCALAR", 1);
+    const int values = file.floats({1, 20}, "SCALAR", 1);
+    const auto pointer = [](const char* place) {
+        return nlohmann::json{
+            {"sampler", 0},
+            {"target", {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", place}}}}}}}};
+    };
+    using Json = nlohmann::json;
+    file.add("animations",
+             {{"samplers", Json::array({{{"input", times}, {"output", values}}})},
+              {"channels", Json::array({pointer("/extensions/KHR_lights_punctual/lights/1/intensity")})}});
+    return file.glb();
+}
+
 std::vector<Bytes> gltfSeeds() {
-    return filesIn(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models");
+    std::vector<Bytes> seeds = filesIn(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "tests/data/models");
+    for (const char* own : {"bokeh.gltf", "artefact-leaking.gltf"}) {  // lamps, and a lens in words of the project
+        std::ifstream file(std::filesystem::path(DEFOCUS_SOURCE_DIR) / "meshes" / own, std::ios::binary);
+        seeds.push_back(bytesOf(std::string(std::istreambuf_iterator<char>(file), {})));
+    }
+    seeds.push_back(bytesOf(furnishedScene()));
+    return seeds;
 }
 
 // ---- shots
@@ -143,6 +227,23 @@ std::vector<Bytes> cacheSeeds() {
 constexpr std::array<const char*, 4> imageNames = {"image.exr", "image.png", "image.hdr", "image.jpg"};
 constexpr std::size_t mostImagePixels = 1 << 14;
 
+// As a tile of a frame: its rows, and the frame that it makes up.
+void runRows(const std::filesystem::path& path) {
+    static_cast<void>(isTileFile(path));
+    try {
+        ImageRowReader reader(path);
+        if (std::size_t(reader.width()) * std::size_t(reader.height()) > mostImagePixels) return;
+        static_cast<void>(reader.read(0, reader.height()));
+    } catch (const Error&) {
+    }
+    try {
+        const std::vector<TileFile> tiles = completeTiles({path});
+        joinTiles(tiles, {{path.parent_path() / "joined.exr", {}}, {path.parent_path() / "joined.png", {}}},
+                  tiles.front().header.metadata);
+    } catch (const Error&) {
+    }
+}
+
 void runImage(std::span<const std::byte> bytes) {
     if (bytes.empty()) return;
     const auto format = std::to_integer<std::size_t>(bytes[0]) % imageNames.size();
@@ -160,9 +261,14 @@ void runImage(std::span<const std::byte> bytes) {
     } catch (const Error&) {
     }
     try {
+        static_cast<void>(readPart(path));
+    } catch (const Error&) {
+    }
+    try {
         static_cast<void>(decodeTexture(bytes.subspan(1), "texture"));
     } catch (const Error&) {
     }
+    runRows(path);
 }
 
 std::vector<Bytes> imageSeeds() {
@@ -178,6 +284,23 @@ std::vector<Bytes> imageSeeds() {
         seed.insert(seed.begin(), static_cast<std::byte>(format));
         seeds.push_back(std::move(seed));
     }
+    // Two tiles, one of them the whole frame, and a part of a frame's samples.
+    const auto add = [&](const std::filesystem::path& path) {
+        std::ifstream file(path, std::ios::binary);
+        seeds.push_back(bytesOf(std::string(1, 0) + std::string(std::istreambuf_iterator<char>(file), {})));
+    };
+    for (const int frameHeight : {image.height, image.height + 4}) {
+        const std::filesystem::path path = written("seed-tile.exr", {});
+        const Metadata metadata = {{settingsAttribute, std::string("settings")}, {"defocus:tile", std::string("rows")}};
+        ImageRowWriter rows(path, image.width, image.height, image.channels, metadata, {}, {0, frameHeight});
+        rows.write(image);
+        rows.finish();
+        add(path);
+    }
+    const FramePart part{{0, 64}, 64, "settings", 7, 5, {{64, Image(7, 5, 4), Image(7, 5, 4)}}, {}};
+    const std::filesystem::path partFile = written("seed-part.exr", {});
+    writePart(partFile, part);
+    add(partFile);
     std::string hdr("\x02#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n");
     for (int i = 0; i < 4; ++i) hdr += "\x40\x80\xc0\x81";
     seeds.push_back(bytesOf(hdr));
@@ -185,6 +308,26 @@ std::vector<Bytes> imageSeeds() {
 }
 
 // ---- settings
+
+// Values of options that are no settings.
+void runParsers(std::string_view text) {
+    const auto parse = [&](auto parser) {
+        try {
+            static_cast<void>(parser(text));
+        } catch (const Error&) {
+        }
+    };
+    parse(parseTileShare);
+    parse(parseSampleRange);
+    parse(parseFrameRange);
+    parse(parseShotOverride);
+    // What is told of an amount of memory is an amount of memory, within the three digits told.
+    parse([](std::string_view amount) {
+        const auto bytes = static_cast<double>(parseBytes(amount));
+        if (std::abs(static_cast<double>(parseBytes(bytesText(parseBytes(amount)))) / bytes - 1) > 0.01) std::abort();
+        return bytes;
+    });
+}
 
 void runSettings(std::span<const std::byte> bytes) {
     Request request;
@@ -194,6 +337,7 @@ void runSettings(std::span<const std::byte> bytes) {
         rest.remove_prefix(std::min(rest.size(), line.size() + 1));
         const std::size_t equals = std::min(line.find('='), line.size());
         const std::string_view value = line.substr(std::min(equals + 1, line.size()));
+        runParsers(value);
         try {
             setByName(request, line.substr(0, equals), std::string(value));
         } catch (const Error&) {
@@ -220,6 +364,9 @@ std::vector<Bytes> settingsSeeds() {
         if (setting.least != setting.most) line += "1";
         seeds.push_back(bytesOf(line + "\n"));
     }
+    for (const char* line : {"memory=1.5 GiB", "memory=2000kB", "tile=3/16", "samples=64:128", "range=0:24",
+                             "set=/lens/fStop=1.4", "ground=true\nlightAngle=2\nlightRadius=0.1\nshadows=on"})
+        seeds.push_back(bytesOf(std::string(line) + "\n"));
     return seeds;
 }
 

@@ -17,11 +17,12 @@ struct FuzzTarget {
     std::size_t mostBytes = 0;                                 // more than that finds nothing new
 };
 
-//   gltf      a scene's file, placed and planned for a small frame
+//   gltf      a scene's file, placed and planned for a small frame, without and with a ground and shadows
 //   shot      a shot file
 //   cache     a pyramid's file, with a checksum that fits
-//   image     an image file as environment, aperture, and what is compared and merged; the first byte picks the format
-//   settings  lines of "name=value" for the table of settings
+//   image     an image file as environment, aperture, tile, and what is compared and merged; the first byte picks the
+//             format
+//   settings  lines of "name=value" for the table of settings, the values also as those of options beside it
 std::span<const FuzzTarget> fuzzTargets();
 
 // Throws Error where there is none of this name.

@@ -169,6 +169,19 @@ TEST_F(GlTextureTest, beyondTheDriversLimitNamesTheSize) {
     }
 }
 
+TEST_F(GlTextureTest, beyondTheDriversLayersNamesTheirNumber) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most);
+    EXPECT_NO_THROW(GlTexture({.width = 1, .height = 1, .layers = most}));
+    try {
+        const GlTexture texture({.width = 1, .height = 1, .layers = most + 1});
+        FAIL() << "one layer too many";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(std::to_string(most + 1) + " layers"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST_F(GlTextureTest, beyondMemoryIsAnError) {
     const ExpectedGlMessages wrongOnPurpose;
     GLint limit = 0, layers = 0;

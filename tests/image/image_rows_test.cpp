@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <functional>
+#include <string>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -109,6 +111,39 @@ TEST_F(ImageRows, aFullDiskIsAnErrorThatNamesTheFile) {
     ::setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     EXPECT_TRUE(fs::is_empty(folder()));
+}
+
+// OpenEXR reads what a damaged size leads it to, and makes room for it.
+TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
+    const fs::path path = folder() / "image.exr";
+    writeImage(path, pattern(4, 3), {{"owner", std::string("nobody")}});
+    const std::vector<std::byte> whole = readFile(path);
+    const auto withSize = [&](const std::string& attribute, const std::string& type, std::uint32_t size) {
+        std::string bytes(reinterpret_cast<const char*>(whole.data()), whole.size());
+        const std::string begin = attribute + '\0' + type + '\0';
+        const std::size_t at = bytes.find(begin) + begin.size();
+        for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(size >> (8 * i));
+        writeFile(path, bytes);
+    };
+    const auto expectRefused = [&](const std::string& attribute) {
+        for (const auto& read : {std::function<void()>([&] { static_cast<void>(readImage(path)); }),
+                                 std::function<void()>([&] { ImageRowReader reader(path); })}) {
+            try {
+                read();
+                ADD_FAILURE() << attribute;
+            } catch (const Error& error) {
+                EXPECT_NE(std::string(error.what()).find("'" + attribute + "'"), std::string::npos) << error.what();
+            }
+        }
+    };
+    withSize("owner", "string", 6);  // what it is
+    EXPECT_NO_THROW(static_cast<void>(readImage(path)));
+    withSize("owner", "string", 2'000'000'000);
+    expectRefused("owner");
+    withSize("dataWindow", "box2i", 12);
+    expectRefused("dataWindow");
+    withSize("channels", "chlist", 54);
+    expectRefused("channels");
 }
 
 }  // namespace

@@ -62,6 +62,16 @@ TEST(Tiling, coversTheRowsOnceWithinTheMemory) {
     }
 }
 
+TEST(Tiling, bandsAreOfOneHeightWhereAFewMoreMakeThem) {
+    const TilingNeeds needs = needsOf(4096, 3072, 450 << 20);
+    const Tiling tiling = chosenTiling(needs);
+    EXPECT_GT(tiling.bands.size(), 4u);
+    for (const Band& band : tiling.bands)
+        EXPECT_EQ(band.rows.end - band.rows.first, tiling.bands.front().rows.end) << band.rows.first;
+    const TilingNeeds prime = needsOf(4096, 3067, 450 << 20);
+    EXPECT_LE(chosenTiling(prime).bands.size(), tiling.bands.size() + tiling.bands.size() / 2);
+}
+
 TEST(Tiling, onePieceIsWhatFitsWithItsPicture) {
     const std::uint64_t pixel = 12 + sumPixelBytes + wholePixelBytes;
     EXPECT_TRUE(fitsInOnePiece(needsOf(100, 100, 10'000 * pixel)));
@@ -89,6 +99,17 @@ TEST(Tiling, tooLittleMemorySaysWhatIsNeeded) {
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("50 MiB is left"), std::string::npos) << error.what();
     }
+}
+
+TEST(Tiling, picturesThatAreKeptLeaveLess) {
+    TilingNeeds needs = needsOf(1000, 1000, 120 << 20);
+    const Tiling alone = chosenTiling(needs);
+    needs.keptBytes = 90'000'000;
+    const Tiling beside = chosenTiling(needs);
+    EXPECT_GT(beside.bands.size(), alone.bands.size());
+    EXPECT_LE(bytesOf(needs, beside) + needs.keptBytes, 120u << 20);
+    needs.keptBytes = 120 << 20;
+    EXPECT_THROW(chosenTiling(needs), Error);
 }
 
 TEST(Tiling, shadowMapsTakeTheMemoryOfSamplesAtOnce) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""A film by a Slurm job array, on a real cluster of two nodes on the loopback interface: one task is killed half way and
-queued again; the film must be complete and the same bits as that of a single run.
+"""Job arrays of Slurm, on a real cluster of two nodes on the loopback interface. A film: one task is killed half way and
+queued again; the film must be complete and the same bits as that of a single run. One frame, by its samples and by its
+rows, as scripts/slurm/README.md has it: what is merged must be the bits of a single run.
 
 array_test.py PROGRAM BATCH_FILE; exit code 77: skipped, with the reason."""
 
@@ -143,6 +144,30 @@ def task_process(cluster, job, task):
     return None
 
 
+def share_frame(cluster, program, folder):
+    """One frame by arrays of four tasks, split in each way."""
+    frame = ["render", "--quiet", "--fish", "4", "--fish-triangles", "4000", "--size", "256x192", "--samples", "256"]
+    subprocess.run([program, *frame, "-o", "single.exr"], cwd=folder, check=True)
+    tasks = {
+        "part": "first=$((SLURM_ARRAY_TASK_ID * 64)); exec $DEFOCUS {line} --sample-range $first:$((first + 64)) "
+                "-o part$SLURM_ARRAY_TASK_ID.exr",
+        "tile": "exec $DEFOCUS {line} --tile $SLURM_ARRAY_TASK_ID/4 --resume -o tile$SLURM_ARRAY_TASK_ID.exr",
+    }
+    for name, task in tasks.items():
+        files = [f"{name}{i}.exr" for i in range(4)]
+        job = cluster.ask("sbatch", "--parsable", "--array=0-3", f"--chdir={folder}", f"--output={folder}/{name}-%a.log",
+                          "--wrap", task.format(line=" ".join(frame))).strip()
+        assert job, f"the job array of {name}s was refused"
+        wait_until(f"the job of {name}s didn't end", lambda: cluster.ask("squeue", "-h", "-o", "%i").strip() == "")
+        missing = [file for file in files if not (folder / file).exists()]
+        assert not missing, f"missing: {missing}"
+        subprocess.run([program, "merge", "--quiet", *files, "-o", f"{name}s.exr"], cwd=folder, check=True)
+        difference = json.loads(subprocess.run([program, "compare", "--json", "single.exr", f"{name}s.exr"], cwd=folder,
+                                               check=True, capture_output=True, text=True).stdout)
+        assert difference["maxError"] == 0 and difference["psnr"] is None, f"the frame of {name}s differs from that of a single run: {difference}"
+        print(f"a frame of four {name}s is that of a single run")
+
+
 def main():
     program, batch = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     for needed in ("munged", "slurmctld", "slurmd", "sbatch", "scontrol", "sinfo", "squeue"):
@@ -196,6 +221,7 @@ def main():
         left = [path.name for path in frames.iterdir() if path.name.startswith(".")]
         assert not left, f"left behind: {left}"
         print(f"{FRAMES} frames of {TASKS} tasks are those of a single run")
+        share_frame(cluster, program, folder)
     except BaseException:
         for log in sorted(folder.glob("*.log")) + sorted(folder.glob("*.out")):
             print(f"--- {log.name}\n{log.read_text(errors='replace')[-2000:]}")

@@ -1,0 +1,90 @@
+// OpenEXR, "File Layout": after eight bytes come headers, each a list of attributes that an empty name ends. An
+// attribute is its name, its type (both ended by a zero), the number of its bytes (32 bits, little-endian), and those.
+
+#include "image/exr_structure.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/error.h"
+
+namespace defocus {
+
+namespace {
+
+using Bytes = std::span<const std::byte>;
+
+constexpr std::size_t headersBegin = 8;
+constexpr std::size_t channelBytes = 16;  // after a channel's name
+
+// Types of one size.
+constexpr std::array<std::pair<std::string_view, std::uint64_t>, 23> sizes = {{
+    {"box2f", 16},      {"box2i", 16},   {"chromaticities", 32},
+    {"compression", 1}, {"double", 8},   {"envmap", 1},
+    {"float", 4},       {"int", 4},      {"keycode", 28},
+    {"lineOrder", 1},   {"m33d", 72},    {"m33f", 36},
+    {"m44d", 128},      {"m44f", 64},    {"rational", 8},
+    {"tiledesc", 9},    {"timecode", 8}, {"v2d", 16},
+    {"v2f", 8},         {"v2i", 8},      {"v3d", 24},
+    {"v3f", 12},        {"v3i", 12},
+}};
+
+// The text that begins at `at`, without the zero that ends it; none where that isn't in `bytes`.
+std::optional<std::string_view> textAt(Bytes bytes, std::size_t at) {
+    const Bytes rest = bytes.subspan(std::min(at, bytes.size()));
+    const auto zero = std::ranges::find(rest, std::byte{0});
+    if (zero == rest.end()) return {};
+    return std::string_view(reinterpret_cast<const char*>(rest.data()), static_cast<std::size_t>(zero - rest.begin()));
+}
+
+std::uint32_t number(Bytes bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[at + i]) << (8 * i);
+    return value;
+}
+
+// A list of channels ends with an empty name, which is its last byte.
+bool isChannelList(Bytes value) {
+    for (std::size_t at = 0; at < value.size();) {
+        const auto channel = textAt(value, at);
+        if (!channel) return false;
+        if (channel->empty()) return at + 1 == value.size();
+        at += channel->size() + 1 + channelBytes;
+    }
+    return false;
+}
+
+}  // namespace
+
+void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name) {
+    // A file of several parts has a header for each, and an empty one after the last.
+    const bool parts = head.size() > 5 && (head[5] & std::byte{0x10}) != std::byte{0};
+    const int last = parts ? 2 : 1;
+    int empty = 0;  // names in a row
+    for (std::size_t at = headersBegin; at < head.size() && empty < last;) {
+        const auto attribute = textAt(head, at);
+        if (!attribute) return;
+        at += attribute->size() + 1;
+        empty = attribute->empty() ? empty + 1 : 0;
+        if (attribute->empty()) continue;
+        const auto type = textAt(head, at);
+        if (!type || at + type->size() + 1 + 4 > head.size()) return;
+        at += type->size() + 1;
+        const std::uint64_t bytes = number(head, at);
+        at += 4;
+        const auto refuse = [&] {
+            fail("{}: cannot be read: {} bytes are no value of its attribute '{}'", name, bytes, *attribute);
+        };
+        if (bytes > fileBytes - std::min<std::uint64_t>(fileBytes, at)) refuse();
+        const auto known = std::ranges::find(sizes, *type, &std::pair<std::string_view, std::uint64_t>::first);
+        if (known != sizes.end() && known->second != bytes) refuse();
+        if (bytes > head.size() - at) return;
+        if (*type == "chlist" && !isChannelList(head.subspan(at, bytes))) refuse();
+        at += bytes;
+    }
+}
+
+}  // namespace defocus

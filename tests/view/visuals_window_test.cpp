@@ -1,0 +1,53 @@
+// Screens of other depths than the usual 24 bits, and those that have no OpenGL.
+
+#include <algorithm>
+
+#include "view/view_program.h"
+
+namespace defocus {
+namespace {
+
+class Visuals : public ViewProgram {
+protected:
+    static void SetUpTestSuite() {}  // each test has a screen of its own
+    void SetUp() override {
+        beginServer(screen());
+        ViewProgram::SetUp();
+    }
+    void TearDown() override {
+        ViewProgram::TearDown();
+        endServer();
+    }
+    [[nodiscard]] virtual std::vector<std::string> screen() const = 0;
+};
+
+class Depth : public Visuals, public testing::WithParamInterface<int> {
+    [[nodiscard]] std::vector<std::string> screen() const override {
+        return {"-screen", "0", "640x480x" + std::to_string(GetParam())};
+    }
+};
+
+TEST_P(Depth, picturesAreShown) {
+    start({"--fish", "1", "--fish-triangles", "200", "--size", "320x240"});
+    EXPECT_TRUE(reaches([](const nlohmann::json& s) { return s.at("samples") > 0; })) << textOf("stderr");
+}
+
+INSTANTIATE_TEST_SUITE_P(Visuals, Depth, testing::Values(16, 30));  // 30: ten bits a colour
+
+class WithoutGlx : public Visuals {
+    [[nodiscard]] std::vector<std::string> screen() const override {
+        return {"-screen", "0", "640x480x24", "-extension", "GLX"};
+    }
+};
+
+TEST_F(WithoutGlx, theReasonIsOneLine) {
+    start({"--fish", "1", "--fish-triangles", "200"});
+    EXPECT_EQ(ended(), 1);
+    const std::string fault = textOf("stderr");
+    EXPECT_EQ(std::ranges::count(fault, '\n'), 1) << fault;
+    EXPECT_NE(fault.find("no window with OpenGL 4.5 can be opened: GLX"), std::string::npos) << fault;
+    EXPECT_NE(fault.find("defocus render"), std::string::npos) << fault;
+}
+
+}  // namespace
+}  // namespace defocus
