@@ -45,8 +45,8 @@ struct FilmOptions {
     bool resume = false;                     // keep what is finished
     // Gets the image of the first frame that is drawn whole, and how its pictures are written.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
-    const Method* method = nullptr;          // that draws
-    std::uint64_t memoryLimit = 0;           // bytes that the process may take in all
+    const Method* method = nullptr;  // that draws
+    std::uint64_t memoryLimit = 0;   // bytes that the process may take in all
 };
 
 // "frames/timings.jsonl", or of shard 2 of 8 "frames/timings.2-of-8.jsonl".
