@@ -71,6 +71,7 @@ void appendTimes(const FilmOptions& options, const FilmFrame& film, const Sequen
                                    {"trianglesDrawn", stats.trianglesDrawn},
                                    {"samples", stats.samples},
                                    {"wave", stats.wave},
+                                   {"memoryLimit", options.memoryLimit},
                                    {"device", stats.device}};
     if (stats.estimatedError) line["estimatedError"] = *stats.estimatedError;
     const std::string text = line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

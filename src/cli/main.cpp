@@ -1,7 +1,9 @@
 // defocus: depth of field of a real lens.
 
 #include "cli/run_program.h"
+#include "core/memory.h"
 
 int main(int argc, char** argv) {
+    defocus::keepFreedMemory();
     return defocus::runProgram(argc, argv);
 }

@@ -30,6 +30,13 @@ void giveBackFreedMemory() {
 #endif
 }
 
+void keepFreedMemory() {
+#ifdef __GLIBC__
+    mallopt(M_TRIM_THRESHOLD, 128 << 20);
+    mallopt(M_MMAP_THRESHOLD, 8 << 20);  // larger blocks go back at once
+#endif
+}
+
 // From the start of a huge page on, so that as much as possible is such pages, if the system has them: one fault for
 // each instead of hundreds. The end is small pages: no more is taken than is asked for.
 void* allocatePages(std::size_t bytes) {

@@ -27,19 +27,24 @@ std::string saidOfPyramids(const Folder&, const Outcome& outcome) {
     return withoutTimes(json::parse(outcome.out)).dump();
 }
 
+// Whether it is the limit that option_cases.h gives; without one it is what the machine has free just then.
+std::string seenOfLimit(const json& limit) {
+    return limit == std::uint64_t{3} << 30 ? "limited " : "";
+}
+
 std::string seenOfRender(const Folder& folder, const Outcome&) {
     const json stats = jsonIn(folder / "stats.json");
-    std::string text = pixelsIn(folder / "a.exr") + pixelsIn(folder / "a.png");
-    // The limit that option_cases.h gives; without one it is what the machine has free just then.
-    if (stats.at("memoryLimit") == std::uint64_t{3} << 30) text += "limited ";
+    std::string text = pixelsIn(folder / "a.exr") + pixelsIn(folder / "a.png") + seenOfLimit(stats.at("memoryLimit"));
     for (const char* key : {"wave", "layerFormat", "trianglesFacingAway", "trianglesOutside", "samples"})
         text += stats.at(key).dump() + " ";
     return text;
 }
 
 std::string seenOfCapture(const Folder& folder, const Outcome&) {
-    const json times = jsonIn(folder / "timings.jsonl");
-    return pixelsIn(folder / "0.exr") + pixelsIn(folder / "0.png") + withoutTimes(times).dump();
+    json times = jsonIn(folder / "timings.jsonl");
+    const std::string limit = seenOfLimit(times.at("memoryLimit"));
+    times.erase("memoryLimit");
+    return pixelsIn(folder / "0.exr") + pixelsIn(folder / "0.png") + limit + withoutTimes(times).dump();
 }
 
 std::string rowsOf(const Folder& folder, const char* file, const Words& lists) {
