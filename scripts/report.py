@@ -802,11 +802,12 @@ def speedup_section(results):
                       f"{time['median']:.1f}<br>{spread_text(time)}", f"{row['speedUp']:.2f}",
                       "—" if equal is None else f"{equal:.2f}", *parts, f"{row['triangles'] / 1e6:.2f}",
                       f"{row['gpuBytes'] / 2**20:.0f}", optional(row, "setupMilliseconds"), optional(row, "pyramidMilliseconds")]
-                     + [cell for key, _ in truths for cell in differences(row[key])] + reference_cells(row))
+                     + [cell for key, _ in truths for cell in differences(row[key])]
+                     + [seeds_text(row)] + reference_cells(row))
     header = ["levels", "lens samples", "f-number", "focus, m", "frame, ms; 10–90 %", "times as fast at equal N",
               "at equal error", "size only", "blur only", "triangles, millions", "GPU, MiB", "set-up, ms", "pyramids, ms"] + [
                   f"{name} from {truth}" for _, truth in truths for name in ("PSNR, dB,", "SSIM", "FLIP")] + [
-                  "the reference"]
+                  "RMSE from the reference over seeds", "the reference"]
     captions = [(frame_time_plot(results["rows"]), "Time of a frame, both axes logarithmic (Figure 2 of Jeong, Kim and Lee 2011)."),
                 (speedup_plot(results["rows"]), "Frame time at full detail over frame time with levels, at equal N: the same lens "
                  f"samples, but another error. {speedup_headline(results)} The table has both for each row. "
@@ -816,7 +817,8 @@ def speedup_section(results):
             "<p>Times as fast as full detail: at equal N, with the same number of lens samples; at equal error, with as many as "
             "full detail needs to come as close to the reference (RMSE), its time between measured rows by a power law; —: that "
             f"error lies beyond what was measured, or there is no reference. Times are medians of {results['runs']} runs, each "
-            "with its 10th and 90th percentile.</p>", facts(results)]
+            "with its 10th and 90th percentile; errors from the reference are means over the seeds of the lens samples, each "
+            "with its least and most.</p>", facts(results)]
 
 
 def popping_section(results, path):

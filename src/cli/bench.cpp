@@ -98,6 +98,9 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
     addWhole(*command, "--runs", options.runs, 1, 1000, "Runs of each mode; the median counts")->group(group);
+    addWhole(*command, "--seeds", options.seeds, 1, 1000,
+             "Seeds that the runs go through, so that errors have a spread, too; at most as many as runs")
+        ->group(group);
     addParsed(*command, "--reference-samples", "N",
               "Lens samples of the converged reference that each lens is compared with; without it, eight times the "
               "most that are measured with the lens; 0: no reference",

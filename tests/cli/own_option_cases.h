@@ -145,6 +145,7 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"bench speedup --focus-distances", {.words = {"--focus-distances", "4"}}},
         {"bench speedup --methods", {.words = {"--methods", "scheuermann"}}},
         {"bench speedup --runs", {.words = {"--runs", "2"}}},
+        {"bench speedup --seeds", {.words = {"--seeds", "1"}, .more = {"--runs", "2", "--reference-samples", "4"}}},
         {"bench speedup --reference-samples", {.words = {"--reference-samples", "4"}}},
         {"bench speedup --output", {.words = {"-o", "other"}}},
         {"bench speedup --report", {.words = {"--report", "page"}, .without = {"-o"}}},

@@ -9,6 +9,7 @@
 
 #include "eval/convergence/equal_error.h"
 #include "eval/json_number.h"
+#include "eval/seed_errors.h"
 #include "eval/spread.h"
 
 namespace defocus {
@@ -34,15 +35,10 @@ ordered_json errorJson(const ImageError& error) {
     return {{"mse", error.mse}, {"psnr", jsonNumber(error.psnr())}, {"ssim", error.ssim}, {"flip", error.flip}};
 }
 
-// From the least to the most of the seeds.
-ordered_json seedsJson(const std::vector<ImageError>& errors) {
-    const auto ends = [&](const auto& of) {
-        const auto [least, most] = std::ranges::minmax(errors, {}, of);
-        return ordered_json{{"low", of(least)}, {"high", of(most)}};
-    };
-    return {{"seeds", errors.size()},
-            {"rmse", ends([](const ImageError& error) { return std::sqrt(error.mse); })},
-            {"flip", ends([](const ImageError& error) { return error.flip; })}};
+std::vector<SeedError> seedErrors(const ConvergenceRow& row) {
+    std::vector<SeedError> errors;
+    for (const ImageError& error : row.ofSeeds) errors.push_back({std::sqrt(error.mse), error.flip});
+    return errors;
 }
 
 ordered_json rowJson(const ConvergenceRow& row) {
@@ -56,7 +52,7 @@ ordered_json rowJson(const ConvergenceRow& row) {
                          {"pyramidMilliseconds", row.pyramidMilliseconds},
                          {"gpuMilliseconds", row.gpuMilliseconds}};
     json.update(errorJson(row.error));
-    if (row.ofSeeds.size() > 1) json["errorsOverSeeds"] = seedsJson(row.ofSeeds);
+    if (row.ofSeeds.size() > 1) json["errorsOverSeeds"] = seedErrorsJson(seedErrors(row));
     json["bias"] = row.bias ? errorJson(*row.bias) : ordered_json(nullptr);
     json["triangles"] = row.triangles;
     json["peakBytes"] = row.peakBytes;
@@ -152,16 +148,18 @@ std::string convergenceCsv(std::span<const ConvergenceRow> rows) {
     std::string text =
         "method,setting,samples,runs,milliseconds,low,high,setupMilliseconds,pyramidMilliseconds,gpuMilliseconds,mse,"
         "psnr,ssim,flip,biasMse,biasFlip,triangles,peakBytes,front,frontOfMethod,frontByFlip,mseBelowReference,"
-        "flipBelowReference,fault\n";
+        "flipBelowReference,fault,";
+    text += std::string(seedErrorsColumns) + "\n";
     for (const ConvergenceRow& row : rows) {
         const std::string bias = row.bias ? fmt::format("{:.6g},{:.6g}", row.bias->mse, row.bias->flip) : ",";
         text += fmt::format(
             "{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{:d},{:d},"
-            "{:d},{:d},{:d},{}\n",
+            "{:d},{:d},{:d},{},{}\n",
             row.method, row.setting, row.samples, row.runs, row.milliseconds.median, row.milliseconds.low,
             row.milliseconds.high, row.setupMilliseconds.median, row.pyramidMilliseconds, row.gpuMilliseconds,
             row.error.mse, row.error.psnr(), row.error.ssim, row.error.flip, bias, row.triangles, row.peakBytes,
-            row.front, row.frontOfMethod, row.frontByFlip, row.mseBelowReference, row.flipBelowReference, row.fault);
+            row.front, row.frontOfMethod, row.frontByFlip, row.mseBelowReference, row.flipBelowReference, row.fault,
+            seedErrorsCsv(seedErrors(row)));
     }
     return text;
 }

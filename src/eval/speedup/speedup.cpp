@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <deque>
 #include <memory>
 
@@ -89,11 +90,12 @@ struct SpeedupSubject {
     LodCause cause = LodCause::blurAndSize;
     const SpeedupSubject* fullDetail = nullptr;  // of the same form
     std::unique_ptr<Renderer> renderer;
-    FramePlan plan;
+    std::vector<FramePlan> plans;  // of the seeds
     std::vector<double> milliseconds;
     std::vector<double> gpuMilliseconds;
-    double setupMilliseconds = 0;  // of the renderer, once
-    Image image;
+    double setupMilliseconds = 0;           // of the renderer, once
+    Image image;                            // of the first seed
+    std::vector<Difference> fromReference;  // of the seeds
 };
 
 // Ray tracers have the meshes as they were read, and post-process methods draw pinholes, for which blur is no excuse.
@@ -126,8 +128,9 @@ std::deque<SpeedupSubject> subjectsOf(std::span<const SpeedupForm> forms, const 
     return subjects;
 }
 
-FramePlan planOf(const SpeedupSubject& subject, const Setting& setting, std::uint32_t samples) {
+FramePlan planOf(const SpeedupSubject& subject, const Setting& setting, std::uint32_t samples, int seed = 0) {
     RenderSettings settings = subject.form->plan;
+    settings.seed += static_cast<std::uint32_t>(seed);
     settings.sampleCount = samples;
     settings.lod = subject.mode;
     settings.lodCause = subject.cause;
@@ -135,22 +138,43 @@ FramePlan planOf(const SpeedupSubject& subject, const Setting& setting, std::uin
 }
 
 // Shaders, uploads and the driver's own caches are ready before anything is timed.
-void prepare(SpeedupSubject& subject, const Setting& setting, RendererOptions options) {
+void prepare(SpeedupSubject& subject, const Setting& setting, int seeds, RendererOptions options) {
+    for (int seed = 0; seed < seeds; ++seed) subject.plans.push_back(planOf(subject, setting, setting.samples, seed));
     const Clock::time_point begin = Clock::now();
     options.settings = subject.use.settings;
     subject.renderer = subject.use.method->make(*subject.form->world, options);
-    subject.plan = planOf(subject, setting, setting.samples);
-    subject.renderer->start(subject.plan);
+    subject.renderer->start(subject.plans.front());
     subject.setupMilliseconds = millisecondsSince(begin);
     finish(*subject.renderer, planOf(subject, setting, std::min(setting.samples, warmUpSamples)));
 }
 
-void run(SpeedupSubject& subject) {
-    finish(*subject.renderer, subject.plan);
+// Run `number`, of one seed after the other.
+void run(SpeedupSubject& subject, std::size_t number, const ReferenceImage* reference) {
+    finish(*subject.renderer, subject.plans[number % subject.plans.size()]);
     const RenderStats stats = subject.renderer->stats();
     subject.milliseconds.push_back(stats.renderMilliseconds);
     subject.gpuMilliseconds.push_back(stats.gpuMilliseconds);
-    subject.image = subject.renderer->image();
+    if (number >= subject.plans.size()) return;  // the image is known
+    Image image = subject.renderer->image();
+    if (reference != nullptr) subject.fromReference.push_back(compareImages(reference->image, image));
+    if (number == 0) subject.image = std::move(image);
+}
+
+Difference meanOf(const std::vector<Difference>& differences) {
+    if (differences.size() == 1) return differences.front();
+    Difference mean = differences.front();
+    double mse = 0, ssim = 0, flip = 0;
+    for (const Difference& each : differences) {
+        mse += each.rmse * each.rmse;
+        ssim += each.ssim;
+        flip += each.flip;
+    }
+    const auto count = static_cast<double>(differences.size());
+    mean.rmse = std::sqrt(mse / count);
+    mean.psnr = -20 * std::log10(mean.rmse);  // of 0: infinity
+    mean.ssim = ssim / count;
+    mean.flip = flip / count;
+    return mean;
 }
 
 double speedUpOf(const SpeedupSubject& subject) {
@@ -158,7 +182,7 @@ double speedUpOf(const SpeedupSubject& subject) {
 }
 
 SpeedupPart partOf(const SpeedupSubject& subject) {
-    return {spreadOf(subject.milliseconds).median, speedUpOf(subject), subject.plan.trianglesDrawn,
+    return {spreadOf(subject.milliseconds).median, speedUpOf(subject), subject.plans.front().trianglesDrawn,
             compareImages(subject.fullDetail->image, subject.image)};
 }
 
@@ -176,13 +200,14 @@ SpeedupRow rowOf(const Setting& setting, const SpeedupSubject& subject, const Re
     row.milliseconds = spreadOf(subject.milliseconds);
     row.gpuMilliseconds = spreadOf(subject.gpuMilliseconds);
     row.speedUp = speedUpOf(subject);
-    row.triangles = subject.plan.trianglesDrawn;
+    row.triangles = subject.plans.front().trianglesDrawn;
     row.setupMilliseconds = subject.setupMilliseconds;
     if (subject.mode != LodMode::off) row.pyramidMilliseconds = subject.form->pyramidMilliseconds;
     row.gpuBytes = subject.renderer->stats().peakBytes;
     row.fromFullDetail = compareImages(subject.fullDetail->image, subject.image);
     if (reference == nullptr) return row;
-    row.fromReference = compareImages(reference->image, subject.image);
+    row.fromReference = meanOf(subject.fromReference);
+    for (const Difference& each : subject.fromReference) row.ofSeeds.push_back({each.rmse, each.flip});
     row.referenceSamples = reference->samples;
     row.referenceRemaining = reference->remaining;
     return row;
@@ -211,11 +236,12 @@ void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const 
     for (const Setting& setting : settings) {
         const ReferenceImage* const reference = references.of(setting);
         std::deque<SpeedupSubject> subjects = subjectsOf(forms, options.methods);
-        for (SpeedupSubject& subject : subjects) prepare(subject, setting, options.renderer);
+        for (SpeedupSubject& subject : subjects)
+            prepare(subject, setting, std::min(options.seeds, options.runs), options.renderer);
         for (int i = 0; i < options.runs; ++i)
             for (SpeedupSubject& subject : subjects) {
                 report(progress, "runs", done++, total);
-                run(subject);
+                run(subject, static_cast<std::size_t>(i), reference);
             }
         visitRows(subjects, setting, reference, visit);
     }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "eval/seed_errors.h"
 #include "eval/spread.h"
 #include "image/metrics.h"
 #include "plan/view.h"
@@ -34,6 +35,7 @@ struct SpeedupOptions {
     std::uint32_t sweepSamples = 64;
     std::vector<MethodUse> methods;  // measured beside accumulation, each with the last form's settings
     int runs = 5;                    // of each frame, ≥ 1
+    int seeds = 5;  // ≥ 1; run r draws with the plan's seed + r % seeds, so that errors have a spread
     // Lens samples of the converged reference for each lens (reference_image.h). If unset, it has eight times the
     // largest number of samples measured with the lens, which takes about two thirds of the time of three runs of all
     // modes. 0 makes no reference.
@@ -65,11 +67,12 @@ struct SpeedupRow {
     double speedUp = 1;              // the median of the form's full detail divided by this one
     std::optional<SpeedupPart> sizeOnly, blurOnly;  // of accumulation from fractional levels
     std::uint64_t triangles = 0;
-    std::uint64_t gpuBytes = 0;  // the most that the renderer's resources took
-    Difference fromFullDetail;   // at the same lens samples
-    std::optional<Difference> fromReference;
-    std::uint32_t referenceSamples = 0;  // 0 if there is no reference
-    Difference referenceRemaining;       // the reference's estimate of its own error
+    std::uint64_t gpuBytes = 0;               // the most that the renderer's resources took
+    Difference fromFullDetail;                // at the same lens samples, of the first seed
+    std::optional<Difference> fromReference;  // the mean over the seeds
+    std::vector<SeedError> ofSeeds;           // from the reference, of each seed that was drawn
+    std::uint32_t referenceSamples = 0;       // 0 if there is no reference
+    Difference referenceRemaining;            // the reference's estimate of its own error
 };
 
 // Calls `visit` with each row as soon as it is measured: for each setting, full detail, nearest level and fractional

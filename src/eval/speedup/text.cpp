@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/json_number.h"
+#include "eval/seed_errors.h"
 #include "eval/spread.h"
 #include "frame/reference_image.h"
 
@@ -31,26 +32,29 @@ ordered_json partJson(const std::optional<SpeedupPart>& part) {
 }
 
 ordered_json rowJson(const SpeedupRow& row) {
-    return {{"sweep", row.sweep},
-            {"preset", row.preset},
-            {"method", row.method},
-            {"samples", row.samples},
-            {"fStop", row.fStop},
-            {"focusDistance", row.focusDistance},
-            {"lod", lodModeName(row.mode)},
-            {"milliseconds", spreadJson(row.milliseconds)},
-            {"gpuMilliseconds", spreadJson(row.gpuMilliseconds)},
-            {"setupMilliseconds", row.setupMilliseconds},
-            {"pyramidMilliseconds", row.pyramidMilliseconds},
-            {"speedUp", row.speedUp},
-            {"sizeOnly", partJson(row.sizeOnly)},
-            {"blurOnly", partJson(row.blurOnly)},
-            {"triangles", row.triangles},
-            {"gpuBytes", row.gpuBytes},
-            {"fromFullDetail", differenceJson(row.fromFullDetail)},
-            {"fromReference", row.fromReference ? differenceJson(*row.fromReference) : ordered_json(nullptr)},
-            {"referenceSamples", row.referenceSamples},
-            {"referenceRemaining", row.fromReference ? differenceJson(row.referenceRemaining) : ordered_json(nullptr)}};
+    ordered_json json = {
+        {"sweep", row.sweep},
+        {"preset", row.preset},
+        {"method", row.method},
+        {"samples", row.samples},
+        {"fStop", row.fStop},
+        {"focusDistance", row.focusDistance},
+        {"lod", lodModeName(row.mode)},
+        {"milliseconds", spreadJson(row.milliseconds)},
+        {"gpuMilliseconds", spreadJson(row.gpuMilliseconds)},
+        {"setupMilliseconds", row.setupMilliseconds},
+        {"pyramidMilliseconds", row.pyramidMilliseconds},
+        {"speedUp", row.speedUp},
+        {"sizeOnly", partJson(row.sizeOnly)},
+        {"blurOnly", partJson(row.blurOnly)},
+        {"triangles", row.triangles},
+        {"gpuBytes", row.gpuBytes},
+        {"fromFullDetail", differenceJson(row.fromFullDetail)},
+        {"fromReference", row.fromReference ? differenceJson(*row.fromReference) : ordered_json(nullptr)},
+        {"referenceSamples", row.referenceSamples},
+        {"referenceRemaining", row.fromReference ? differenceJson(row.referenceRemaining) : ordered_json(nullptr)}};
+    if (row.ofSeeds.size() > 1) json["errorsOverSeeds"] = seedErrorsJson(row.ofSeeds);
+    return json;
 }
 
 std::string csvDifference(const Difference& d) {
@@ -110,17 +114,18 @@ std::string speedupCsv(std::span<const SpeedupRow> rows) {
         "rmseFull,psnrFull,ssimFull,flipFull,rmseReference,psnrReference,ssimReference,flipReference,"
         "runs,setupMilliseconds,pyramidMilliseconds,referenceSamples,referenceRmse,referenceFlip,preset,method,"
         "sizeOnlyMilliseconds,sizeOnlySpeedUp,sizeOnlyTriangles,sizeOnlyPsnr,"
-        "blurOnlyMilliseconds,blurOnlySpeedUp,blurOnlyTriangles,blurOnlyPsnr\n";
+        "blurOnlyMilliseconds,blurOnlySpeedUp,blurOnlyTriangles,blurOnlyPsnr,";
+    text += std::string(seedErrorsColumns) + "\n";
     for (const SpeedupRow& row : rows)
         text += fmt::format(
             "{},{},{:.8g},{:.8g},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f},{},{},{},{},{},{:.3f},{:.3f},{},"
-            "{:.6g},{:.6g},{},{},{},{}\n",
+            "{:.6g},{:.6g},{},{},{},{},{}\n",
             row.sweep, row.samples, row.fStop, row.focusDistance, lodModeName(row.mode), row.milliseconds.median,
             row.milliseconds.low, row.milliseconds.high, row.gpuMilliseconds.median, row.speedUp, row.triangles,
             row.gpuBytes, csvDifference(row.fromFullDetail),
             row.fromReference ? csvDifference(*row.fromReference) : ",,,", row.runs, row.setupMilliseconds,
             row.pyramidMilliseconds, row.referenceSamples, row.referenceRemaining.rmse, row.referenceRemaining.flip,
-            row.preset, row.method, csvPart(row.sizeOnly), csvPart(row.blurOnly));
+            row.preset, row.method, csvPart(row.sizeOnly), csvPart(row.blurOnly), seedErrorsCsv(row.ofSeeds));
     return text;
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "eval/speedup/speedup.h"
@@ -46,6 +47,12 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
         EXPECT_GT(row.fromReference->rmse, 0);
         EXPECT_EQ(row.referenceSamples, i < 6 ? 72u : 40u);
         EXPECT_GT(row.referenceRemaining.rmse, 0);
+        // Two runs, two seeds: other samples err otherwise, and the error told is their mean.
+        ASSERT_EQ(row.ofSeeds.size(), 2u);
+        const double first = row.ofSeeds[0].rmse, second = row.ofSeeds[1].rmse;
+        EXPECT_NE(first, second);
+        EXPECT_NEAR(row.fromReference->rmse, std::sqrt((first * first + second * second) / 2), 1e-12);
+        EXPECT_NEAR(row.fromReference->flip, (row.ofSeeds[0].flip + row.ofSeeds[1].flip) / 2, 1e-12);
     }
     EXPECT_LT(rows[1].triangles, rows[0].triangles);
     // Which clusters face away from all samples depends on where on the lens they are: not quite in proportion.
@@ -71,6 +78,9 @@ TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
     EXPECT_EQ(json.size(), 9u);
     EXPECT_EQ(json[8]["pyramidMilliseconds"], 12);
     EXPECT_EQ(json[8]["referenceSamples"], 40);
+    EXPECT_EQ(json[0]["errorsOverSeeds"]["seeds"], 2);
+    EXPECT_LT(json[0]["errorsOverSeeds"]["rmse"]["low"], json[0]["errorsOverSeeds"]["rmse"]["high"]);
+    EXPECT_EQ(csv.substr(0, csv.find('\n')).substr(csv.find(",seeds")), ",seeds,rmseLow,rmseHigh,flipLow,flipHigh");
 }
 
 TEST(Speedup, hasNoReferenceWhereNoneIsWanted) {

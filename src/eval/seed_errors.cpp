@@ -1,0 +1,41 @@
+#include "eval/seed_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace defocus {
+
+namespace {
+
+struct Ends {
+    double low = 0;
+    double high = 0;
+};
+
+Ends endsOf(std::span<const SeedError> errors, double SeedError::*measure) {
+    const auto [least, most] = std::ranges::minmax(errors, {}, measure);
+    return {least.*measure, most.*measure};
+}
+
+nlohmann::ordered_json endsJson(const Ends& ends) {
+    return {{"low", ends.low}, {"high", ends.high}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json seedErrorsJson(std::span<const SeedError> errors) {
+    return {{"seeds", errors.size()},
+            {"rmse", endsJson(endsOf(errors, &SeedError::rmse))},
+            {"flip", endsJson(endsOf(errors, &SeedError::flip))}};
+}
+
+std::string seedErrorsCsv(std::span<const SeedError> errors) {
+    if (errors.empty()) return ",,,,";
+    const Ends rmse = endsOf(errors, &SeedError::rmse);
+    const Ends flip = endsOf(errors, &SeedError::flip);
+    return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}", errors.size(), rmse.low, rmse.high, flip.low, flip.high);
+}
+
+}  // namespace defocus
