@@ -1,0 +1,83 @@
+// What a wide blur would show of the levels' error: light and colour of whole patches.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "frame/own_context.h"
+#include "frame/prepared_frame.h"
+#include "frame/reference_image.h"
+#include "gl/context.h"
+#include "image/boxes.h"
+#include "models.h"
+#include "render/frame_run.h"
+
+namespace defocus {
+namespace {
+
+constexpr int boxSize = 32;  // px
+
+class BlurredLevels : public testing::TestWithParam<std::string> {
+protected:
+    void SetUp() override {
+        try {
+            context_ = createHeadlessContext();
+        } catch (const Error& error) {
+            GTEST_SKIP() << error.what();
+        }
+        Request request;
+        request.scene = modelPath(GetParam());
+        if (!std::filesystem::exists(request.scene)) GTEST_SKIP() << request.scene << " is not there";
+        request.width = 384;
+        request.height = 288;
+        request.noCache = true;
+        request.lens.fStop = 0.95;
+        frame_ = prepareFrame(request);
+    }
+
+    Image image(LodMode lod) {
+        RenderSettings settings = frame_.settings;
+        settings.sampleCount = 64;
+        settings.lod = lod;
+        const auto renderer = methodNamed("accumulation").make(frame_.world, {});
+        FrameRun run(frame_.world, *renderer);
+        run.start(frame_.view, settings, {});
+        while (run.advance()) {
+        }
+        triangles_ = run.stats().trianglesDrawn;
+        return renderer->image();
+    }
+
+    std::unique_ptr<GlContext> context_;
+    PreparedFrame frame_;
+    std::uint64_t triangles_ = 0;  // of the last image
+};
+
+// The focus is the automatic one, and then four times as far away, which blurs all of the model.
+TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
+    const double focus = frame_.view.lens.focusDistance;
+    for (const double distance : {focus, 4 * focus}) {
+        frame_.view.lens.focusDistance = distance;
+        ReferenceOptions options;
+        options.samples = 1024;
+        const Image reference = renderedReference(frame_.world, frame_.view, options).image;
+        const double full = boxDifference(reference, image(LodMode::off), boxSize);
+        const std::uint64_t all = triangles_;
+        const double levels = boxDifference(reference, image(LodMode::fractional), boxSize);
+        fmt::print("{}, focus at {:.3g} m: {:.2f} times full detail's {:.1e}, of {:.0f} % of its triangles\n",
+                   GetParam(), distance, levels / full, full,
+                   100 * static_cast<double>(triangles_) / static_cast<double>(all));
+        EXPECT_LE(levels, 3 * full) << "focus at " << distance << " m";
+        EXPECT_LT(triangles_, all) << "no levels are drawn";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BlurredLevels,
+                         testing::Values("FlightHelmet/FlightHelmet.gltf", "WaterBottle.glb", "meshes/fish.glb",
+                                         "japanese-bridge-garden-meshopt.glb"),
+                         [](const auto& scene) { return testNameOf(scene.param); });
+
+}  // namespace
+}  // namespace defocus

@@ -1,0 +1,142 @@
+// Textures of levels lie where level 0 has them, as far as the blur at which a level is drawn shows it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lod/pyramid/blurred_error.h"
+#include "lod/pyramid/finish.h"
+#include "lod/pyramid/level_selection.h"
+#include "lod/pyramid/picture.h"
+#include "lod/shapes.h"
+#include "models.h"
+#include "scene/gltf/gltf.h"
+
+namespace defocus {
+namespace {
+
+// A finish that shows a surface's texture coordinates, modulo 1, as red and green; blue is 1.
+Finish showingCoordinates() {
+    constexpr int side = FinishImage::mostSide;
+    const auto ramp = std::make_shared<FinishImage>();
+    ramp->width = ramp->height = side;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) ramp->texels.emplace_back(x, y, 255);
+    Finish finish;
+    finish.unlit = true;
+    finish.baseColorMap.image = ramp;
+    return finish;
+}
+
+// Object units a unit of texture coordinates, in the mean over level 0's area.
+double unitsPerCoordinate(const Pyramid& pyramid) {
+    const PyramidLevel& level = pyramid.levels.front();
+    double surface = 0;
+    double texture = 0;
+    for (std::size_t i = 0; i < std::size_t{3} * level.triangleCount; i += 3) {
+        const std::uint32_t* const v = &pyramid.indices[i];
+        surface += glm::length(glm::cross(glm::dvec3(level.positions[v[1]]) - glm::dvec3(level.positions[v[0]]),
+                                          glm::dvec3(level.positions[v[2]]) - glm::dvec3(level.positions[v[0]])));
+        const glm::dvec2 b = level.uv0[v[1]] - level.uv0[v[0]];
+        const glm::dvec2 c = level.uv0[v[2]] - level.uv0[v[0]];
+        texture += std::abs(b.x * c.y - b.y * c.x);
+    }
+    return std::sqrt(surface / texture);
+}
+
+struct Shift {
+    double mean = 0;       // object units
+    double elsewhere = 0;  // share of the cells that show another chart, or another part of the surface
+};
+
+// How far a level's texture is from level 0's, over what both show to the eyes of the blurred errors. A triangle can't
+// shift it by more than its longest edge: what is farther away is something else, as where a thin strap has narrowed.
+Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
+    constexpr int resolution = 512;
+    const std::vector<Finish> finishes(pyramid.levels.front().primitives.size(), showingCoordinates());
+    const double scale = unitsPerCoordinate(pyramid);
+    double sum = 0;
+    double shifted = 0;
+    double others = 0;
+    for (const glm::dvec3& direction : blurredErrorViews()) {
+        const Eye eye = eyeAlong(pyramid, direction, resolution);
+        const Picture truth = pictureOf(pyramid, 0, eye, finishes);
+        const Picture level = pictureOf(pyramid, number, eye, finishes);
+        for (std::size_t i = 0; i < truth.light.size(); ++i) {
+            if (truth.light[i].z == 0 || level.light[i].z == 0) continue;
+            glm::dvec2 change = glm::dvec2(level.light[i]) - glm::dvec2(truth.light[i]);
+            change -= glm::round(change);
+            const double distance = scale * glm::length(change);
+            if (distance > pyramid.levels[number].longestEdge) {
+                ++others;
+                continue;
+            }
+            sum += distance;
+            ++shifted;
+        }
+    }
+    return {sum / shifted, others / (others + shifted)};
+}
+
+// The smallest patch (object units) over which a blur averages when half of `samples` samples or more draw the level;
+// none if no patch of the pyramid's table is large enough.
+std::optional<double> leastPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
+    const double share = defaultThresholds(LodMetric::measured, samples).light;
+    const auto isDrawn = [&](double side) {
+        return levelOfBlurredError(pyramid, std::vector{side}, share) >= static_cast<double>(level) - 0.5;
+    };
+    double large = pyramid.smallestPatch * std::exp2(double{blurSizes - 2});
+    if (!isDrawn(large)) return {};
+    double small = 0;
+    for (int i = 0; i < 40; ++i) (isDrawn(0.5 * (small + large)) ? large : small) = 0.5 * (small + large);
+    return large;
+}
+
+TEST(TextureShift, isMeasured) {
+    Mesh mesh = flatGrid(16);
+    mesh.vertices.uv0.clear();
+    for (const glm::vec3& p : mesh.vertices.positions) mesh.vertices.uv0.emplace_back(0.1f + 0.5f * glm::vec2(p));
+    Pyramid pyramid = fullDetail(mesh);
+    pyramid.levels.push_back(pyramid.levels.front());
+    EXPECT_NEAR(unitsPerCoordinate(pyramid), 2, 1e-4);
+    EXPECT_LT(shiftOf(pyramid, 1).mean, 1e-6);
+    for (glm::vec2& uv : pyramid.levels[1].uv0) uv.x += 0.01f;
+    EXPECT_NEAR(shiftOf(pyramid, 1).mean, 2 * 0.01 * 256 / 255, 1e-4);  // a ramp of 256 texels
+    EXPECT_EQ(shiftOf(pyramid, 1).elsewhere, 0);
+}
+
+class TextureShiftOf : public testing::TestWithParam<const char*> {};
+
+// A blur over a patch shows the mip level whose texels are as large as the patch.
+TEST_P(TextureShiftOf, levelsIsBelowOneTexelOfTheBlur) {
+    DEFOCUS_MODEL_OR_SKIP(path, GetParam());
+    const Scene scene = loadGltf(path);
+    const Finishes finishes(scene);
+    std::size_t judged = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        if (mesh.vertices.uv0.empty()) continue;
+        const Pyramid pyramid = buildPyramid(mesh, {.finishes = &finishes});
+        for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+            const std::optional<double> patch = leastPatch(pyramid, l, 16);
+            if (!patch) break;
+            const Shift shift = shiftOf(pyramid, l);
+            EXPECT_LT(shift.mean, *patch) << mesh.name << ", level " << l;
+            EXPECT_LT(shift.elsewhere, 0.5) << mesh.name << ", level " << l;
+            RecordProperty(testNameOf(mesh.name + "_" + std::to_string(l)), std::to_string(shift.mean / *patch));
+            ++judged;
+        }
+    }
+    EXPECT_GE(judged, 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, TextureShiftOf,
+                         testing::Values("FlightHelmet/FlightHelmet.gltf", "WaterBottle.glb", "Suzanne.glb"),
+                         [](const auto& model) { return testNameOf(model.param); });
+
+}  // namespace
+}  // namespace defocus
