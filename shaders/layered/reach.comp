@@ -15,7 +15,8 @@ vec2 extentAround(vec2 centre, float radius, int layer) {
     int level = clamp(int(ceil(log2(max(radius, 2.0)))) - 1, 0, LEVELS - 1);
     float size = float(2 << level);
     ivec2 first = max(ivec2(floor((centre - radius) / size)), ivec2(0));
-    ivec2 last = min(ivec2(floor((centre + radius) / size)), textureSize(extents, level).xy - 1);
+    // Threads have different levels, of which not every driver tells the size.
+    ivec2 last = min(ivec2(floor((centre + radius) / size)), (textureSize(extents, 0).xy >> level) - 1);
     vec2 extent = vec2(1e30, -1e30);
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {

@@ -36,41 +36,44 @@ struct Hit {
     ivec3 texel;
 };
 
-vec2 start;      // the pixel in the layers
-vec2 slope;      // px a px of blur
-vec2 perSlope;
-float shift;     // px, of all blurs
+// A line in the layers: where it is for a blur.
+struct Ray {
+    vec2 start;      // px
+    vec2 slope;      // px a px of blur
+    vec2 perSlope;
+    float shift;     // px of blur, of all surfaces
+};
 
-vec2 placeAt(float blur) { return start + blur * slope; }
+vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 
 // Of all layers' surfaces beyond reversed depth `limit`, the nearest.
-void traceLayer(int layer, float limit, inout Hit hit) {
-    vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + shift;
+void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
+    vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
 #ifndef COC_SCALES
     reach.y = min(reach.y, hit.end);   // blur grows with the distance
 #endif
     ivec2 size = textureSize(layerSurfaces, 0).xy;
-    vec2 toFirst = -start * perSlope;
-    vec2 toLast = (vec2(size) - start) * perSlope;
+    vec2 toFirst = -ray.start * ray.perSlope;
+    vec2 toLast = (vec2(size) - ray.start) * ray.perSlope;
     vec2 enters = min(toFirst, toLast);
     vec2 leaves = max(toFirst, toLast);
     reach = vec2(max(reach.x, max(enters.x, enters.y)), min(reach.y, min(leaves.x, leaves.y)));
     if (reach.x > reach.y) return;
 
-    ivec2 forward = ivec2(slope.x < 0.0 ? -1 : 1, slope.y < 0.0 ? -1 : 1);
-    ivec2 texel = clamp(ivec2(floor(placeAt(reach.x))), ivec2(0), size - 1);
+    ivec2 forward = ivec2(ray.slope.x < 0.0 ? -1 : 1, ray.slope.y < 0.0 ? -1 : 1);
+    ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
     float begin = reach.x;
     bool connected = false;   // to the pixel before
     float before = 0.0;       // px of blur by which the ray is behind its plane, where it left it
     while (true) {
-        vec2 ends = (vec2(texel + max(forward, 0)) - start) * perSlope;
+        vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
         float end = min(min(ends.x, ends.y), reach.y);
         vec4 surface = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
         bool there = surface.w >= 0.0 && surface.w < limit;
         if (there) {
             vec2 centre = vec2(texel) + 0.5;
-            float behindFirst = begin - shift - surface.x - dot(surface.yz, placeAt(begin) - centre);
-            float behindLast = end - shift - surface.x - dot(surface.yz, placeAt(end) - centre);
+            float behindFirst = begin - ray.shift - surface.x - dot(surface.yz, placeAt(ray, begin) - centre);
+            float behindLast = end - ray.shift - surface.x - dot(surface.yz, placeAt(ray, end) - centre);
             bool meets = min(behindFirst, behindLast) <= rounded && max(behindFirst, behindLast) >= -rounded;
             bool between = connected && before * behindFirst < 0.0 && abs(before - behindFirst) < oneSurface;
             if ((meets || between) && surface.w > hit.depth) {
@@ -95,16 +98,17 @@ void traceLayer(int layer, float limit, inout Hit hit) {
 void main() {
     vec2 lens = vec2(lensAndJitter.x, lensAndJitter.y * frame.window.w / frame.window.z);
     vec2 inPixel = -0.5 * lensAndJitter.zw * frame.window.zw - pinhole;
-    start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.499, 0.499);
-    slope = -0.5 * lens;
-    perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);
-    shift = skyBandShift * frame.coc.z;
+    // What is in focus stays in the pixel, rounded or not.
+    vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
+    vec2 slope = -0.5 * lens;
+    vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);
+    Ray ray = Ray(start, slope, perSlope, skyBandShift * frame.coc.z);
 
     vec4 light = vec4(0.0);
     float limit = 2.0;
     for (int n = 0; n < mostSurfaces; ++n) {
         Hit hit = Hit(-1.0, 1e30, ivec3(0));
-        for (int layer = 0; layer < layerCount; ++layer) traceLayer(layer, limit, hit);
+        for (int layer = 0; layer < layerCount; ++layer) traceLayer(ray, layer, limit, hit);
         if (hit.depth < 0.0) break;
         light += (1.0 - light.a) * texelFetch(layerColors, hit.texel, 0);
         if (light.a > 0.999) break;
