@@ -1,7 +1,7 @@
 // Shades one lens sample of a surface into its layer.
 
 #include "include/frame.glsl"
-#ifdef TRANSMISSION
+#if defined(TRANSMISSION) || defined(PEELED)
 #include "include/lens.glsl"
 #endif
 #include "include/layer_format.glsl"
@@ -19,7 +19,9 @@ layout(location = 0) out uint layerOut;
 layout(location = 0) out vec4 layerOut;
 #endif
 
-#if defined(COC_SCALES) && defined(READS_COC_SCALE)
+#ifdef PEELED
+#include "layered/peel.glsl"
+#elif defined(COC_SCALES) && defined(READS_COC_SCALE)
 layout(location = 1) out vec4 cocScaleOut;
 #endif
 
@@ -93,6 +95,9 @@ bool drawsCoarser() {
 #endif
 
 void main() {
+#ifdef PEELED
+    peel();
+#endif
 #ifdef SCREEN_DOOR
     if (drawsCoarser() != SCREEN_DOOR) discard;
 #endif
@@ -112,7 +117,7 @@ void main() {
     vec4 light = vec4(radiance, 1.0);
 #endif
 
-#if defined(COC_SCALES) && defined(READS_COC_SCALE)
+#if defined(COC_SCALES) && defined(READS_COC_SCALE) && !defined(PEELED)
     cocScaleOut = vec4(surface.cocScale);
 #endif
 #ifdef LAYER_RGB9E5

@@ -25,7 +25,14 @@ const char* inWords(GLenum status) {
 
 }  // namespace
 
-Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth) {
+Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth)
+    : Target(colors, depth, std::nullopt) {}
+
+Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer)
+    : Target(colors, &depth, std::optional(layer)) {}
+
+Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth,
+               std::optional<std::uint32_t> layer) {
     GLuint name = 0;
     glCreateFramebuffers(1, &name);
     handle_ = GlHandle<destroyFramebuffer>(name);
@@ -33,7 +40,10 @@ Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* dep
     GLsizei count = 0;
     for (const GlTexture* color : colors) {
         const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(count);
-        glNamedFramebufferTexture(name, attachment, color->name(), 0);
+        if (layer)
+            glNamedFramebufferTextureLayer(name, attachment, color->name(), 0, static_cast<GLint>(*layer));
+        else
+            glNamedFramebufferTexture(name, attachment, color->name(), 0);
         drawBuffers[static_cast<std::size_t>(count++)] = attachment;
         width_ = color->info().width;
         height_ = color->info().height;

@@ -2,6 +2,8 @@
 // A framebuffer over textures that it doesn't own: colour attachments in order and an optional depth texture. Array
 // textures are attached with all their layers (gl_Layer picks one).
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gl/texture.h"
@@ -13,12 +15,16 @@ public:
     Target() = default;
     // At most 8 colours; none for depth alone. Throws Error in words when the driver can't render to this combination.
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
+    // Layer `layer` alone of array textures; `depth` has no layers.
+    Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer);
 
     // Makes it current with its whole area as viewport.
     void bind() const;
     [[nodiscard]] GLuint name() const { return handle_.name(); }
 
 private:
+    Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth, std::optional<std::uint32_t> layer);
+
     GlHandle<destroyFramebuffer> handle_;
     int width_ = 0;
     int height_ = 0;

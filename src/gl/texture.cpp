@@ -20,6 +20,8 @@ FormatRow row(TextureFormat format) {
     switch (format) {
         case TextureFormat::r32f:
             return {GL_R32F, GL_RED, GL_FLOAT, 4};
+        case TextureFormat::rg32f:
+            return {GL_RG32F, GL_RG, GL_FLOAT, 8};
         case TextureFormat::rgba32f:
             return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
         case TextureFormat::rgba16f:

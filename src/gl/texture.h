@@ -10,6 +10,7 @@ namespace defocus {
 
 enum class TextureFormat {
     r32f,
+    rg32f,
     rgba32f,
     rgba16f,
     rgba8,

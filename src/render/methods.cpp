@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "render/accumulation/accumulation.h"
 #include "render/circular/circular.h"
+#include "render/layered/layered.h"
 #include "render/line/line.h"
 #include "render/multirate/multirate.h"
 #include "render/scheuermann/scheuermann.h"
@@ -34,6 +35,7 @@ std::vector<Method>& table() {
          .make = makeMultirateRenderer},
         scheuermannMethod(),
         circularMethod(),
+        layeredMethod(),
         stochasticMethod(),
         lineMethod(),
     };

@@ -1,0 +1,34 @@
+// The least and the greatest blur (px) of each layer's surfaces in squares of pixels, as a pyramid of maps: a texel of level l covers
+// 2^(l + 1) pixels a side. Where there is no surface, the least is above the greatest.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#ifdef BASE
+layout(binding = 0) uniform sampler2DArray layerSurfaces;   // as in layered/peel.glsl
+#else
+layout(binding = 0) uniform sampler2DArray extents;         // of which the level before is read
+layout(location = 0) uniform int finer;
+#endif
+layout(binding = 0, rg32f) writeonly uniform image2DArray extentOut;
+
+vec2 extentOf(ivec3 texel) {
+#ifdef BASE
+    if (any(greaterThanEqual(texel.xy, textureSize(layerSurfaces, 0).xy))) return vec2(1e30, -1e30);
+    vec4 surface = texelFetch(layerSurfaces, texel, 0);
+    float inPixel = 0.5 * (abs(surface.y) + abs(surface.z));
+    return surface.w < 0.0 ? vec2(1e30, -1e30) : vec2(surface.x - inPixel, surface.x + inPixel);
+#else
+    return texelFetch(extents, texel, finer).xy;
+#endif
+}
+
+void main() {
+    ivec3 texel = ivec3(gl_GlobalInvocationID);
+    if (any(greaterThanEqual(texel, imageSize(extentOut)))) return;
+    vec2 extent = vec2(1e30, -1e30);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x) {
+            vec2 part = extentOf(ivec3(2 * texel.xy + ivec2(x, y), texel.z));
+            extent = vec2(min(extent.x, part.x), max(extent.y, part.y));
+        }
+    imageStore(extentOut, texel, vec4(extent, 0.0, 0.0));
+}

@@ -1,0 +1,43 @@
+// For each pixel and layer, the blurs (px, least and greatest) of all surfaces that any lens ray of the pixel may meet. A ray meets a
+// surface at half its blur from the pixel at most. So what lies in the square of that size bounds the blur, which may make the square
+// smaller, again and again.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 0) uniform sampler2DArray extents;   // as layered/extent.comp makes them
+layout(binding = 0, rg32f) writeonly uniform image2DArray reachOut;
+layout(location = 0) uniform int border;        // px that the layers show beyond the image
+layout(location = 1) uniform float farthest;    // px from a pixel at which a ray can meet anything
+layout(location = 2) uniform float chromatic;   // px that a wavelength adds to the blur or takes from it
+
+const int mostRounds = 5;
+
+vec2 extentAround(vec2 centre, float radius, int layer) {
+    int level = clamp(int(ceil(log2(max(radius, 2.0)))) - 1, 0, LEVELS - 1);
+    float size = float(2 << level);
+    ivec2 first = max(ivec2(floor((centre - radius) / size)), ivec2(0));
+    // Threads have different levels, of which not every driver tells the size.
+    ivec2 last = min(ivec2(floor((centre + radius) / size)), (textureSize(extents, 0).xy >> level) - 1);
+    vec2 extent = vec2(1e30, -1e30);
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
+            vec2 part = texelFetch(extents, ivec3(x, y, layer), level).xy;
+            extent = vec2(min(extent.x, part.x), max(extent.y, part.y));
+        }
+    return extent;
+}
+
+void main() {
+    ivec3 at = ivec3(gl_GlobalInvocationID);
+    if (any(greaterThanEqual(at, imageSize(reachOut)))) return;
+    vec2 centre = vec2(at.xy + border) + 0.5;
+    float radius = farthest;
+    vec2 reach = vec2(0.0);
+    for (int i = 0; i < mostRounds; ++i) {
+        reach = extentAround(centre, radius, at.z);
+        if (reach.x > reach.y) break;
+        float smaller = 0.5 * (max(abs(reach.x), abs(reach.y)) + chromatic) + 1.0;
+        if (smaller > 0.9 * radius) break;
+        radius = smaller;
+    }
+    imageStore(reachOut, at, vec4(reach, 0.0, 0.0));
+}

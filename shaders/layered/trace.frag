@@ -1,0 +1,121 @@
+// What a lens sample shows: in each pixel, the nearest surface of all layers that its lens ray meets.
+//
+// A surface of signed blur c px (diameter) at place q of the pinhole image is seen in the pixel p through the lens point (u, v) if
+// q = p − c/2·(u, v). So the ray is a line in the pinhole image, along which c grows with the distance. In each pixel of a layer the
+// surface is a plane, c = c₀ + slope·(q − centre): the ray meets it if it is in front of it at one end of the pixel and behind it at
+// the other. Neighbours whose planes differ by less than a pixel of blur are one surface; a ray can't pass between them. Rays begin
+// anywhere in their pixel, which changes nothing in focus and smooths what isn't.
+#include "include/frame.glsl"
+#include "include/layer_format.glsl"
+
+in vec2 place;
+flat in vec4 lensAndJitter;   // u, k·v; place in the pixel
+flat in float skyBandShift;   // what the wavelength adds to the blur of everything, as a share of the image's width
+flat in float ditherOffset;
+
+layout(binding = 0) uniform sampler2DArray layerColors;     // premultiplied
+layout(binding = 1) uniform sampler2DArray layerSurfaces;   // as in layered/peel.glsl
+layout(binding = 2) uniform sampler2DArray layerReach;      // as layered/reach.comp makes it
+layout(location = 0) uniform int layerCount;
+layout(location = 1) uniform int border;                    // px that the layers show beyond the image
+layout(location = 2) uniform vec2 pinhole;                  // px, the layers' place in the pixel
+
+layout(location = 0) out vec4 layerOut;
+
+const float rounded = 0.05;   // px of blur by which a ray may miss a plane
+const float oneSurface = 1.0; // px of blur, as the umbra in layered/peel.glsl
+#ifdef BLENDED
+const int mostSurfaces = 16;
+#else
+const int mostSurfaces = 1;
+#endif
+
+struct Hit {
+    float depth;   // reversed; < 0: none
+    float end;     // blur at which the ray leaves the pixel
+    ivec3 texel;
+};
+
+// A line in the layers: where it is for a blur.
+struct Ray {
+    vec2 start;      // px
+    vec2 slope;      // px a px of blur
+    vec2 perSlope;
+    float shift;     // px of blur, of all surfaces
+};
+
+vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
+
+// Of all layers' surfaces beyond reversed depth `limit`, the nearest.
+void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
+    vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
+#ifndef COC_SCALES
+    reach.y = min(reach.y, hit.end);   // blur grows with the distance
+#endif
+    ivec2 size = textureSize(layerSurfaces, 0).xy;
+    vec2 toFirst = -ray.start * ray.perSlope;
+    vec2 toLast = (vec2(size) - ray.start) * ray.perSlope;
+    vec2 enters = min(toFirst, toLast);
+    vec2 leaves = max(toFirst, toLast);
+    reach = vec2(max(reach.x, max(enters.x, enters.y)), min(reach.y, min(leaves.x, leaves.y)));
+    if (reach.x > reach.y) return;
+
+    ivec2 forward = ivec2(ray.slope.x < 0.0 ? -1 : 1, ray.slope.y < 0.0 ? -1 : 1);
+    ivec2 texel = clamp(ivec2(floor(placeAt(ray, reach.x))), ivec2(0), size - 1);
+    float begin = reach.x;
+    bool connected = false;   // to the pixel before
+    float before = 0.0;       // px of blur by which the ray is behind its plane, where it left it
+    while (true) {
+        vec2 ends = (vec2(texel + max(forward, 0)) - ray.start) * ray.perSlope;
+        float end = min(min(ends.x, ends.y), reach.y);
+        vec4 surface = texelFetch(layerSurfaces, ivec3(texel, layer), 0);
+        bool there = surface.w >= 0.0 && surface.w < limit;
+        if (there) {
+            vec2 centre = vec2(texel) + 0.5;
+            float behindFirst = begin - ray.shift - surface.x - dot(surface.yz, placeAt(ray, begin) - centre);
+            float behindLast = end - ray.shift - surface.x - dot(surface.yz, placeAt(ray, end) - centre);
+            bool meets = min(behindFirst, behindLast) <= rounded && max(behindFirst, behindLast) >= -rounded;
+            bool between = connected && before * behindFirst < 0.0 && abs(before - behindFirst) < oneSurface;
+            if ((meets || between) && surface.w > hit.depth) {
+                hit = Hit(surface.w, end, ivec3(texel, layer));
+#ifndef COC_SCALES
+                return;
+#endif
+            }
+            before = behindLast;
+        }
+        connected = there;
+        if (end >= reach.y) return;
+        begin = end;
+        if (ends.x < ends.y)
+            texel.x += forward.x;
+        else
+            texel.y += forward.y;
+        if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) return;
+    }
+}
+
+void main() {
+    vec2 lens = vec2(lensAndJitter.x, lensAndJitter.y * frame.window.w / frame.window.z);
+    vec2 inPixel = -0.5 * lensAndJitter.zw * frame.window.zw - pinhole;
+    // What is in focus stays in the pixel, rounded or not.
+    vec2 start = gl_FragCoord.xy + vec2(border) + clamp(inPixel, -0.47, 0.47);
+    vec2 slope = -0.5 * lens;
+    vec2 perSlope = vec2(abs(slope.x) > 1e-9 ? 1.0 / slope.x : 1e9, abs(slope.y) > 1e-9 ? 1.0 / slope.y : 1e9);
+    Ray ray = Ray(start, slope, perSlope, skyBandShift * frame.coc.z);
+
+    vec4 light = vec4(0.0);
+    float limit = 2.0;
+    for (int n = 0; n < mostSurfaces; ++n) {
+        Hit hit = Hit(-1.0, 1e30, ivec3(0));
+        for (int layer = 0; layer < layerCount; ++layer) traceLayer(ray, layer, limit, hit);
+        if (hit.depth < 0.0) break;
+        light += (1.0 - light.a) * texelFetch(layerColors, hit.texel, 0);
+        if (light.a > 0.999) break;
+        limit = hit.depth;
+    }
+#ifdef LAYER_LARGEST
+    light.rgb = roundedToHalf(light.rgb);
+#endif
+    layerOut = light;
+}

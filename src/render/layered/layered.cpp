@@ -1,0 +1,238 @@
+#include "render/layered/layered.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include "core/error.h"
+#include "render/accumulation/layer_sum.h"
+#include "render/frame_clock.h"
+#include "render/layered/depth_layers.h"
+#include "render/layered/lens_rays.h"
+#include "render/post_process/pinhole_pass.h"
+#include "render/post_process/post_process.h"
+
+namespace defocus {
+
+namespace {
+
+// px that rays see beyond the image, at most half of its longer side.
+int borderOf(const FramePlan& plan) {
+    double largest = 0;
+    for (const ObjectPlan& object : plan.objects) largest = std::max(largest, object.coc.largest);
+    const int most = (std::max(plan.view.width, plan.view.height) + 1) / 2;
+    return plan.usesLens ? static_cast<int>(std::min<double>(std::ceil(largest / 2) + 1, most)) : 0;
+}
+
+// K: as many images of lens samples as the memory allows, at most a run: a power of two, so that runs are whole waves.
+std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
+                         std::uint32_t run) {
+    const std::uint64_t pixels =
+        std::uint64_t{static_cast<std::uint32_t>(plan.view.width)} * static_cast<std::uint32_t>(plan.view.height);
+    const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / (pixels * layerPixelBytes(format));
+    return std::bit_floor(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, run)));
+}
+
+class LayeredRenderer final : public Renderer {
+public:
+    LayeredRenderer(const World& world, const RendererOptions& options)
+        : options_(options), wave_(options.wave), scene_(world) {}
+
+    void setWave(std::uint32_t samples) override { wave_ = samples > 0 ? samples : options_.wave; }
+
+    void start(const FramePlan& plan) override {
+        clock_.beginSetup();
+        if (plan.coc.chromatic > 0 && (plan.usesCocControls || plan.usesCocScales))
+            fail(
+                "method layered: with controls of the blur it has one focus for all wavelengths; leave out the axial "
+                "chromatic aberration or choose accumulation");
+        const auto total = static_cast<std::uint32_t>(plan.samples.size());
+        const auto asked = static_cast<std::uint32_t>(numberOf(options_.settings, "pinholes"));
+        pinholeCount_ = std::min(asked, total);
+        run_ = std::bit_floor(std::min(total / pinholeCount_, blockSamples));
+        const int border = borderOf(plan);
+        pinholes_ = pinholePlan(scene_.world(), plan, pinholeCount_);
+        // A ray begins somewhere in the pixel of its pinhole's layers, which themselves have a place in the pixel.
+        plan_ = plan;
+        plan_.moments.clear();
+        for (std::uint32_t i = 0; i < total; ++i) plan_.samples[i].pixel += pinholes_.samples[pinholeOf(i)].pixel;
+        pinholes_ = widened(pinholes_, border);
+        prepareTargets(border);
+
+        scene_.prepare(pinholes_);
+        pinholeFrame_.upload(scene_.world(), pinholes_, 1);
+        layers_->prepare(pinholes_, pinholeFrame_);
+        frame_.upload(scene_.world(), plan_, sum_->info().layers);
+        rays_->prepare(plan_, frame_);
+        if (drawsSky()) prepareSky();
+        peeled_.reset();
+        mostLayers_ = 0;
+        stats_.trianglesDrawn = 0;
+        stats_.peakBytes =
+            std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + pinholeFrame_.bytes() + frame_.bytes() +
+                                                          layers_->bytes() + rays_->bytes() + sum_->bytes());
+        clock_.beginFrame();
+    }
+
+    bool advance() override {
+        const std::uint32_t first = sum_->samples();
+        const std::uint32_t total = sampleTotal();
+        if (first >= total) return false;
+        clock_.beginWave();
+        const std::uint32_t pinhole = pinholeOf(first);
+        if (peeled_ != pinhole) peel(pinhole);
+        const std::uint32_t count = std::min(sum_->info().layers, total - first);
+        sum_->beginWave();
+        rays_->trace(*layers_, pinholes_.samples[pinhole].pixel, first, count);
+        if (drawsSky()) drawSky(first, count);
+        sum_->endWave(frame_, first, count);
+        clock_.endWave();
+        if (first + count == total) clock_.endFrame();
+        return first + count < total;
+    }
+
+    [[nodiscard]] std::uint32_t samples() const override { return sum_ ? sum_->samples() : 0; }
+    [[nodiscard]] std::uint32_t sampleTotal() const override {
+        return static_cast<std::uint32_t>(plan_.samples.size());
+    }
+    [[nodiscard]] Image image() override { return sum_->mean(); }
+    [[nodiscard]] const GlTexture* imageTexture() override { return &sum_->meanTexture(); }
+
+    [[nodiscard]] RenderStats stats() const override {
+        RenderStats stats = stats_;
+        stats.samples = samples();
+        clock_.fill(stats);
+        stats.wave = sum_->info().layers;
+        stats.layerFormat = layerFormatName(sum_->info().format);
+        stats.figures = {{"depth layers", static_cast<double>(mostLayers_)}};
+        return stats;
+    }
+
+private:
+    // Each has runs of samples that follow each other, which are well spread over the lens.
+    [[nodiscard]] std::uint32_t pinholeOf(std::uint32_t sample) const {
+        return static_cast<std::uint32_t>(std::uint64_t{sample / run_ * run_} * pinholeCount_ / plan_.samples.size());
+    }
+
+    void prepareTargets(int border) {
+        const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
+        if (format != LayerFormat::rgba16f && format != LayerFormat::rgba32f)
+            fail("layer format {}: method layered needs rgba16f or rgba32f", layerFormatName(format));
+        const View& view = plan_.view;
+        const auto layers = static_cast<std::uint32_t>(numberOf(options_.settings, "layers"));
+        const DepthLayersInfo depth{.width = view.width + 2 * border,
+                                    .height = view.height + 2 * border,
+                                    .layers = layers,
+                                    .format = format,
+                                    .blended = plan_.usesBlending,
+                                    .shaderFolder = options_.shaderFolder};
+        if (!layers_ || !(layers_->info() == depth)) {
+            layers_.reset();  // before the new ones are made: both may not fit
+            layers_.emplace(scene_, depth);
+        }
+        const LensRaysInfo rays{.width = view.width,
+                                .height = view.height,
+                                .border = border,
+                                .layers = layers,
+                                .format = format,
+                                .blended = plan_.usesBlending,
+                                .vertexShaderLayers = vertexShaderLayers(),
+                                .shaderFolder = options_.shaderFolder};
+        if (!rays_ || !(rays_->info() == rays)) {
+            rays_.reset();
+            rays_.emplace(rays);
+        }
+        const std::uint32_t wave = chosenWave(plan_, options_, wave_, format, run_);
+        if (!sum_ || sum_->info().width != view.width || sum_->info().height != view.height ||
+            sum_->info().format != format || sum_->info().layers != wave) {
+            sum_.reset();
+            sum_.emplace(LayerSumInfo{view.width, view.height, wave, format, options_.shaderFolder});
+        }
+        sum_->reset();
+    }
+
+    [[nodiscard]] bool vertexShaderLayers() const {
+        return vertexShaderMayPickLayer() && !options_.geometryShaderLayers;
+    }
+
+    void peel(std::uint32_t pinhole) {
+        layers_->peel(pinhole);
+        rays_->bound(*layers_);
+        peeled_ = pinhole;
+        mostLayers_ = std::max(mostLayers_, layers_->count());
+        const std::uint32_t passes = std::min(layers_->count() + 1, layers_->info().layers);
+        stats_.trianglesDrawn += pinholes_.trianglesDrawn / pinholeCount_ * passes;
+    }
+
+    // Simpler skies are composed when layers are added.
+    [[nodiscard]] bool drawsSky() const {
+        return !plan_.needsAlpha && scene_.world().environment.type == EnvironmentType::map;
+    }
+
+    void prepareSky() {
+        if (!sky_)
+            sky_.emplace(scene_, SurfacePassInfo{.fragmentShader = "accumulation/object.frag",
+                                                 .defines = layerFormatDefines(sum_->info().format),
+                                                 .vertexShaderLayers = vertexShaderLayers(),
+                                                 .shaderFolder = options_.shaderFolder});
+        FramePlan empty = plan_;
+        empty.objects.clear();
+        empty.shadows = {};
+        sky_->prepare(empty, frame_);
+    }
+
+    // Behind what the layers already hold.
+    void drawSky(std::uint32_t first, std::uint32_t count) {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+        sky_->drawSky(first, count);
+        glDisable(GL_BLEND);
+    }
+
+    RendererOptions options_;
+    std::uint32_t wave_;  // K asked for; 0: as many as waveBytes allow
+    GpuScene scene_;
+    FramePlan plan_;      // whose samples' places are in the layers, with their pinhole's added
+    FramePlan pinholes_;  // widened, a sample each
+    std::uint32_t pinholeCount_ = 1;
+    std::uint32_t run_ = 1;  // samples that see the same pinhole; it divides a block
+    FrameUniforms pinholeFrame_, frame_;
+    std::optional<DepthLayers> layers_;
+    std::optional<LensRays> rays_;
+    std::optional<LayerSum> sum_;
+    std::optional<SurfacePass> sky_;
+    std::optional<std::uint32_t> peeled_;  // pinhole whose layers there are
+    std::uint32_t mostLayers_ = 0;
+    mutable FrameClock clock_;
+    RenderStats stats_;
+};
+
+}  // namespace
+
+Method layeredMethod() {
+    MethodSetting pinholes = pinholesSetting();
+    pinholes.description =
+        "Pinholes, each with its layers and its share of the lens samples: antialiasing; 1 as published";
+    const std::vector<MethodSetting> settings = {
+        {.name = "layers",
+         .standard = "8",
+         .description = "Depth layers at most",
+         .choices = {},
+         .least = 1,
+         .most = 16},
+        pinholes,
+    };
+    return {.name = "layered",
+            .description = "lens rays through depth layers of pinhole images (Lee, Eisemann and Seidel 2010)",
+            .showsThrough = false,
+            .drawsMotion = false,
+            .settings = settings,
+            .make = [settings](const World& world, const RendererOptions& options) -> std::unique_ptr<Renderer> {
+                RendererOptions complete = options;
+                complete.settings = completeSettings("layered", settings, options.settings);
+                return std::make_unique<LayeredRenderer>(world, complete);
+            }};
+}
+
+}  // namespace defocus

@@ -1,0 +1,256 @@
+// Lens rays through depth layers, against formulas and against the accumulation.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "bokeh.h"
+#include "core/error.h"
+#include "gl/context.h"
+#include "render/methods.h"
+#include "render/rendered.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class Layered : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> Layered::context_;
+
+RenderSettings samplesOf(std::uint32_t samples) {
+    RenderSettings settings;
+    settings.lod = LodMode::off;
+    settings.sampleCount = samples;
+    settings.keepAll = true;  // the lens too, even where nothing is blurred
+    return settings;
+}
+
+Image seenBy(const SmallWorld& small, const char* method, std::uint32_t samples = 256, RendererOptions options = {}) {
+    const MethodUse use = parseMethodUse(method);
+    options.settings = use.settings;
+    const auto renderer = use.method->make(small.world, options);
+    return imageOf(*renderer, planFrame(small.world, small.view, samplesOf(samples)));
+}
+
+double mostBetween(const Image& a, const Image& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        largest = std::max(largest, std::abs(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i])));
+    return largest;
+}
+
+double errorBetween(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        sum += std::pow(static_cast<double>(a.pixels[i]) - static_cast<double>(b.pixels[i]), 2);
+    return std::sqrt(sum / static_cast<double>(a.pixels.size()));
+}
+
+// An unlit pane that faces the camera; px of the image, from its top left corner.
+struct Pane {
+    Rectangle area;
+    glm::vec4 color{1};
+};
+
+// Seen through bokehView's wide lens, focused at 2 m.
+std::unique_ptr<SmallWorld> panes(const std::vector<Pane>& list, int width = 96, int height = 64) {
+    auto small = std::make_unique<SmallWorld>();
+    small->view = bokehView(width, height);
+    for (const Pane& board : list) {
+        const int index = static_cast<int>(small->scene.materials.size());
+        small->scene.materials.push_back(unlitMaterial(board.color));
+        if (board.color.a < 1) small->scene.materials.back().alphaMode = AlphaMode::blend;
+        small->scene.meshes.push_back(rectangleMesh(small->view, board.area, index));
+        place(*small, index, glm::dmat4(1));
+    }
+    small->world.environment = blackBackground();
+    finish(*small);
+    return small;
+}
+
+// So that the blur at `depth` is as wide as `pixels`.
+void blurBy(SmallWorld& small, double pixels, double depth) {
+    small.view.lens.blurScale *= pixels / blurDiameter(small.view, depth);
+}
+
+constexpr double everywhere = 1000;  // px
+
+Pane wallAt(double depth, const glm::vec4& color) {
+    return {{-everywhere, -everywhere, everywhere, everywhere, depth}, color};
+}
+
+TEST_F(Layered, apertureZeroIsThePinholeImage) {
+    const auto small = fiveSpheres();
+    small->view.lens.blurScale = 0;
+    EXPECT_LT(mostBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered", 1)), 2e-3);
+    // Every lens sample sees that; a sky alone differs within a pixel.
+    small->world.environment = {EnvironmentType::uniform, glm::vec3(0.4f), {}, {}, nullptr, 1};
+    EXPECT_LT(mostBetween(seenBy(*small, "accumulation", 1), seenBy(*small, "layered:pinholes=1", 32)), 2e-3);
+}
+
+TEST_F(Layered, aConstantSceneStaysConstant) {
+    const glm::vec4 color(0.125f, 0.75f, 0.375f, 1);
+    const auto small = panes({{{10, 8, 40, 60, 1.2}, color},
+                              {{30, 20, 70, 50, 2}, color},
+                              {{-200, 30, 300, 200, 4}, color},
+                              wallAt(9, color)});
+    small->world.environment = {EnvironmentType::uniform, glm::vec3(color), {}, {}, nullptr, 1};
+    const Image image = seenBy(*small, "layered", 64);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        ASSERT_NEAR(image.pixels[i], color[static_cast<int>(i % 4)], 1e-3) << i;
+}
+
+TEST_F(Layered, aPointOfLightBecomesADiskOfTheCircleOfConfusion) {
+    constexpr double square = 3;  // px
+    for (const double depth : {1.2, 6.0}) {
+        const auto small = panes({{{46.5, 30.5, 49.5, 33.5, depth}, glm::vec4(8, 8, 8, 1)}, wallAt(20, {0, 0, 0, 1})});
+        blurBy(*small, 24, depth);
+        const Image image = seenBy(*small, "layered");
+        const Moments moments = momentsOf(image);
+        EXPECT_NEAR(2 * radiusBySecondMoment(moments, 0, square), 24, 0.5) << depth;
+        EXPECT_NEAR(moments.energy, 8 * square * square, 0.02 * 8 * square * square) << depth;
+    }
+}
+
+// A bar hides a red stripe of the wall from the middle of the lens. The bar's blur is a disk, of which the bar covers a
+// strip; through the rest of the lens the middle of the stripe shows itself.
+TEST_F(Layered, aBlurredBarShowsWhatItHidesFromThePinhole) {
+    constexpr double bar = 8;    // px
+    constexpr double blur = 24;  // px
+    const auto small = panes({{{48 - bar / 2, -everywhere, 48 + bar / 2, everywhere, 1.2}, {0, 0, 1, 1}},
+                              {{48 - bar / 2, -everywhere, 48 + bar / 2, everywhere, 2}, {1, 0, 0, 1}},
+                              wallAt(2.0001, {0, 1, 0, 1})});
+    blurBy(*small, blur, 1.2);
+    const double half = bar / blur;  // of the strip, in radii
+    const double covered = 2 / std::numbers::pi * (std::asin(half) + half * std::sqrt(1 - half * half));
+    const Image image = seenBy(*small, "layered");
+    const Image oneLayer = seenBy(*small, "layered:layers=1");
+    const float* middle = image.at(48, 32);
+    EXPECT_NEAR(middle[2], covered, 0.03);
+    EXPECT_NEAR(middle[0], 1 - covered, 0.03);
+    EXPECT_LT(middle[1], 0.01);
+    EXPECT_LT(oneLayer.at(48, 32)[0], 0.01);  // never seen
+}
+
+TEST_F(Layered, lightFromBeyondTheImageReachesIntoIt) {
+    const auto small = panes({{{-6, 20, -2, 44, 1.2}, {1, 1, 1, 1}}, wallAt(2, {0, 0, 0, 1})});
+    blurBy(*small, 24, 1.2);
+    const Image expected = seenBy(*small, "accumulation");
+    ASSERT_GT(expected.at(2, 32)[0], 0.05);
+    EXPECT_LT(errorBetween(seenBy(*small, "layered"), expected), 0.004);
+}
+
+// Boards of many depths, each hidden by those before it but for what the lens sees around them.
+TEST_F(Layered, moreLayersComeCloserToTheAccumulation) {
+    std::vector<Pane> list;
+    for (int i = 0; i < 14; ++i) {
+        const double left = 44 - 2 * (i % 3);
+        list.push_back({{left, 10, left + 8, 54, 0.7 + 0.08 * i},
+                        {i % 2 == 0 ? 0.9f : 0.1f, 0.07f * static_cast<float>(i), i % 3 == 0 ? 0.8f : 0.2f, 1}});
+    }
+    list.push_back(wallAt(4, {0.5, 0.5, 0.5, 1}));
+    const auto small = panes(list);
+    blurBy(*small, 40, 0.7);
+    const Image expected = seenBy(*small, "accumulation");
+    const auto error = [&](const char* method) { return errorBetween(seenBy(*small, method), expected); };
+    const double one = error("layered:layers=1");
+    const double four = error("layered:layers=4");
+    const double sixteen = error("layered:layers=16");
+    EXPECT_LT(four, 0.7 * one);
+    EXPECT_LT(sixteen, 0.5 * four);
+}
+
+TEST_F(Layered, slopingAndRoundSurfacesAreAsTheAccumulationHasThem) {
+    const auto small = fiveSpheres();
+    const double error = errorBetween(seenBy(*small, "layered"), seenBy(*small, "accumulation"));
+    EXPECT_LT(error, 0.012);
+    small->view.lens.fStop = 0.25;
+    EXPECT_LT(errorBetween(seenBy(*small, "layered"), seenBy(*small, "accumulation")), 0.012);
+}
+
+TEST_F(Layered, whatLetsLightThroughShowsWhatLiesBehind) {
+    const auto small = panes({{{20, 10, 60, 50, 1.2}, {0.5f, 0.1f, 0.1f, 0.5f}},
+                              {{40, 20, 80, 60, 3}, {0.1f, 0.6f, 0.1f, 0.25f}},
+                              {{10, 30, 90, 40, 5}, {0.9f, 0.9f, 0.2f, 1}}});
+    blurBy(*small, 16, 1.2);
+    EXPECT_LT(errorBetween(seenBy(*small, "layered"), seenBy(*small, "accumulation")), 0.006);
+}
+
+TEST_F(Layered, aTransparentBackgroundKeepsCoverage) {
+    const auto small = fiveSpheres();
+    small->world.environment.visible = false;
+    const Image image = seenBy(*small, "layered");
+    EXPECT_LT(errorBetween(image, seenBy(*small, "accumulation")), 0.015);
+    EXPECT_EQ(image.at(159, 0)[3], 0);
+}
+
+TEST_F(Layered, everyLensShapeAndControlIsTheAccumulations) {
+    const std::vector<std::pair<const char*, std::function<void(Lens&)>>> controls = {
+        {"blades", [](Lens& lens) { lens.bladeCount = 3; }},
+        {"cat's eye", [](Lens& lens) { lens.catEye = 1; }},
+        {"anamorphic", [](Lens& lens) { lens.anamorphicRatio = 2; }},
+        {"foreground limit", [](Lens& lens) { lens.foregroundLimit = 3; }},
+        {"focus range", [](Lens& lens) { lens.focusRangeFront = 0.8; }},
+        {"tilt", [](Lens& lens) { lens.focusTilt = 0.8; }},
+        {"field curvature", [](Lens& lens) { lens.fieldCurvature = 0.3; }},
+        {"axial chromatic aberration", [](Lens& lens) { lens.axialChromaticAberration = 0.3; }},
+    };
+    for (const auto& [name, set] : controls) {
+        const auto small = fiveSpheres();
+        small->view.lens.fStop = 0.5;
+        const Image plain = seenBy(*small, "accumulation", 64);
+        set(small->view.lens);
+        const Image expected = seenBy(*small, "accumulation", 64);
+        const double changed = errorBetween(plain, expected);
+        const double error = errorBetween(seenBy(*small, "layered", 64), expected);
+        EXPECT_LT(error, 0.02) << name;
+        EXPECT_LT(error, 0.8 * changed) << name;
+    }
+}
+
+RendererOptions wavesOf(std::uint32_t samples) {
+    RendererOptions options;
+    options.wave = samples;
+    return options;
+}
+
+TEST_F(Layered, theSizeOfWavesChangesNoBit) {
+    const auto small = fiveSpheres();
+    const Image one = seenBy(*small, "layered", 72, wavesOf(1));
+    EXPECT_EQ(one.pixels, seenBy(*small, "layered", 72, wavesOf(64)).pixels);
+    RendererOptions geometry;
+    geometry.geometryShaderLayers = true;
+    EXPECT_EQ(one.pixels, seenBy(*small, "layered", 72, geometry).pixels);
+}
+
+std::string layeredFault(const SmallWorld& small, const RendererOptions& options = {}) {
+    try {
+        seenBy(small, "layered", 16, options);
+        return {};
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+TEST_F(Layered, refusesByNameWhatItCannotDraw) {
+    const auto small = fiveSpheres();
+    RendererOptions shared;
+    shared.layerFormat = LayerFormat::rgb9e5;
+    EXPECT_NE(layeredFault(*small, shared).find("layer format rgb9e5"), std::string::npos);
+    small->view.lens.axialChromaticAberration = 0.1;
+    EXPECT_EQ(layeredFault(*small), "");
+    small->view.lens.focusTilt = 0.2;
+    EXPECT_NE(layeredFault(*small).find("axial chromatic aberration"), std::string::npos);
+    EXPECT_THROW(parseMethodUse("layered:layers=0"), Error);
+    EXPECT_THROW(parseMethodUse("layered:layers=17"), Error);
+}
+
+}  // namespace
+}  // namespace defocus
