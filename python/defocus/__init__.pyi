@@ -113,6 +113,7 @@ class Keywords(TypedDict, total=False):
     fields: Optional[Literal["separate", "combined"]]
     blend_bias: Optional[float]
     convolution: Optional[Literal["separable", "direct"]]
+    layers: Optional[int]
     shading: Optional[Literal["surfaces", "vertices"]]
     resolve: Optional[Literal["exact", "published"]]
     segments: Optional[int]

@@ -18,7 +18,8 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 constexpr std::size_t headersBegin = 8;
-constexpr std::size_t channelBytes = 16;  // after a channel's name
+constexpr std::size_t channelBytes = 16;     // after a channel's name
+constexpr std::int64_t widestRow = 1 << 20;  // px; far more than any image has, and OpenEXR makes room for several rows
 
 // Types of one size.
 constexpr std::array<std::pair<std::string_view, std::uint64_t>, 23> sizes = {{
@@ -44,6 +45,12 @@ std::uint32_t number(Bytes bytes, std::size_t at) {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[at + i]) << (8 * i);
     return value;
+}
+
+// Of a box2i: xMin, yMin, xMax, yMax, the last column and row included.
+std::int64_t widthOf(Bytes box) {
+    const auto column = [&](std::size_t at) { return std::int64_t{static_cast<std::int32_t>(number(box, at))}; };
+    return column(8) - column(0) + 1;
 }
 
 // A list of channels ends with an empty name, which is its last byte.
@@ -82,6 +89,9 @@ void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name
         const auto known = std::ranges::find(sizes, *type, &std::pair<std::string_view, std::uint64_t>::first);
         if (known != sizes.end() && known->second != bytes) refuse();
         if (bytes > head.size() - at) return;
+        if (*attribute == "dataWindow" && *type == "box2i" && widthOf(head.subspan(at, bytes)) > widestRow)
+            fail("{}: cannot be read: its rows have {} pixels, and {} at most can be read", name,
+                 widthOf(head.subspan(at, bytes)), widestRow);
         if (*type == "chlist" && !isChannelList(head.subspan(at, bytes))) refuse();
         at += bytes;
     }

@@ -207,7 +207,7 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
         {"blend-bias", {{"--blend-bias", "3"}, joined(only("circular"), {"--focus-distance", "8"})}},
         {"convolution", {{"--convolution", "direct"}, only("circular")}},
         {"pinholes", {{"--pinholes", "1"}, only("circular")}},
-        {"layers", {{"--layers", "1"}, joined(only("layered"), {"--focus-distance", "8"})}},
+        {"layers", {{"--layers", "1"}, {"--method", "layered", "--fstop", "0.1", "--focus-distance", "9"}}},
         {"resolve", {{"--resolve", "published"}, joined(only("line"), {"--focus-distance", "1"})}},
         {"segments", {{"--segments", "2"}, joined(only("line"), {"--resolve", "published", "--focus-distance", "1"})}},
         {"shading-step", {{"--shading-step", "0"}, joined(only("line"), {"--focus-distance", "1"})}},

@@ -118,32 +118,36 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
     const fs::path path = folder() / "image.exr";
     writeImage(path, pattern(4, 3), {{"owner", std::string("nobody")}});
     const std::vector<std::byte> whole = readFile(path);
-    const auto withSize = [&](const std::string& attribute, const std::string& type, std::uint32_t size) {
+    // The size of an attribute, or what stands `offset` bytes after it.
+    const auto withNumber = [&](const std::string& attribute, const std::string& type, std::uint32_t number,
+                                std::size_t offset = 0) {
         std::string bytes(reinterpret_cast<const char*>(whole.data()), whole.size());
         const std::string begin = attribute + '\0' + type + '\0';
-        const std::size_t at = bytes.find(begin) + begin.size();
-        for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(size >> (8 * i));
+        const std::size_t at = bytes.find(begin) + begin.size() + offset;
+        for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<char>(number >> (8 * i));
         writeFile(path, bytes);
     };
-    const auto expectRefused = [&](const std::string& attribute) {
+    const auto expectRefused = [&](const std::string& reason) {
         for (const auto& read : {std::function<void()>([&] { static_cast<void>(readImage(path)); }),
                                  std::function<void()>([&] { ImageRowReader reader(path); })}) {
             try {
                 read();
-                ADD_FAILURE() << attribute;
+                ADD_FAILURE() << reason;
             } catch (const Error& error) {
-                EXPECT_NE(std::string(error.what()).find("'" + attribute + "'"), std::string::npos) << error.what();
+                EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
             }
         }
     };
-    withSize("owner", "string", 6);  // what it is
+    withNumber("owner", "string", 6);  // what it is
     EXPECT_NO_THROW(static_cast<void>(readImage(path)));
-    withSize("owner", "string", 2'000'000'000);
-    expectRefused("owner");
-    withSize("dataWindow", "box2i", 12);
-    expectRefused("dataWindow");
-    withSize("channels", "chlist", 54);
-    expectRefused("channels");
+    withNumber("owner", "string", 2'000'000'000);
+    expectRefused("'owner'");
+    withNumber("dataWindow", "box2i", 12);
+    expectRefused("'dataWindow'");
+    withNumber("dataWindow", "box2i", 9'999'999, 4 + 8);  // its last column
+    expectRefused("its rows have 10000000 pixels");
+    withNumber("channels", "chlist", 54);
+    expectRefused("'channels'");
 }
 
 }  // namespace
