@@ -256,6 +256,7 @@ void ViewSession::drawInterface() {
     hud.frameMilliseconds = frameMilliseconds_;
     hud.mouseOnInterface = ImGui::GetIO().WantCaptureMouse;
     hud.exporting = export_ ? &*export_ : nullptr;
+    hud.warnings = warnings();
     drawHud(hud, state_);
 
     PanelContext panel;

@@ -62,6 +62,7 @@ private:
     void keepViews(const ViewActions& actions);
     void hide(const Request& options);
     void poseScene();
+    void lightTheScene();
     void makePicture();
     void updatePicture();
     void drawInterface();
@@ -93,6 +94,7 @@ private:
     [[nodiscard]] PictureRequest request() const;
     [[nodiscard]] std::optional<PlacedCamera> followedCamera() const;
     [[nodiscard]] std::string sideLabel(const PictureSide& side) const;
+    [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] double waitingTime() const;
 
     SessionOptions options_;
@@ -117,7 +119,8 @@ private:
     double posedTime_ = 0;
     int posedClip_ = 0;
     ShutterSettings posedShutter_;
-    std::vector<glm::dmat4> shutterCameras_;  // of a camera of the file that moves while the shutter is open
+    std::optional<double> lightAngle_, lightRadius_;  // of the lights as they are
+    std::vector<glm::dmat4> shutterCameras_;          // of a camera of the file that moves while the shutter is open
     Clock::time_point begin_ = Clock::now();
     double lastFrame_ = 0;
     double statsWrittenAt_ = -1;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "frame/plan_warnings.h"
 #include "frame/reference_image.h"
 #include "view/session.h"
 
@@ -83,6 +84,12 @@ void ViewSession::updatePicture() {
         makePicture();
         picture_->update(request(), state_.budget);
     }
+}
+
+// What a person should know of the picture once it is whole.
+std::vector<std::string> ViewSession::warnings() const {
+    if (!picture_ || picture_->moving()) return {};
+    return planWarnings(picture_->plan(), *chosenMethod(state_.options).method, state_.mostSamples);
 }
 
 std::string ViewSession::sideLabel(const PictureSide& side) const {
