@@ -77,8 +77,8 @@ def hairball(strands=100_000):
         document.node(f"Strands {first}", mesh=document.mesh(f"Strands {first}", surface, hair))
     document.sun([1.0, 0.9, 0.76], 3.6, quaternion((-0.7882, 0.6154, 0), 50))
     document.sun([0.5, 0.65, 1.0], 1.4, quaternion((-0.4472, -0.8944, 0), 60))
-    document.camera(2 * math.atan(0.27), 4 / 3, {"fStop": 0.2, "focusDistance": 3.0, "horizontalAperture": 36.0},
-                    translation=[0.0, -0.04, 3.6])
+    document.camera(2 * math.atan(0.27), 4 / 3, {"fStop": 0.2, "focusDistance": 3.15, "horizontalAperture": 36.0},
+                    translation=[0.0, -0.12, 3.85])
     return document.glb()
 
 
