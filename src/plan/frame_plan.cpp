@@ -3,6 +3,7 @@
 #include "plan/frame_plan.h"
 
 #include <algorithm>
+#include <utility>
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
@@ -329,8 +330,8 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     }
 
     // Nearest first: what is drawn first hides the rest.
-    std::stable_sort(plan.objects.begin(), plan.objects.end(),
-                     [](const ObjectPlan& a, const ObjectPlan& b) { return a.nearestDepth < b.nearestDepth; });
+    std::ranges::sort(plan.objects, {},
+                      [](const ObjectPlan& object) { return std::pair(object.nearestDepth, object.object); });
     noteUnusedPaths(plan, world);
     noteLevels(plan, world);
     return plan;
