@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/ext/vector_float1.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "core/bounds.h"
 #include "scene/gltf/accessor.h"
@@ -113,7 +112,10 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     return result;
 }
 
-// A scalar of each vertex that is finite and at least `least`; empty where the primitive doesn't have it.
+constexpr float mostBlur =
+    1e6f;  // of what a vertex may ask for: a kilometre on the sensor, or so many times the lens's
+
+// A scalar of each vertex from `least` to mostBlur; empty where the primitive doesn't have it.
 std::vector<float> readScalars(Source& source, const AttributeReader& reader, const char* name, float least,
                                const std::string& what) {
     if (!reader.has(name)) return {};
@@ -121,9 +123,9 @@ std::vector<float> readScalars(Source& source, const AttributeReader& reader, co
         fault(source.document, "{}: {} must hold one number a vertex, not {}", what, name, reader.components(name));
     std::vector<float> values;
     for (const glm::vec1& value : reader.read<glm::vec1>(name)) {
-        if (!(value.x >= least) || !std::isfinite(value.x))
-            fault(source.document, "{}: {} of vertex {} is {}; it must be a {}", what, name, values.size(), value.x,
-                  least == 0 ? "number of 0 or more" : "finite number");
+        if (!(value.x >= least && value.x <= mostBlur))
+            fault(source.document, "{}: {} of vertex {} is {}; it must be from {} to {}", what, name, values.size(),
+                  value.x, least, mostBlur);
         values.push_back(value.x);
     }
     return values;
@@ -131,16 +133,15 @@ std::vector<float> readScalars(Source& source, const AttributeReader& reader, co
 
 // _COC_SCALE times the lens's blur, or times _COC, or times what goes from _COC_0 to _COC_1; plus _COC_OFFSET.
 std::vector<VertexBlur> readBlurs(Source& source, const AttributeReader& reader, const std::string& what) {
-    constexpr float lowest = std::numeric_limits<float>::lowest();
     const std::vector<float> scales = readScalars(source, reader, "_COC_SCALE", 0, what);
-    const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", lowest, what);
+    const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", -mostBlur, what);
     if (reader.has("_COC_0") != reader.has("_COC_1"))
         fault(source.document, "{}: _COC_0 and _COC_1 are a pair, at the opening and the closing of the shutter", what);
     const bool pair = reader.has("_COC_0");
     if (pair && reader.has("_COC"))
         fault(source.document, "{}: it has both _COC and the pair _COC_0 and _COC_1, which stand for the same", what);
-    const std::vector<float> opening = readScalars(source, reader, pair ? "_COC_0" : "_COC", lowest, what);
-    const std::vector<float> closing = pair ? readScalars(source, reader, "_COC_1", lowest, what) : opening;
+    const std::vector<float> opening = readScalars(source, reader, pair ? "_COC_0" : "_COC", -mostBlur, what);
+    const std::vector<float> closing = pair ? readScalars(source, reader, "_COC_1", -mostBlur, what) : opening;
     if (scales.empty() && offsets.empty() && opening.empty()) return {};
     std::vector<VertexBlur> blurs(reader.count());
     for (std::size_t i = 0; i < blurs.size(); ++i) {
