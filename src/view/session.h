@@ -65,6 +65,7 @@ private:
     void lightTheScene();
     void makePicture();
     void updatePicture();
+    void updateWarnings();
     void drawInterface();
     void act();
     void tiltFocus();
@@ -94,7 +95,6 @@ private:
     [[nodiscard]] PictureRequest request() const;
     [[nodiscard]] std::optional<PlacedCamera> followedCamera() const;
     [[nodiscard]] std::string sideLabel(const PictureSide& side) const;
-    [[nodiscard]] std::vector<std::string> warnings() const;
     [[nodiscard]] double waitingTime() const;
 
     SessionOptions options_;
@@ -115,6 +115,9 @@ private:
     bool draft_ = false;  // its pyramids are yet to come
     std::optional<ViewPicture> picture_;
     std::optional<StillExport> export_;
+    std::vector<std::string> warnings_;  // of the picture that rests
+    std::vector<std::string> clipping_;  // of these
+    std::optional<std::pair<double, ToneMap>> clippingKnownAt_;
     std::uint64_t poseVersion_ = 0;
     double posedTime_ = 0;
     int posedClip_ = 0;

@@ -94,6 +94,14 @@ TEST_F(ViewTools, aPictureThatRestsSaysWhatIsOddAboutIt) {
     EXPECT_EQ(reached().at("warnings").at(0).get<std::string>().find("nothing is blurred"), 0u) << reached();
 }
 
+TEST_F(ViewTools, aPictureThatIsAllWhiteSaysWhichExposureHelps) {
+    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4", "--exposure", "12"});
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("warnings").size() == 1; })) << state();
+    EXPECT_NE(reached().at("warnings").at(0).get<std::string>().find("is white at an exposure of 12 EV"),
+              std::string::npos)
+        << reached();
+}
+
 TEST_F(ViewTools, aPictureAsItShouldBeSaysNothing) {
     openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
     ASSERT_TRUE(reaches([](const json& s) { return s.at("moving") == false && s.at("samples") > 1; })) << state();
