@@ -173,6 +173,23 @@ TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
         }
 }
 
+// The brackets that Garcia's generator of filters prints for two components and a radius of eight taps. It divides the
+// taps so that the whole kernel sums to one: the one in the middle, whose factor is 1, is 0.064754.
+TEST(Brackets, ofEightTapsAreGarcias) {
+    constexpr double middle = 0.064754;
+    constexpr int taps = 17;
+    const auto expectBracket = [&](const Bracket& bracket, double offset, double scale) {
+        EXPECT_NEAR(bracket.offset * middle, offset, 2e-6);
+        EXPECT_NEAR(bracket.scale * middle * taps, scale, 2e-5);
+    };
+    const ComplexBracket first = bracketOf({0.886528, 5.268909, 0.411259, -0.548794}, ComplexTaps::eight);
+    expectBracket(first.real, -0.038708, 0.943062);
+    expectBracket(first.imaginary, -0.025574, 0.660892);
+    const ComplexBracket second = bracketOf({1.960518, 1.558213, 0.513282, 4.561110}, ComplexTaps::eight);
+    expectBracket(second.real, 0.000115, 0.559524);
+    expectBracket(second.imaginary, 0, 0.178226);
+}
+
 TEST(Brackets, boundTheTapsOfEveryRadius) {
     const auto expectWithin = [](double tap, const Bracket& bracket) {
         EXPECT_GE(tap, bracket.offset - 1e-4);
