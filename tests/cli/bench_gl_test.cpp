@@ -116,7 +116,7 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
         EXPECT_TRUE(contents() == before) << outcome.err;
     };
-    expectRefused("holds 8 frames of an earlier run: --resume goes on from them, --overwrite begins anew", {});
+    expectRefused("holds 12 frames of an earlier run: --resume goes on from them, --overwrite begins anew", {});
     expectRefused("holds another scene", {"--focus-distance", "3"});
     expectRefused("holds another scene", {"--resume", "--focus-distance", "3"});
     expectRefused("holds another scene", {"--resume", "--seed", "7"});  // whose reference is the same

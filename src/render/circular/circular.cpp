@@ -297,7 +297,7 @@ Method circularMethod() {
             .drawsMotion = false,
             .aperture = ApertureShown::disk,
             .settings = settings,
-            .best = {{"near-components", "5"}, {"far-components", "5"}},
+            .best = {{"pinholes", "16"}},
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;
                 complete.settings = completeSettings("circular", settings, options.settings);

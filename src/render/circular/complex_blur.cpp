@@ -130,7 +130,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     sumTarget_ = Target(targets);
     if (!bracketed()) return;
 
-    // The largest value of a field: tiles of tiles, down to one pixel.
+    // The largest radiance and weight of a field: tiles of tiles, down to one pixel.
     const auto pass = [&](const ShaderDefines& defines) {
         return Program({{fullscreenShader, "circular/tile.frag"}, defines, info_.shaderFolder});
     };
@@ -141,7 +141,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     do {
         width = (width + reduction - 1) / reduction;
         height = (height + reduction - 1) / reduction;
-        brightest_.push_back(GlTexture({.format = TextureFormat::r32f, .width = width, .height = height}));
+        brightest_.push_back(GlTexture({.format = TextureFormat::rg32f, .width = width, .height = height}));
     } while (width > 1 || height > 1);
 }
 

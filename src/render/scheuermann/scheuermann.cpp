@@ -282,7 +282,7 @@ Method scheuermannMethod() {
             .drawsMotion = false,
             .aperture = ApertureShown::shape,
             .settings = settings,
-            .best = {{"coc", "thin-lens"}, {"taps", "64"}, {"max-coc", "unlimited"}},
+            .best = {{"coc", "thin-lens"}, {"taps", "64"}, {"max-coc", "unlimited"}, {"pinholes", "16"}},
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;
                 complete.settings = completeSettings("scheuermann", settings, options.settings);

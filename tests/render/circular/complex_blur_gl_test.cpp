@@ -155,6 +155,15 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
+// Weights are divided by the largest of them, as radiance is: small ones lose no more of it.
+TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
+    Image light = blocks();
+    for (float& value : light.pixels) value *= 0.01f;
+    const Image one = blurred(infoOf(2, ComplexStorage::rgb10A2), blocks(), filled(1, 9));
+    const Image small = blurred(infoOf(2, ComplexStorage::rgb10A2), light, filled(1, 9));
+    for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(small.pixels[i] / 0.01f, one.pixels[i], 5e-3) << i;
+}
+
 // As published, the eight taps' scale is their sum: what is stored of a white field is 1, of a black one 0, and of a
 // field with any samples lies between.
 TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
