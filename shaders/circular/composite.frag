@@ -55,7 +55,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(REDUCTION) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter - 1.0, 0.0, 1.0);   // below 2 px the disk is the pixel
+    float farShare = clamp(diameter / float(REDUCTION) - 1.0, 0.0, 1.0);   // below two of its pixels a field holds no disk
 #ifdef COMBINED
     own += clamp(-diameter, 0.0, 1.0);
     float share = max(farShare, clamp(behind.a * blendBias, 0.0, 1.0));
