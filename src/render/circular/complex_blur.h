@@ -17,7 +17,7 @@ namespace defocus {
 // How the rows' complex sums are stored.
 enum class ComplexStorage {
     float32,
-    half,     // kernels of more than five components take float32 all the same: rounding grows with their number
+    half,     // kernels of more than five components (published ones of more than three) take float32: rounding grows
     rgb10A2,  // Garcia's brackets, see Bracket; radiance and weight are divided by their largest
 };
 
