@@ -5,7 +5,9 @@
 //
 // Held equal: camera, lens, size, lens samples, renderer and process; interleaved runs, the fastest of each counts.
 // CPU is the time of all threads, which says more where others use the machine too.
-// `work` is the heat map of --aov work: triangles that touch a pixel, a lens sample.
+// `work` is the heat map of --aov work: triangles that touch a pixel, a lens sample. `swept` is that of --aov
+// swept-work: triangles whose bounds over all of the lens cover a pixel, which is what a stochastic rasteriser tests
+// there.
 
 #include <fmt/format.h>
 
@@ -18,6 +20,7 @@
 
 #include "frame/prepared_frame.h"
 #include "gl/context.h"
+#include "plan/swept_work.h"
 #include "render/aov/work.h"
 #include "render/methods.h"
 #include "run_bench.h"
@@ -70,18 +73,21 @@ int run() {
     for (int i = 0; i < runs; ++i)
         for (Row& row : rows) renderOnce(frame.world, row);
 
-    fmt::print("{:<12} {:>10} {:>10} {:>7} {:>10} {:>7} {:>14} {:>8} {:>8}\n", "levels", "limit, px", "frame, ms",
-               "ratio", "CPU, ms", "ratio", "triangles, M", "work", "most");
+    fmt::print("{:<12} {:>10} {:>10} {:>7} {:>10} {:>7} {:>14} {:>8} {:>8} {:>10} {:>7}\n", "levels", "limit, px",
+               "frame, ms", "ratio", "CPU, ms", "ratio", "triangles, M", "work", "most", "swept", "ratio");
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row& row = rows[i];
         const Row& unlimited = rows[i / 4 * 4];
         const auto samples = static_cast<std::uint32_t>(row.plan.samples.size());
         const WorkSummary work = workSummary(renderWork(frame.world, row.plan), samples);
-        fmt::print("{:<12} {:>10} {:>10.0f} {:>7.2f} {:>10.0f} {:>7.2f} {:>14.2f} {:>8.2f} {:>8.1f}\n",
-                   lodModeName(row.lod), std::isinf(row.limit) ? "none" : fmt::format("{:.0f}", row.limit),
-                   row.milliseconds, unlimited.milliseconds / row.milliseconds, row.cpuMilliseconds,
-                   unlimited.cpuMilliseconds / row.cpuMilliseconds, static_cast<double>(row.plan.trianglesDrawn) / 1e6,
-                   work.mean, work.most);
+        const double swept = workSummary(sweptWork(row.plan, frame.world), 1).mean;
+        const double ofUnlimited = workSummary(sweptWork(unlimited.plan, frame.world), 1).mean;
+        fmt::print(
+            "{:<12} {:>10} {:>10.0f} {:>7.2f} {:>10.0f} {:>7.2f} {:>14.2f} {:>8.2f} {:>8.1f} {:>10.1f} {:>7.2f}\n",
+            lodModeName(row.lod), std::isinf(row.limit) ? "none" : fmt::format("{:.0f}", row.limit), row.milliseconds,
+            unlimited.milliseconds / row.milliseconds, row.cpuMilliseconds,
+            unlimited.cpuMilliseconds / row.cpuMilliseconds, static_cast<double>(row.plan.trianglesDrawn) / 1e6,
+            work.mean, work.most, swept, ofUnlimited / swept);
     }
     return 0;
 }

@@ -26,6 +26,7 @@
 #include "image/image_io.h"
 #include "image/metrics.h"
 #include "render/methods.h"
+#include "run_bench.h"
 #include "truth_scene.h"
 
 namespace defocus {
@@ -192,10 +193,5 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "--size %s: expected WxH, up to 16384x16384\n", options.size.c_str());
         return 2;
     }
-    try {
-        return defocus::compareAll(options) ? 0 : 1;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
+    return defocus::runBench("defocus_truth_bench", [&] { return defocus::compareAll(options) ? 0 : 1; });
 }

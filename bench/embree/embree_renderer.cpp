@@ -147,6 +147,7 @@ private:
 void EmbreeRenderer::start(const FramePlan& plan) {
     if (world_.environment.type == EnvironmentType::map) fail("method embree: environment maps are not traced");
     checkTraceable(plan.view.lens);
+    if (plan.usesOwnBlur) fail("method embree: blur that objects or vertices have themselves is not traced");
     view_ = plan.view;
     settings_ = plan.settings;
     castsShadows_ = !plan.shadows.maps.empty();

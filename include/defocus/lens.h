@@ -31,12 +31,13 @@ struct LensSettings {
     std::filesystem::path apertureImage;             // of the aperture, in place of the shape above; empty: none
 
     // An artist's controls of the blur (Munkberg, Toth and Akenine-Möller 2012).
-    std::optional<double> foregroundLimit;   // px, largest blur in front of the focus
-    std::optional<double> backgroundLimit;   // px, largest blur behind the focus
-    std::optional<double> focusRangeFront;   // m in front of the focus distance that stay sharp
-    std::optional<double> focusRangeBehind;  // m behind the focus distance that stay sharp
-    std::optional<double> focusTilt;         // degrees about the horizontal axis; > 0: the plane's top comes nearer
-    std::optional<double> focusSwing;        // degrees about the vertical axis; > 0: its right side comes nearer
+    std::optional<double> foregroundLimit;    // px, largest blur in front of the focus
+    std::optional<double> backgroundLimit;    // px, largest blur behind the focus
+    std::optional<double> focusRangeFront;    // m in front of the focus distance that stay sharp
+    std::optional<double> focusRangeBehind;   // m behind the focus distance that stay sharp
+    std::optional<bool> focusRangeRefocuses;  // behind the range, the blur of a lens that is focused at its far end
+    std::optional<double> focusTilt;          // degrees about the horizontal axis; > 0: the plane's top comes nearer
+    std::optional<double> focusSwing;         // degrees about the vertical axis; > 0: its right side comes nearer
     std::optional<double> fieldCurvature;  // κ of the curved focus surface s/(1 + κr²); r is 1 at left and right edge
     std::optional<double> radialBlurGain;  // κ of the gain 1 + κr² on the blur
 

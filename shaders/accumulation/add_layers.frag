@@ -36,7 +36,7 @@ vec3 behind(vec2 imagePlane, int layer) {
 #ifdef CHROMATIC
     bandShift = sampleBands[firstInBlock + layer].w;
 #endif
-    float blur = relativeCircleOfConfusion(0.0, imagePlane * frame.projection.xy, 1.0);
+    float blur = relativeCircleOfConfusion(0.0, imagePlane * frame.projection.xy, vec2(1.0, 0.0));
     vec2 p = imagePlane + blur * sampleShifts[firstInBlock + layer].xy + sampleShifts[firstInBlock + layer].zw;
 #else
     vec2 p = imagePlane + sampleShifts[firstInBlock + layer].xy;

@@ -21,8 +21,8 @@ layout(location = 0) out vec4 layerOut;
 
 #ifdef PEELED
 #include "layered/peel.glsl"
-#elif defined(COC_SCALES) && defined(READS_COC_SCALE)
-layout(location = 1) out vec4 cocScaleOut;
+#elif defined(OWN_BLUR) && defined(READS_OWN_BLUR)
+layout(location = 1) out vec4 ownBlurOut;
 #endif
 
 #ifdef LEVEL_COLOR_RANGE
@@ -58,7 +58,7 @@ float surfaceFootprint(vec3 normal) {
 layout(binding = 17) uniform sampler2DArray backdrop;   // this layer and the others, as they were before this object
 
 vec2 ndcThroughLens(vec3 viewPosition) {
-    vec4 clip = throughLens(pinholePosition(viewPosition), 1.0, vec4(surface.lens, 0.0, 0.0));
+    vec4 clip = throughLens(pinholePosition(viewPosition), vec2(1.0, 0.0), vec4(surface.lens, 0.0, 0.0));
     return clip.xy / clip.w;
 }
 
@@ -117,8 +117,8 @@ void main() {
     vec4 light = vec4(radiance, 1.0);
 #endif
 
-#if defined(COC_SCALES) && defined(READS_COC_SCALE) && !defined(PEELED)
-    cocScaleOut = vec4(surface.cocScale);
+#if defined(OWN_BLUR) && defined(READS_OWN_BLUR) && !defined(PEELED)
+    ownBlurOut = vec4(surface.ownBlur, 0.0, 1.0);
 #endif
 #ifdef LAYER_RGB9E5
     layerOut = encodeLayer(light, ditherOffset);

@@ -26,9 +26,9 @@ out Unsheared {
 #include "include/surface_weighted.glsl"
 
 // The two smooth pieces of C.
-vec2 smoothPieces(vec3 pinhole, float scale) {
-    CocPieces pieces = cocPieces(pinhole, scale);
-    return pieces.factor * vec2(pieces.front, pieces.behind);
+vec2 smoothPieces(vec3 pinhole, vec2 own) {
+    CocPieces pieces = cocPieces(pinhole, own);
+    return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;
 }
 
 bool comesFirst(vec3 p, vec3 q) {
@@ -45,21 +45,21 @@ float partsOf(int first, int second) {
     }
     vec3 p = unsheared[first].pinhole;
     vec3 q = unsheared[second].pinhole;
-    float scaleP = unsheared[first].cocScale;
-    float scaleQ = unsheared[second].cocScale;
+    vec2 ownP = unsheared[first].ownBlur;
+    vec2 ownQ = unsheared[second].ownBlur;
     // Only what lies in front of the near plane counts.
     float near = frame.projection.z;
     if (p.z <= near && q.z <= near) return 1.0;
     float begin = p.z < near ? (near - p.z) / (q.z - p.z) : 0.0;
     float end = q.z < near ? (near - p.z) / (q.z - p.z) : 1.0;
-    vec2 atBegin = smoothPieces(mix(p, q, begin), mix(scaleP, scaleQ, begin));
-    vec2 atEnd = smoothPieces(mix(p, q, end), mix(scaleP, scaleQ, end));
+    vec2 atBegin = smoothPieces(mix(p, q, begin), mix(ownP, ownQ, begin));
+    vec2 atEnd = smoothPieces(mix(p, q, end), mix(ownP, ownQ, end));
     float deviation = 0.0;   // px
     for (int i = 1; i < 8; ++i) {
         float part = float(i) / 8.0;
         float at = mix(begin, end, part);
         vec3 middle = mix(p, q, at);
-        vec2 away = abs(smoothPieces(middle, mix(scaleP, scaleQ, at)) - mix(atBegin, atEnd, part));
+        vec2 away = abs(smoothPieces(middle, mix(ownP, ownQ, at)) - mix(atBegin, atEnd, part));
         deviation = max(deviation, max(away.x, away.y) / max(middle.z, near) * frame.coc.z);
     }
     return clamp(ceil(sqrt(1.5 * deviation / frame.cocLimits.w) / (end - begin)), 1.0, 64.0);
@@ -68,7 +68,7 @@ float partsOf(int first, int second) {
 void main() {
     writeSurface(vec3(equal(ivec3(gl_InvocationID), ivec3(0, 1, 2))));
     unshearedOut[gl_InvocationID].pinhole = unsheared[gl_InvocationID].pinhole;
-    unshearedOut[gl_InvocationID].cocScale = unsheared[gl_InvocationID].cocScale;
+    unshearedOut[gl_InvocationID].ownBlur = unsheared[gl_InvocationID].ownBlur;
     unshearedOut[gl_InvocationID].lensAndJitter = unsheared[gl_InvocationID].lensAndJitter;
     unshearedOut[gl_InvocationID].ditherAndLayer = unsheared[gl_InvocationID].ditherAndLayer;
     unshearedOut[gl_InvocationID].bandShift = unsheared[gl_InvocationID].bandShift;

@@ -24,9 +24,9 @@ void main() {
     vec3 weights = gl_TessCoord;
     writeSurface(weights);
     precise vec3 pinhole = weights.x * unsheared[0].pinhole + weights.y * unsheared[1].pinhole + weights.z * unsheared[2].pinhole;
-    precise float scale = weights.x * unsheared[0].cocScale + weights.y * unsheared[1].cocScale + weights.z * unsheared[2].cocScale;
+    precise vec2 own = weights.x * unsheared[0].ownBlur + weights.y * unsheared[1].ownBlur + weights.z * unsheared[2].ownBlur;
     unshearedOut.pinhole = pinhole;
-    unshearedOut.cocScale = scale;
+    unshearedOut.ownBlur = own;
     unshearedOut.lensAndJitter = unsheared[0].lensAndJitter;
     unshearedOut.ditherAndLayer = unsheared[0].ditherAndLayer;
     unshearedOut.bandShift = unsheared[0].bandShift;

@@ -16,7 +16,7 @@ layout(location = 4) in vec2 uv1In;
 layout(location = 5) in vec4 tangentIn;
 layout(location = 6) in vec4 lensAndJitterIn;   // an instance
 layout(location = 7) in vec4 eyeAndDitherIn;    // an instance: lens point (m), dither offset, layer
-layout(location = 8) in float cocScaleIn;
+layout(location = 8) in vec3 blurIn;           // factor, mm on the sensor as the shutter opens and as it closes
 #ifdef SKIN_INFLUENCES
 layout(location = 9) in vec4 jointsIn;
 layout(location = 10) in vec4 weightsIn;
@@ -25,8 +25,8 @@ layout(location = 11) in vec4 joints1In;
 layout(location = 12) in vec4 weights1In;
 #endif
 #endif
-#ifdef MOVING
-layout(location = 13) in vec2 momentIn;         // an instance: a moment of the shutter, how far it is to the next
+#if defined(MOVING) || defined(BLUR_MOVES)
+layout(location = 13) in vec3 momentIn;         // an instance: a moment of the shutter, how far it is to the next; time from 0 to 1
 #endif
 #ifdef CHROMATIC
 layout(location = 14) in float bandShiftIn;     // an instance
@@ -74,7 +74,7 @@ void main() {
 #endif
     vec3 pinhole = pinholePosition(vertex.position);
 #ifdef CAMERA_MOVES
-    toMiddle(momentIn, vertex, eye);
+    toMiddle(momentIn.xy, vertex, eye);
 #endif
     vec3 viewPosition = vertex.position;
     vec3 viewNormal = vertex.normal;
@@ -85,9 +85,14 @@ void main() {
     vec3 viewTangent = mat3(object.viewFromObject) * tangentIn.xyz;
     vec3 pinhole = pinholePosition(viewPosition);
 #endif
-    float cocScale = object.values.w;
-#ifdef VERTEX_COC_SCALES
-    cocScale *= cocScaleIn;
+    vec2 ownBlur = vec2(object.values.w, 0.0);
+#ifdef VERTEX_BLURS
+#ifdef BLUR_MOVES
+    float time = momentIn.z;
+#else
+    const float time = 0.5;
+#endif
+    ownBlur = object.values.w * vec2(blurIn.x, frame.cocOther.y * mix(blurIn.y, blurIn.z, time));
 #endif
 
 #ifdef VERTEX_COLORS
@@ -123,8 +128,8 @@ void main() {
 #ifdef TANGENTS
     STAGE_OUT.tangent = vec4(mat3(frame.worldFromView) * viewTangent, tangentIn.w);
 #endif
-#if defined(COC_SCALES) && defined(READS_COC_SCALE)
-    STAGE_OUT.cocScale = cocScale;
+#if defined(OWN_BLUR) && defined(READS_OWN_BLUR)
+    STAGE_OUT.ownBlur = ownBlur;
 #endif
 
 #ifdef CHROMATIC
@@ -137,12 +142,12 @@ void main() {
 #elif defined(REFINED)
     gl_Position = vec4(pinhole, 1.0);
     unsheared.pinhole = pinhole;
-    unsheared.cocScale = cocScale;
+    unsheared.ownBlur = ownBlur;
     unsheared.lensAndJitter = lensAndJitterIn;
     unsheared.ditherAndLayer = eyeAndDitherIn.zw;
     unsheared.bandShift = bandShift;
 #else
-    gl_Position = throughLens(pinhole, cocScale, lensAndJitterIn);
+    gl_Position = throughLens(pinhole, ownBlur, lensAndJitterIn);
 #endif
 #ifndef REFINED
 #ifdef VERTEX_LAYER

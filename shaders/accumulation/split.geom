@@ -1,6 +1,6 @@
 // Cuts a triangle at the near plane and along the kinks of C, then shears the pieces: inside each of them C is linear (Munkberg,
 // Toth and Akenine-Möller 2012, Figures 2 and 10), and |C/w| is at most what it is at the piece's vertices. Along the kinks
-//   F·factor = −R₁ | F = 0 | B = 0 | B·factor = R₂        (src/lens/circle_of_confusion.h)
+//   F·factor + added = −R₁ | F = 0 | B = 0 | B·factor + added = R₂        (src/lens/circle_of_confusion.h)
 // the pieces follow each other from front to back. Where a cut meets an edge is found from that edge's two ends alone, by terms
 // that don't depend on their order: neighbours agree, and no gap opens.
 
@@ -68,9 +68,9 @@ Piece kept(Piece piece, vec3 values) {
 
 void emit(vec3 weights) {
     precise vec3 pinhole = weights.x * unsheared[0].pinhole + weights.y * unsheared[1].pinhole + weights.z * unsheared[2].pinhole;
-    precise float scale = weights.x * unsheared[0].cocScale + weights.y * unsheared[1].cocScale + weights.z * unsheared[2].cocScale;
+    precise vec2 own = weights.x * unsheared[0].ownBlur + weights.y * unsheared[1].ownBlur + weights.z * unsheared[2].ownBlur;
     writeSurface(weights);
-    gl_Position = throughLens(pinhole, scale, unsheared[0].lensAndJitter);
+    gl_Position = throughLens(pinhole, own, unsheared[0].lensAndJitter);
     gl_Layer = int(unsheared[0].ditherAndLayer.y);
     ditherOffset = unsheared[0].ditherAndLayer.x;
     EmitVertex();
@@ -95,18 +95,18 @@ void main() {
     vec3 atLimitInFront, front, behind, atLimitBehind, beyondNear;
     for (int i = 0; i < 3; ++i) {
         vec3 pinhole = unsheared[i].pinhole;
-        CocPieces pieces = cocPieces(pinhole, unsheared[i].cocScale);
-        atLimitInFront[i] = pieces.factor * pieces.front + frame.cocLimits.x * pinhole.z;
+        CocPieces pieces = cocPieces(pinhole, unsheared[i].ownBlur);
+        atLimitInFront[i] = pieces.factor * pieces.front + pieces.added + frame.cocLimits.x * pinhole.z;
         front[i] = pieces.front;
         behind[i] = pieces.behind;
-        atLimitBehind[i] = pieces.factor * pieces.behind - frame.cocLimits.y * pinhole.z;
+        atLimitBehind[i] = pieces.factor * pieces.behind + pieces.added - frame.cocLimits.y * pinhole.z;
         beyondNear[i] = pinhole.z - frame.projection.z;
     }
     Piece whole = Piece(3, vec3[6](vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(0), vec3(0), vec3(0)));
     if (any(lessThan(beyondNear, vec3(0.0)))) whole = kept(whole, beyondNear);
     if (whole.count < 3) return;
 
-    bool range = frame.coc.y != frame.coc.w;       // else F = B: one piece between the limits
+    bool range = frame.coc.x != frame.cocOther.x || frame.coc.y != frame.coc.w;   // else F = B: one piece between the limits
     if (any(lessThan(atLimitInFront, vec3(0.0)))) emit(kept(whole, -atLimitInFront));
     Piece middle = any(lessThan(atLimitInFront, vec3(0.0))) ? kept(whole, atLimitInFront) : whole;
     if (any(greaterThan(atLimitBehind, vec3(0.0)))) {

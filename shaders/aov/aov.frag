@@ -31,13 +31,13 @@ void main() {
 #endif
     float w = 1.0 / gl_FragCoord.w;
     depthOut = w;
-#ifdef COC_SCALES
-    float cocScale = surface.cocScale;
+#ifdef OWN_BLUR
+    vec2 ownBlur = surface.ownBlur;
 #else
-    const float cocScale = 1.0;
+    const vec2 ownBlur = vec2(1.0, 0.0);
 #endif
     vec2 size = frame.coc.z * vec2(1.0, frame.projection.x / frame.projection.y);
-    cocOut = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, ivec2(size + 0.5)), cocScale);
+    cocOut = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, ivec2(size + 0.5)), ownBlur);
     levelOut = object.values.x;
     rateOut = texelFetch(objectRates, int(object.values.z)).r;
 }

@@ -6,6 +6,7 @@ layout(std140, binding = 0) uniform FrameBlock {
     vec4 coc;             // a, b₁ of C; image width (px); b₂        (src/lens/circle_of_confusion.h)
     vec4 cocField;        // tilt t (2), κ, g
     vec4 cocLimits;       // R₁, R₂; 1/k²; px by which C may differ from its interpolation in a triangle
+    vec4 cocOther;        // a₂ of C; a millimetre on the sensor as a share of the image's width, of blur that vertices have themselves
     vec4 window;          // where pixel (0, 0) of the layers lies in the image, and the image's size (px)
     mat4 worldFromView;   // rotation
     vec4 lightPositions[MAX_LIGHTS];  // from the camera along the world's axes, m; w: range, 0 is unlimited
@@ -15,7 +16,7 @@ layout(std140, binding = 1) uniform ObjectBlock {
     mat4 viewFromObject;
     mat4 normalMatrix;    // inverse transpose, of the upper 3×3
     vec4 values;          // fractional level λ, share of its boundary sample that draws the coarser level, its number,
-                          // scale of its blur
+                          // factor on its blur
     ivec4 posing;         // texels a pose, joints, morph targets that count, texels an attribute of a morph target
     vec4 levels;          // x: m by which what is drawn lies off full detail
 } object;

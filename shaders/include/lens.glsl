@@ -1,5 +1,6 @@
 // The clip-space lens shear p' = p + C·(u, k·v, 0, 0) (Munkberg, Toth and Akenine-Möller 2012; C > 0 behind the focus plane) and
-// C itself: src/lens/circle_of_confusion.h holds the mathematics. COC_CONTROLS: something changes C from a + b·w.
+// C itself: src/lens/circle_of_confusion.h holds the mathematics. COC_CONTROLS: something changes C from a + b·w. `own` is what the
+// surface makes of it: a factor, and what it adds as a share of the image's width.
 // Depth is reversed with an infinite far plane: z = near, so that z/w runs from 1 at the near plane to 0.
 
 #ifdef CHROMATIC
@@ -10,24 +11,25 @@ const float bandShift = 0.0;
 
 #ifdef COC_CONTROLS
 struct CocTerms {
-    float factor;   // scale·(1 + g·r²)
+    float factor;   // own factor·(1 + g·r²)
     float front;    // F
     float behind;   // B
 };
 
-CocTerms cocTerms(float inverseDepth, vec2 ndc, float scale) {
+CocTerms cocTerms(float inverseDepth, vec2 ndc, float ownFactor) {
     float radius2 = ndc.x * ndc.x + ndc.y * ndc.y * frame.cocLimits.z;
     float focus = 1.0 + frame.cocField.z * radius2 + dot(frame.cocField.xy, ndc);
-    return CocTerms(scale * (1.0 + frame.cocField.w * radius2), frame.coc.x * inverseDepth + (frame.coc.y + bandShift) * focus,
-                    frame.coc.x * inverseDepth + (frame.coc.w + bandShift) * focus);
+    return CocTerms(ownFactor * (1.0 + frame.cocField.w * radius2), frame.coc.x * inverseDepth + (frame.coc.y + bandShift) * focus,
+                    frame.cocOther.x * inverseDepth + (frame.coc.w + bandShift) * focus);
 }
 #endif
 
-// C/w, the signed diameter as a share of the image's width, at 1/w and a place in the image, of a surface with `scale`.
-float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, float scale) {
+// C/w, the signed diameter as a share of the image's width, at 1/w and a place in the image.
+float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
 #ifdef COC_CONTROLS
-    CocTerms terms = cocTerms(inverseDepth, ndc, scale);
-    return clamp(terms.factor * (min(0.0, terms.front) + max(0.0, terms.behind)), -frame.cocLimits.x, frame.cocLimits.y);
+    CocTerms terms = cocTerms(inverseDepth, ndc, own.x);
+    float blur = terms.factor * (min(0.0, terms.front) + max(0.0, terms.behind)) + own.y;
+    return clamp(blur, -frame.cocLimits.x, frame.cocLimits.y);
 #else
     return frame.coc.x * inverseDepth + frame.coc.y + bandShift;
 #endif
@@ -40,10 +42,10 @@ vec3 pinholePosition(vec3 viewPosition) {
 
 // Seen from a point of the lens: `lensAndJitter` holds (u, k·v) and the pixel jitter in normalised device units. With
 // COC_CONTROLS the position must lie in front of the camera.
-vec4 throughLens(vec3 pinhole, float scale, vec4 lensAndJitter) {
+vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     float w = pinhole.z;
 #ifdef COC_CONTROLS
-    float c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, scale);
+    float c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, own);
 #else
     float c = frame.coc.x + (frame.coc.y + bandShift) * w;
 #endif
@@ -51,8 +53,8 @@ vec4 throughLens(vec3 pinhole, float scale, vec4 lensAndJitter) {
 }
 
 // Signed diameter of the circle of confusion in px at a value of the depth buffer (1/w times the near plane; 0 is infinity).
-float circleOfConfusion(float depth, vec2 ndc, float scale) {
-    return relativeCircleOfConfusion(depth / frame.projection.z, ndc, scale) * frame.coc.z;
+float circleOfConfusion(float depth, vec2 ndc, vec2 own) {
+    return relativeCircleOfConfusion(depth / frame.projection.z, ndc, own) * frame.coc.z;
 }
 
 // Of a pixel of the pinhole image `size` px large.

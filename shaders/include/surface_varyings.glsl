@@ -24,6 +24,6 @@
 #ifdef TANGENTS
     vec4 tangent;
 #endif
-#if defined(COC_SCALES) && defined(READS_COC_SCALE)
-    float cocScale;       // of the surface's blur
+#if defined(OWN_BLUR) && defined(READS_OWN_BLUR)
+    vec2 ownBlur;         // the surface's factor on the blur, and what it adds as a share of the image's width
 #endif

@@ -29,7 +29,7 @@ void writeSurface(vec3 weights) {
 #ifdef TANGENTS
     SURFACE_OUT.tangent = SURFACE_WEIGHTED(tangent);
 #endif
-#if defined(COC_SCALES) && defined(READS_COC_SCALE)
-    SURFACE_OUT.cocScale = SURFACE_WEIGHTED(cocScale);
+#if defined(OWN_BLUR) && defined(READS_OWN_BLUR)
+    SURFACE_OUT.ownBlur = SURFACE_WEIGHTED(ownBlur);
 #endif
 }

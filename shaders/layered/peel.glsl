@@ -9,12 +9,12 @@ layout(location = 1) out vec4 surfaceOut;
 const float steepest = 16.0;   // px of blur a pixel: edges seen almost from the side
 
 void peel() {
-#ifdef COC_SCALES
-    float scale = surface.cocScale;
+#ifdef OWN_BLUR
+    vec2 own = surface.ownBlur;
 #else
-    const float scale = 1.0;
+    const vec2 own = vec2(1.0, 0.0);
 #endif
-    float blur = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, textureSize(frontLayer, 0).xy), scale);
+    float blur = circleOfConfusion(gl_FragCoord.z, ndcOfPixel(gl_FragCoord.xy, textureSize(frontLayer, 0).xy), own);
     vec2 slope = clamp(vec2(dFdx(blur), dFdy(blur)), -steepest, steepest);
     vec4 front = texelFetch(frontLayer, ivec3(gl_FragCoord.xy, 0), 0);
     if (front.w != 0.0) {

@@ -49,7 +49,7 @@ vec2 placeAt(Ray ray, float blur) { return ray.start + blur * ray.slope; }
 // Of all layers' surfaces beyond reversed depth `limit`, the nearest.
 void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
     vec2 reach = texelFetch(layerReach, ivec3(gl_FragCoord.xy, layer), 0).xy + vec2(-rounded, rounded) + ray.shift;
-#ifndef COC_SCALES
+#ifndef OWN_BLUR
     reach.y = min(reach.y, hit.end);   // blur grows with the distance
 #endif
     ivec2 size = textureSize(layerSurfaces, 0).xy;
@@ -78,7 +78,7 @@ void traceLayer(Ray ray, int layer, float limit, inout Hit hit) {
             bool between = connected && before * behindFirst < 0.0 && abs(before - behindFirst) < oneSurface;
             if ((meets || between) && surface.w > hit.depth) {
                 hit = Hit(surface.w, end, ivec3(texel, layer));
-#ifndef COC_SCALES
+#ifndef OWN_BLUR
                 return;
 #endif
             }

@@ -70,9 +70,9 @@ vec4 sky(vec2 lens, vec2 place) {
 #if BACKGROUND == 0
     return vec4(0.0);
 #else
-    vec2 pinhole = place - relativeCircleOfConfusion(0.0, place, 1.0) * lens;
+    vec2 pinhole = place - relativeCircleOfConfusion(0.0, place, vec2(1.0, 0.0)) * lens;
 #ifdef COC_CONTROLS
-    for (int i = 0; i < 3; ++i) pinhole = place - relativeCircleOfConfusion(0.0, pinhole, 1.0) * lens;
+    for (int i = 0; i < 3; ++i) pinhole = place - relativeCircleOfConfusion(0.0, pinhole, vec2(1.0, 0.0)) * lens;
 #endif
     vec3 direction = normalize(mat3(frame.worldFromView) * vec3(pinhole / frame.projection.xy, -1.0));
 #if BACKGROUND == 3

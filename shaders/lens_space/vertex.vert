@@ -10,7 +10,7 @@ layout(location = 2) in vec4 colorIn;
 layout(location = 3) in vec2 uv0In;
 layout(location = 4) in vec2 uv1In;
 layout(location = 5) in vec4 tangentIn;
-layout(location = 8) in float cocScaleIn;
+layout(location = 8) in vec3 blurIn;   // factor, mm on the sensor as the shutter opens and as it closes
 #ifdef SKIN_INFLUENCES
 layout(location = 9) in vec4 jointsIn;
 layout(location = 10) in vec4 weightsIn;
@@ -22,8 +22,8 @@ layout(location = 12) in vec4 weights1In;
 #ifdef POSED
 #include "include/posing.glsl"
 #endif
-#ifdef MOVING
-layout(location = 0) uniform vec2 moment;   // of the shutter, how far it is to the next
+#if defined(MOVING) || defined(BLUR_MOVES)
+layout(location = 0) uniform vec3 moment;   // of the shutter, how far it is to the next; time from 0 to 1
 #endif
 
 #ifdef ATTRIBUTES
@@ -48,7 +48,7 @@ void main() {
     vec3 pinhole = pinholePosition(vertex.position);
 #ifdef CAMERA_MOVES
     vec3 eye = vec3(0.0);
-    toMiddle(moment, vertex, eye);
+    toMiddle(moment.xy, vertex, eye);
 #endif
     vec3 viewPosition = vertex.position;
     vec3 viewNormal = vertex.normal;
@@ -71,14 +71,19 @@ void main() {
     uvOut = vec4(uv0In, uv1In);
     tangentOut = vec4(worldFromView * viewTangent, tangentIn.w);
 #else
-    float scale = object.values.w;
-#ifdef VERTEX_COC_SCALES
-    scale *= cocScaleIn;
+    vec2 own = vec2(object.values.w, 0.0);
+#ifdef VERTEX_BLURS
+#ifdef BLUR_MOVES
+    float time = moment.z;
+#else
+    const float time = 0.5;
+#endif
+    own = object.values.w * vec2(blurIn.x, frame.cocOther.y * mix(blurIn.y, blurIn.z, time));
 #endif
 #ifdef COC_CONTROLS
-    // What reaches the near plane has C = scale·(a + b·w): the methods refuse objects whose C bends there.
+    // What reaches the near plane has one linear C: the methods refuse objects whose C bends there.
     float w = pinhole.z == 0.0 ? 1e-20 : pinhole.z;
-    float c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, scale);
+    float c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, own);
 #else
     float c = frame.coc.x + frame.coc.y * pinhole.z;
 #endif

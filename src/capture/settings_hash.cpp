@@ -37,7 +37,11 @@ private:
 };
 
 void addLens(HashedText& hashed, const Lens& lens) {
-    for (const LensField& field : lensFields()) hashed.add(lensFieldValue(lens, field));
+    for (const LensField& field : lensFields()) {
+        // Frames of before this setting stay valid where it changes nothing.
+        if (field.name == std::string_view("focusRangeRefocuses") && !(lens.focusRangeBehind > 0)) continue;
+        hashed.add(lensFieldValue(lens, field));
+    }
     if (!lens.apertureImage) return;
     const Image& image = *lens.apertureImage;
     hashed.add(image.width, image.height, image.channels, hashBytes(std::as_bytes(std::span(image.pixels))));

@@ -101,6 +101,7 @@ const std::map<std::string_view, Json>& exampleValues() {
         {"backgroundLimit", 40},
         {"focusRangeFront", 0.5},
         {"focusRangeBehind", 1},
+        {"focusRangeRefocuses", true},
         {"focusTilt", 10},
         {"focusSwing", 10},
         {"fieldCurvature", 0.2},

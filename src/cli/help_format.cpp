@@ -68,7 +68,9 @@ std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::Ap
         if (!options.empty()) text += make_group(group, false, options);
         left -= options.size();
     }
-    if (left > 0) text += fmt::format("\n{} more options are shown by --help-all.\n", left);
+    if (left > 0)
+        text += fmt::format("\n{} shown by --help-all.\n",
+                            left == 1 ? "One more option is" : fmt::format("{} more options are", left));
     return text + make_subcommands(app, mode) + '\n' + make_footer(app);
 }
 

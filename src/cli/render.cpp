@@ -32,6 +32,7 @@
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "image/tone_map.h"
+#include "plan/swept_work.h"
 #include "render/aov/aov.h"
 #include "render/aov/work.h"
 #include "render/frame_run.h"
@@ -43,8 +44,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 void parseAovs(const std::string& text, AovRequest& aovs) {
-    const std::vector<std::string> names = {"depth", "coc", "level", "rate", "work"};
-    const std::array<bool*, 5> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.rate, &aovs.work};
+    const std::vector<std::string> names = {"depth", "coc", "level", "rate", "work", "swept-work"};
+    const std::array<bool*, 6> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.rate, &aovs.work, &aovs.sweptWork};
     for (const std::string& part : partsOf(text)) *wanted[parseChoice(part, names)] = true;
 }
 
@@ -62,11 +63,14 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         ->default_str("out.exr")
         ->group(group);
     addParsed(
-        command, "--aov", "depth,coc,level,rate,work",
+        command, "--aov", "depth,coc,level,rate,work,swept-work",
         "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
         "out.level.png (level of detail), out.rate.exr with out.rate.png (images that method multirate draws of an "
-        "object for a lens sample) and out.work.exr with out.work.png (triangles that touch each pixel, "
-        "summed over the lens samples of the accumulation, hidden ones too)",
+        "object for a lens sample), out.work.exr with out.work.png (triangles that touch each pixel, "
+        "summed over the lens samples of the accumulation, hidden ones too) and out.swept-work.exr with "
+        "out.swept-work.png (triangles whose bounds over all of the lens cover each pixel: what a stochastic "
+        "rasteriser "
+        "tests there)",
         [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
         ->group(group);
     addParsed(command, "--sample-range", "FIRST:END",
@@ -107,6 +111,8 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
     if (arguments.aovs.rate) paths.push_back(derivedPath(output, "rate.png"));
     if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.exr"));
     if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.png"));
+    if (arguments.aovs.sweptWork) paths.push_back(derivedPath(output, "swept-work.exr"));
+    if (arguments.aovs.sweptWork) paths.push_back(derivedPath(output, "swept-work.png"));
     return paths;
 }
 
@@ -166,6 +172,14 @@ void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Im
     const WorkSummary summary = workSummary(work, samples);
     if (!quiet)
         printMessage("work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean, summary.most);
+}
+
+void writeSweptWork(const RenderArguments& arguments, const Image& work, const Metadata& metadata, bool quiet) {
+    const std::filesystem::path& output = arguments.outputs.front();
+    writeImage(derivedPath(output, "swept-work.exr"), work, metadata);
+    writeImage(derivedPath(output, "swept-work.png"), sweptWorkColourMap(work));
+    const WorkSummary summary = workSummary(work, 1);
+    if (!quiet) printMessage("swept work: {:.1f} triangles a pixel, at most {:.0f}\n", summary.mean, summary.most);
 }
 
 void printSummary(const RenderArguments& arguments, const RenderReport& report) {
@@ -280,6 +294,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     if (arguments.aovs.surfaces()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
     if (arguments.aovs.work)
         writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
+    if (arguments.aovs.sweptWork) writeSweptWork(arguments, sweptWork(plan, frame.world), metadata, global.quiet);
     if (!arguments.stats.empty()) writeOutput(arguments.stats, statsJson(report));
     if (global.verbose) printChoices(context.get(), plan, report);
     if (!global.quiet) printSummary(arguments, report);

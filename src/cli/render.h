@@ -18,8 +18,9 @@ struct AovRequest {
     bool level = false;
     bool rate = false;
     bool work = false;
+    bool sweptWork = false;
     [[nodiscard]] bool surfaces() const { return depth || coc || level || rate; }
-    [[nodiscard]] bool any() const { return surfaces() || work; }
+    [[nodiscard]] bool any() const { return surfaces() || work || sweptWork; }
 };
 
 struct RenderArguments {

@@ -1,5 +1,7 @@
 #include "frame/moment.h"
 
+#include <algorithm>
+
 #include "scene/animation.h"
 #include "scene/hidden_nodes.h"
 
@@ -29,7 +31,8 @@ Pose exposedPose(const Request& request, const Scene& scene) {
 void exposeMotion(const Request& request, const PlacedCamera& camera, const RenderSettings& settings, World& world,
                   View& view) {
     const Scene& scene = *world.scene;
-    if (scene.clips.empty()) return;
+    const auto changesBlur = [](const Mesh& mesh) { return mesh.blurBounds.moves; };
+    if (scene.clips.empty() && std::ranges::none_of(scene.meshes, changesBlur)) return;
     const auto momentAt = [&](double offset) {
         const double time = animationTime(request, scene, request.time + offset);
         ShutterMoment moment{unmeasuredPoseAt(scene, time, clipOf(request, scene)), {}};

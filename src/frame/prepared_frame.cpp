@@ -49,13 +49,6 @@ void brighten(Environment& environment, double scale) {
         *radiance *= static_cast<float>(scale);
 }
 
-void setLightSizes(const Request& request, std::vector<PlacedLight>& lights) {
-    for (PlacedLight& placed : lights) {
-        if (request.lightAngle) placed.light.angularDiameter = static_cast<float>(glm::radians(*request.lightAngle));
-        if (request.lightRadius) placed.light.radius = static_cast<float>(*request.lightRadius);
-    }
-}
-
 // ---- camera and lens
 // -------------------------------------------------------------------------------------------------
 
@@ -211,6 +204,15 @@ void setNodeBlur(const Request& request, Scene& scene) {
         scene.nodes[static_cast<std::size_t>(nodeNamed(scene, name))].cocScale = scale;
 }
 
+std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose) {
+    std::vector<PlacedLight> lights = movedLights(own, pose);
+    for (PlacedLight& placed : lights) {
+        if (request.lightAngle) placed.light.angularDiameter = static_cast<float>(glm::radians(*request.lightAngle));
+        if (request.lightRadius) placed.light.radius = static_cast<float>(*request.lightRadius);
+    }
+    return lights;
+}
+
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request, const Environment* environment) {
     // The scene, at its time.
     PreparedFrame frame;
@@ -223,11 +225,11 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     // Camera, light, surroundings and settings.
     const PlacedCamera placed = place(frame, request);
     // Surroundings that are asked for are light enough.
-    frame.world.lights =
+    frame.ownLights =
         request.environment.empty() ? lightsOrDefault(*frame.scene, frame.world.pose, placed) : frame.world.pose.lights;
+    frame.world.lights = sizedLights(request, frame.ownLights, frame.world.pose);
     frame.world.environment =
         environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
-    setLightSizes(request, frame.world.lights);
     frame.settings = request.settings;
     if (frame.settings.sampleCount == automaticSamples) frame.settings.sampleCount = RenderSettings{}.sampleCount;
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);

@@ -16,6 +16,7 @@ namespace defocus {
 struct PreparedFrame {
     std::shared_ptr<Scene> scene;
     World world;
+    std::vector<PlacedLight> ownLights;  // the world's, of the sizes that the file or the studio gives them
     View view;
     RenderSettings settings;
     std::string sceneName;                 // the file's name, or "fish school"
@@ -54,6 +55,9 @@ void setNodeBlur(const Request& request, Scene& scene);
 // Adds the ground that the request asks for, unless the scene has it: beneath the scene as it is when its animation
 // begins, so that all frames of a film stand on the same one. The scene's units must be set.
 void setGround(const Request& request, Scene& scene);
+
+// Returns `own`, where `pose` has moved them, with the sizes that the request asks for.
+std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose);
 
 // Sets camera and lens of a placed frame anew, for a request with another camera. The lights stay.
 void placeCamera(PreparedFrame& frame, const Request& request);

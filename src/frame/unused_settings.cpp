@@ -24,13 +24,31 @@ constexpr std::string_view ofShadows[] = {"lightAngle", "lightRadius"};
 constexpr std::string_view ofTheShutter[] = {"shutter"};
 constexpr std::string_view ofAMap[] = {"environmentRotation"};
 constexpr std::string_view ofAnimation[] = {"time", "loop"};
-constexpr std::string_view ofBlur[] = {
-    "focusDistance",    "focusNode",       "focusPixel",          "focusPoints",
-    "focusAuto",        "blurScale",       "bladeCount",          "bladeRotation",
-    "bladeCurvature",   "anamorphicRatio", "obstruction",         "catEye",
-    "apertureImage",    "foregroundLimit", "backgroundLimit",     "focusRangeFront",
-    "focusRangeBehind", "focusTilt",       "focusSwing",          "fieldCurvature",
-    "radialBlurGain",   "nodeBlur",        "sphericalAberration", "axialChromaticAberration"};
+constexpr std::string_view ofBlur[] = {"focusDistance",
+                                       "focusNode",
+                                       "focusPixel",
+                                       "focusPoints",
+                                       "focusAuto",
+                                       "blurScale",
+                                       "bladeCount",
+                                       "bladeRotation",
+                                       "bladeCurvature",
+                                       "anamorphicRatio",
+                                       "obstruction",
+                                       "catEye",
+                                       "apertureImage",
+                                       "foregroundLimit",
+                                       "backgroundLimit",
+                                       "focusRangeFront",
+                                       "focusRangeBehind",
+                                       "focusRangeRefocuses",
+                                       "focusTilt",
+                                       "focusSwing",
+                                       "fieldCurvature",
+                                       "radialBlurGain",
+                                       "nodeBlur",
+                                       "sphericalAberration",
+                                       "axialChromaticAberration"};
 constexpr std::string_view ofTheStop[] = {"fStop"};
 constexpr std::string_view ofLevels[] = {"blurThreshold", "sizeThreshold", "lightThreshold",
                                          "lodMetric",     "levelVertices", "lodCoc"};

@@ -101,6 +101,14 @@ struct ImageRowWriter::State {
         fail("{}: cannot be written: {}", name, reason);
     }
 
+    // Not before there are rows: libpng prints a line of its own where a file that was begun ends without any.
+    void open() {
+        output = OIIO::ImageOutput::create(formatName(kind), &file);
+        if (!output) fail("{}: cannot be written: {}", name, firstLine(OIIO::geterror()));
+        output->set_ioproxy(&file);
+        if (!output->open("image", spec) || file.failure() != 0) failed();
+    }
+
     std::string name;
     FileKind kind;
     WriteOptions options;
@@ -124,10 +132,7 @@ ImageRowWriter::ImageRowWriter(const std::filesystem::path& path, int width, int
         s.spec.full_height = place.imageHeight;
         s.spec.full_y = 0;
     }
-    s.output = OIIO::ImageOutput::create(formatName(s.kind), &s.file);
-    if (!s.output) fail("{}: cannot be written: {}", s.name, firstLine(OIIO::geterror()));
-    s.output->set_ioproxy(&s.file);
-    if (s.file.failure() != 0 || !s.output->open("image", s.spec)) s.failed();
+    if (s.file.failure() != 0) fail("{}: cannot be written: {}", s.name, std::strerror(s.file.failure()));
 }
 
 ImageRowWriter::~ImageRowWriter() = default;
@@ -136,6 +141,7 @@ ImageRowWriter::ImageRowWriter(ImageRowWriter&&) noexcept = default;
 void ImageRowWriter::write(const ImageView& rows) {
     State& s = *state_;
     assert(rows.width == s.spec.width && rows.channels == s.channels && s.written + rows.height <= s.spec.height);
+    if (!s.output) s.open();
     for (int first = 0; first < rows.height; first += rowsAtOnce) {
         const int count = std::min(rowsAtOnce, rows.height - first);
         const ImageView some = rowsOf(rows, first, count);

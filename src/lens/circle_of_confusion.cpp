@@ -39,7 +39,7 @@ Interval squared(const Interval& p) {
 // What C is made of, over a box.
 struct Parts {
     Interval radius2;  // r²
-    Interval factor;   // scale·(1 + g·r²)
+    Interval factor;   // own factor·(1 + g·r²)
     Interval front;    // F
     Interval behind;   // B
 };
@@ -55,15 +55,23 @@ Parts partsOver(const ClipCircleOfConfusion& coc, const CocBox& box) {
     if (coc.tilt.x != 0) focus = sum(focus, times(x, coc.tilt.x));
     if (coc.tilt.y != 0) focus = sum(focus, times(y, coc.tilt.y));
     parts.factor = sum({1, 1}, times(parts.radius2, coc.gain));
-    parts.factor = {parts.factor.least * box.scaleLeast, parts.factor.most * box.scaleMost};
+    parts.factor = {parts.factor.least * box.own.factorLeast, parts.factor.most * box.own.factorMost};
     parts.front = sum(times(inverseDepth, coc.a), times(focus, coc.front));
-    parts.behind = sum(times(inverseDepth, coc.a), times(focus, coc.behind));
+    parts.behind = sum(times(inverseDepth, coc.aBehind), times(focus, coc.behind));
     if (coc.chromatic > 0) {
         const double spread = coc.chromatic * std::max(std::abs(focus.least), std::abs(focus.most));
         parts.front = sum(parts.front, {-spread, spread});
         parts.behind = sum(parts.behind, {-spread, spread});
     }
     return parts;
+}
+
+// C/w before its limits, as a share of the image's width.
+Interval unlimitedBlur(const Parts& parts, const OwnBlur& own) {
+    const Interval ofLens = times({std::min(0.0, parts.front.least) + std::max(0.0, parts.behind.least),
+                                   std::min(0.0, parts.front.most) + std::max(0.0, parts.behind.most)},
+                                  parts.factor);
+    return sum(ofLens, {own.addedLeast, own.addedMost});
 }
 
 bool strictlyInside(const Interval& p, double value) {
@@ -73,7 +81,7 @@ bool strictlyInside(const Interval& p, double value) {
 }  // namespace
 
 bool ClipCircleOfConfusion::thinLens() const {
-    return front == behind && !varies() && std::isinf(foregroundLimit) && std::isinf(backgroundLimit);
+    return !hasFocusRange() && !varies() && std::isinf(foregroundLimit) && std::isinf(backgroundLimit);
 }
 
 bool ClipCircleOfConfusion::varies() const {
@@ -86,31 +94,39 @@ ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int hei
     ClipCircleOfConfusion coc;
     coc.a = -0.5 * apertureDiameter(lens) / tanX;
     coc.front = -coc.a / (lens.focusDistance - (std::isinf(lens.focusDistance) ? 0 : lens.focusRangeFront));
-    coc.behind = -coc.a / (lens.focusDistance + lens.focusRangeBehind);
+    const bool refocuses = lens.focusRangeRefocuses;
+    coc.aBehind = refocuses ? coc.a : coc.a * (1 + lens.focusRangeBehind / lens.focusDistance);
+    coc.behind = -coc.a / (lens.focusDistance + (refocuses ? lens.focusRangeBehind : 0));
     coc.tilt = glm::dvec2(std::tan(lens.focusSwing) * tanX, std::tan(lens.focusTilt) * tanX / aspect);
     coc.curvature = lens.fieldCurvature;
     coc.gain = lens.radialBlurGain;
     coc.foregroundLimit = lens.foregroundLimit / width;
     coc.backgroundLimit = lens.backgroundLimit / width;
     coc.aspect = aspect;
+    coc.shareOfMillimetre = lens.dofEnabled ? lens.blurScale / lens.horizontalAperture : 0;
     coc.chromatic = std::abs(chromaticShift(coc.a, lens.axialChromaticAberration, 1));
     return coc;
 }
 
-double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, const glm::dvec2& ndc, double scale) {
+double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, const glm::dvec2& ndc, double factor,
+                         double added) {
     const double radius2 = ndc.x * ndc.x + ndc.y * ndc.y / (coc.aspect * coc.aspect);
     const double focus = 1 + coc.curvature * radius2 + coc.tilt.x * ndc.x + coc.tilt.y * ndc.y;
     const double front = coc.a / z + coc.front * focus;
-    const double behind = coc.a / z + coc.behind * focus;
-    const double blur = scale * (1 + coc.gain * radius2) * (std::min(0.0, front) + std::max(0.0, behind));
+    const double behind = coc.aBehind / z + coc.behind * focus;
+    const double blur = factor * (1 + coc.gain * radius2) * (std::min(0.0, front) + std::max(0.0, behind)) + added;
     return std::clamp(blur, -coc.foregroundLimit, coc.backgroundLimit) * width;
+}
+
+OwnBlur ownBlur(const ClipCircleOfConfusion& coc, double factor, const VertexBlurBounds& vertices) {
+    const double share = factor * coc.shareOfMillimetre;
+    return {factor * vertices.factorLeast, factor * vertices.factorMost, share * vertices.addedLeast,
+            share * vertices.addedMost};
 }
 
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width) {
     const Parts parts = partsOver(coc, box);
-    const Interval blur = times({std::min(0.0, parts.front.least) + std::max(0.0, parts.behind.least),
-                                 std::min(0.0, parts.front.most) + std::max(0.0, parts.behind.most)},
-                                parts.factor);
+    const Interval blur = unlimitedBlur(parts, box.own);
     CocRange range;
     range.nearest = std::clamp(blur.least, -coc.foregroundLimit, coc.backgroundLimit) * width;
     range.farthest = std::clamp(blur.most, -coc.foregroundLimit, coc.backgroundLimit) * width;
@@ -128,33 +144,50 @@ double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width) {
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,
                           const glm::dvec2& tanHalf, int width) {
     CocDeviation deviation;
-    if (coc.thinLens()) return deviation;
+    if (coc.thinLens() && !box.own.varies()) return deviation;
     const Parts parts = partsOver(coc, box);
     const double pixels = width / box.zNear;
     const double factor = parts.factor.most;
 
     // Two linear pieces that meet at a kink differ by at most the change of slope times the distance from it; an edge
     // of length L across it deviates most if it lies in the middle: slope·L/4.
-    const double slope = factor * coc.front *
-                         (1 + std::abs(coc.tilt.x) / tanHalf.x + std::abs(coc.tilt.y) / tanHalf.y +
-                          std::abs(coc.curvature) * parts.radius2.most * (1 + 2 / std::min(tanHalf.x, tanHalf.y)));
+    const Interval added{box.own.addedLeast, box.own.addedMost};
+    const double mostAdded = std::max(std::abs(added.least), std::abs(added.most));
+    const double unscaled =
+        coc.front * (1 + std::abs(coc.tilt.x) / tanHalf.x + std::abs(coc.tilt.y) / tanHalf.y +
+                     std::abs(coc.curvature) * parts.radius2.most * (1 + 2 / std::min(tanHalf.x, tanHalf.y)));
+    const double slope = factor * unscaled;
     double change = 0;
-    if (strictlyInside(times(parts.front, parts.factor), -coc.foregroundLimit)) change = slope + coc.foregroundLimit;
-    if (strictlyInside(times(parts.behind, parts.factor), coc.backgroundLimit))
-        change = std::max(change, slope + coc.backgroundLimit);
-    if (coc.front != coc.behind && (strictlyInside(parts.front, 0) || strictlyInside(parts.behind, 0)))
+    const auto kinkAt = [&](double limit) {
+        if (strictlyInside(unlimitedBlur(parts, box.own), limit))
+            change = std::max(change, slope + mostAdded + std::abs(limit));
+    };
+    kinkAt(-coc.foregroundLimit);
+    kinkAt(coc.backgroundLimit);
+    if (coc.hasFocusRange() && (strictlyInside(parts.front, 0) || strictlyInside(parts.behind, 0)))
         change = std::max(change, slope);
+    // Along an edge, what vertices have themselves changes the pieces besides.
+    const double base = std::max(std::abs(parts.front.least), std::abs(parts.behind.most));
+    const double gained = 1 + coc.gain * parts.radius2.most;
+    const double factors = box.own.factorMost - box.own.factorLeast;
+    const double ownChange = factors * gained * base + added.most - added.least;
     deviation.kinks = change * longestEdge / 4 * pixels;
+    if (change > 0) deviation.kinks += ownChange / 4 * (width + longestEdge * pixels);
 
     // A function with second derivatives of at most H deviates from its chord by at most H·L²/8. Lengths here are those
     // of clip positions, divided by the nearest depth: then r²·w has second derivatives of at most 2·(1 + r)².
     const double length = longestEdge / box.zNear * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
     const double reach = 1 + std::sqrt(parts.radius2.most);
-    const double base = std::max(std::abs(parts.front.least), std::abs(parts.behind.most));
     const double second = 2 * reach * reach *
-                          (box.scaleMost * coc.front * std::abs(coc.curvature) * (1 + coc.gain * parts.radius2.most) +
-                           3 * box.scaleMost * coc.gain * (base + coc.front * reach));
+                          (box.own.factorMost * coc.front * std::abs(coc.curvature) * gained +
+                           3 * box.own.factorMost * coc.gain * (base + coc.front * reach));
     deviation.curved = second * length * length / 8 * width;
+
+    // A product of two linear functions deviates from its chord by a quarter of the product of their changes. What
+    // vertices have is linear on the surface, as are w and the pieces of C that it is multiplied with.
+    const double ofGain = 2 * coc.gain * reach * base * (1 + 1 / std::min(tanHalf.x, tanHalf.y));
+    const double products = factors * (gained * unscaled + ofGain) + added.most - added.least;
+    deviation.curved += products * longestEdge / 4 * pixels;
     return deviation;
 }
 

@@ -9,21 +9,27 @@
 // the place n = (x/w, y/w) in the image, in normalised device coordinates:
 //   focus term    q = 1 + κ·r² + t·n,   r² = n.x² + (n.y/k)²      (curved focus surface, tilted focus plane)
 //   in front      F = a/w + b₁·q,       b₁ = −a/(s − focusRangeFront)
-//   behind        B = a/w + b₂·q,       b₂ = −a/(s + focusRangeBehind)
-//   c/W = clamp(scale·(1 + g·r²)·(min(0, F) + max(0, B)), −R₁, R₂)
-// Between the two ends of the focus range everything is sharp, and the blur grows from either end as that of a lens
-// which is focused there. R₁, R₂ are the limits of the blur in front and behind, as shares of the image's width; a
-// surface's `scale` of 0 switches its blur off.
+//   behind        B = a₂/w + b₂·q,      a₂ = a·(1 + focusRangeBehind/s), b₂ = −a/s
+//                 refocused:            a₂ = a,                          b₂ = −a/(s + focusRangeBehind)
+//   c/W = clamp(factor·(1 + g·r²)·(min(0, F) + max(0, B)) + added, −R₁, R₂)
+// Between the two ends of the focus range everything is sharp. In C, which is linear in w, its range keeps what the
+// thin lens has at the two ends of all depths: a right before the lens, w = 0, and b·w far away. So the range preserves
+// near and far blur, and lights in the distance keep their disks. Refocused, the blur behind is that of a lens which is
+// focused at the range's far end, and smaller; in front, the two forms are one. R₁, R₂ are the limits of the blur in
+// front and behind, as shares of the image's width. A surface has a factor (0 switches the lens's blur off) and may add
+// a blur of its own.
 
 #include <glm/vec2.hpp>
 #include <limits>
 
 #include "lens/lens.h"
+#include "scene/mesh.h"
 
 namespace defocus {
 
 struct ClipCircleOfConfusion {
     double a = 0;
+    double aBehind = 0;                                                // a₂ ≤ a
     double front = 0;                                                  // b₁
     double behind = 0;                                                 // b₂ ≤ b₁
     glm::dvec2 tilt{0};                                                // t
@@ -32,8 +38,11 @@ struct ClipCircleOfConfusion {
     double foregroundLimit = std::numeric_limits<double>::infinity();  // R₁
     double backgroundLimit = std::numeric_limits<double>::infinity();  // R₂
     double aspect = 1;                                                 // k
-    double chromatic = 0;  // the most that a wavelength adds to b₁ and b₂ or takes from them
+    double shareOfMillimetre = 0;  // of the image's width, of blur that vertices have in mm on the sensor
+    double chromatic = 0;          // the most that a wavelength adds to b₁ and b₂ or takes from them
 
+    // F and B differ.
+    [[nodiscard]] bool hasFocusRange() const { return front != behind || a != aBehind; }
     // C = a + b·w everywhere: none of the controls is in use.
     [[nodiscard]] bool thinLens() const;
     // C depends on the place in the image.
@@ -44,9 +53,9 @@ struct ClipCircleOfConfusion {
 ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int height);
 
 // Signed CoC diameter in px at depth `z` (m, > 0; infinity is allowed) of an image `width` px wide, at the place `ndc`,
-// of a surface with `scale`; > 0 behind the focus plane.
+// of a surface with a factor and what it adds, a share of the image's width; > 0 behind the focus plane.
 double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, const glm::dvec2& ndc = glm::dvec2(0),
-                         double scale = 1);
+                         double factor = 1, double added = 0);
 
 struct CocRange {
     double nearest = 0;   // least signed CoC, px: that of the nearest depth
@@ -55,15 +64,27 @@ struct CocRange {
     double largest = 0;   // greatest |CoC|, px
 };
 
+// What surfaces make of the lens's blur: bounds of their factor and of what they add, as a share of the image's width.
+struct OwnBlur {
+    double factorLeast = 1;
+    double factorMost = 1;
+    double addedLeast = 0;
+    double addedMost = 0;
+    [[nodiscard]] bool varies() const { return factorLeast != factorMost || addedLeast != addedMost; }
+    [[nodiscard]] bool none() const { return !varies() && factorLeast == 1 && addedLeast == 0; }
+};
+
+// Of an object whose blur is scaled by `factor` ≥ 0 and whose vertices have a blur of their own within `vertices`.
+OwnBlur ownBlur(const ClipCircleOfConfusion& coc, double factor, const VertexBlurBounds& vertices);
+
 // What a box shows of itself: depths [zNear, zFar], 0 < zNear ≤ zFar (infinity is allowed), places [ndcLeast, ndcMost]
-// and scales of the blur [scaleLeast, scaleMost].
+// and what its surfaces make of the blur.
 struct CocBox {
     double zNear = 0;
     double zFar = 0;
     glm::dvec2 ndcLeast{0};
     glm::dvec2 ndcMost{0};
-    double scaleLeast = 1;
-    double scaleMost = 1;
+    OwnBlur own{};
 };
 
 // Bounds of the CoC over all of the box, by interval arithmetic: exact for the thin lens, otherwise on the safe side.
@@ -77,7 +98,7 @@ double largestCocAtInfinity(const ClipCircleOfConfusion& coc, int width);
 // `longestEdge` m long; `tanHalf` is (tan(θx/2), tan(θy/2)).
 struct CocDeviation {
     double kinks = 0;   // where C is made of several linear pieces; triangles can be split there
-    double curved = 0;  // of the curved forms; triangles must be small
+    double curved = 0;  // of the curved forms, and of blur that vertices have themselves; triangles must be small
 };
 
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,

@@ -40,10 +40,11 @@ struct Lens {
     // An artist's controls of C(w); see circle_of_confusion.h.
     double foregroundLimit = std::numeric_limits<double>::infinity();  // largest CoC in front of the focus, px
     double backgroundLimit = std::numeric_limits<double>::infinity();  // largest CoC behind the focus, px
-    double focusRangeFront = 0;   // m in front of the focus distance that stay sharp, [0, focusDistance)
-    double focusRangeBehind = 0;  // m behind the focus distance that stay sharp, ≥ 0
-    double focusTilt = 0;         // radians about the horizontal axis; > 0: the focus plane's top comes nearer
-    double focusSwing = 0;        // radians about the vertical axis; > 0: the focus plane's right side comes nearer
+    double focusRangeFront = 0;        // m in front of the focus distance that stay sharp, [0, focusDistance)
+    double focusRangeBehind = 0;       // m behind the focus distance that stay sharp, ≥ 0
+    bool focusRangeRefocuses = false;  // behind the range, the blur of a lens that is focused at its far end
+    double focusTilt = 0;              // radians about the horizontal axis; > 0: the focus plane's top comes nearer
+    double focusSwing = 0;      // radians about the vertical axis; > 0: the focus plane's right side comes nearer
     double fieldCurvature = 0;  // κ of the curved focus surface w = s/(1 + κr²); r is 1 at the left and right edges
     double radialBlurGain = 0;  // κ of the gain 1 + κr² on the blur
 };

@@ -60,6 +60,11 @@ const LensField fields[] = {
      "How much in front of the focus distance is in focus too; the blur grows from there"},
     {"focusRangeBehind", "--focus-range-behind", "M", 0, 1e12, &Lens::focusRangeBehind, &LensSettings::focusRangeBehind,
      "How much behind the focus distance is in focus too"},
+    {"focusRangeRefocuses", "--focus-range-refocuses", "", 0, 1, &Lens::focusRangeRefocuses,
+     &LensSettings::focusRangeRefocuses,
+     "Behind the focus range, the blur of a lens that is focused at the range's far end; off: it grows from there to "
+     "what "
+     "it is far away without a range"},
     {"focusTilt", "--focus-tilt", "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
      "Turns the focus plane about the horizontal axis: above 0, its top comes nearer"},
     {"focusSwing", "--focus-swing", "DEG", -89.9, 89.9, &Lens::focusSwing, &LensSettings::focusSwing,

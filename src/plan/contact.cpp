@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 namespace defocus {
@@ -13,15 +14,19 @@ namespace defocus {
 namespace {
 
 constexpr double closedGap = 1;  // px
-constexpr int mostGridSide = 32;
+constexpr int mostGridSide = 512;
+constexpr std::size_t mostCellsAnObject = 4;  // on average
 
 // Lists of objects by the cells of the image that they may be seen in. What lies outside is in the cells at the border.
+// Each cell knows a value that none of its objects lies below, so that heaps of objects that have all been raised are
+// passed over.
 class Grid {
 public:
-    explicit Grid(const std::vector<ContactBounds>& bounds)
+    // `reach`: px, of near().
+    Grid(const std::vector<ContactBounds>& bounds, double reach)
         : bounds_(&bounds),
+          reach_(reach),
           side_(std::clamp(static_cast<int>(std::sqrt(bounds.size())), 1, mostGridSide)),
-          cells_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_)),
           visitedFrom_(bounds.size(), bounds.size()) {
         glm::dvec2 least(ContactBounds::infinity);
         glm::dvec2 most(-ContactBounds::infinity);
@@ -30,52 +35,69 @@ public:
             least = glm::min(least, b.seenLeast);
             most = glm::max(most, b.seenMost);
         }
-        if (!(most.x > least.x) || !(most.y > least.y)) least = glm::dvec2(0), most = glm::dvec2(1);
+        if (!(most.x >= least.x) || !(most.y >= least.y)) least = most = glm::dvec2(0);
         origin_ = least;
-        cellsPerPixel_ = static_cast<double>(side_) / (most - least);
+        extent_ = std::max({most.x - least.x, most.y - least.y, reach});
+        side_ = std::min(side_, static_cast<int>(std::min<double>(extent_ / reach, mostGridSide)));
+        while (side_ > 1 && cellsCovered() > mostCellsAnObject * bounds.size()) side_ /= 2;
+        cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
         for (std::uint32_t i = 0; i < bounds.size(); ++i)
-            eachCell(bounds[i], 0, [&](std::vector<std::uint32_t>& cell) { cell.push_back(i); });
+            eachCell(bounds[i], 0, [&](std::size_t cell) { cells_[cell].objects.push_back(i); });
     }
 
-    // Calls `visit` once with each other object that isn't settled and may lie within `reach` px of object i. Settled
-    // objects are forgotten.
-    template <typename Visit>
-    void near(std::uint32_t i, double reach, const std::vector<bool>& settled, Visit visit) {
-        eachCell((*bounds_)[i], reach, [&](std::vector<std::uint32_t>& cell) {
-            for (std::size_t at = 0; at < cell.size();) {
-                const std::uint32_t j = cell[at];
+    // Calls `raise` once with each other object that isn't settled and may lie within reach of object i, unless its
+    // value is values[i] already. `raise` may raise the object's value. Settled objects are forgotten.
+    template <typename Raise>
+    void near(std::uint32_t i, const std::vector<bool>& settled, const std::vector<double>& values, Raise raise) {
+        eachCell((*bounds_)[i], reach_, [&](std::size_t number) {
+            Cell& cell = cells_[number];
+            if (cell.least >= values[i]) return;
+            cell.least = ContactBounds::infinity;
+            for (std::size_t at = 0; at < cell.objects.size();) {
+                const std::uint32_t j = cell.objects[at];
                 if (settled[j]) {
-                    cell[at] = cell.back();
-                    cell.pop_back();
+                    cell.objects[at] = cell.objects.back();
+                    cell.objects.pop_back();
                     continue;
                 }
                 ++at;
-                if (std::exchange(visitedFrom_[j], i) != i) visit(j);
+                if (std::exchange(visitedFrom_[j], i) != i) raise(j);
+                cell.least = std::min(cell.least, values[j]);
             }
         });
     }
 
 private:
+    struct Cell {
+        std::vector<std::uint32_t> objects;
+        double least = -ContactBounds::infinity;  // of their values, which never fall
+    };
+
+    [[nodiscard]] std::size_t cellsCovered() const {
+        std::size_t count = 0;
+        for (const ContactBounds& b : *bounds_) eachCell(b, 0, [&](std::size_t) { ++count; });
+        return count;
+    }
     [[nodiscard]] int column(double pixel, int axis) const {
-        const double at = std::floor((pixel - origin_[axis]) * cellsPerPixel_[axis]);
+        const double at = std::floor((pixel - origin_[axis]) / extent_ * side_);
         return static_cast<int>(std::clamp<double>(at, 0, side_ - 1));
     }
     template <typename Visit>
-    void eachCell(const ContactBounds& bounds, double reach, Visit visit) {
+    void eachCell(const ContactBounds& bounds, double reach, Visit visit) const {
         const int right = column(bounds.seenMost.x + reach, 0);
         const int top = column(bounds.seenMost.y + reach, 1);
         for (int y = column(bounds.seenLeast.y - reach, 1); y <= top; ++y)
             for (int x = column(bounds.seenLeast.x - reach, 0); x <= right; ++x)
-                visit(cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) +
-                             static_cast<std::size_t>(x)]);
+                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x));
     }
 
     const std::vector<ContactBounds>* bounds_;
+    double reach_;
     int side_;
-    std::vector<std::vector<std::uint32_t>> cells_;
+    std::vector<Cell> cells_;
     std::vector<std::size_t> visitedFrom_;
     glm::dvec2 origin_{0};
-    glm::dvec2 cellsPerPixel_{1};
+    double extent_ = 1;  // px, of the square that the grid covers
 };
 
 }  // namespace
@@ -118,21 +140,31 @@ double contactGap(const ContactBounds& a, const ContactBounds& b) {
 
 std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, std::vector<double> values,
                                       double least, double most) {
-    std::priority_queue<std::pair<double, std::uint32_t>> open;
-    for (std::uint32_t i = 0; i < values.size(); ++i) open.emplace(values[i], i);
-    Grid grid(bounds);
+    // Of equal values the one that was raised last is next: it lies at the front of what is being raised, and what is
+    // behind the front has nothing left to raise.
+    struct Open {
+        double value;
+        std::uint64_t turn;
+        std::uint32_t object;
+        bool operator<(const Open& other) const { return std::tie(value, turn) < std::tie(other.value, other.turn); }
+    };
+    std::priority_queue<Open> open;
+    for (std::uint32_t i = 0; i < values.size(); ++i) open.push({values[i], i, i});
+    std::uint64_t turn = values.size();
+    Grid grid(bounds, most - least + closedGap);
     std::vector<bool> settled(values.size(), false);
     while (!open.empty()) {
-        const auto [value, i] = open.top();
+        const double value = open.top().value;
+        const std::uint32_t i = open.top().object;
         open.pop();
         if (value <= least) break;
         if (settled[i]) continue;
         settled[i] = true;
-        grid.near(i, most - least + closedGap, settled, [&, from = i, height = value](std::uint32_t j) {
-            const double raised = height - contactGap(bounds[from], bounds[j]);
+        grid.near(i, settled, values, [&](std::uint32_t j) {
+            const double raised = value - contactGap(bounds[i], bounds[j]);
             if (raised <= values[j]) return;
             values[j] = raised;
-            open.emplace(raised, j);
+            open.push({raised, turn++, j});
         });
     }
     return values;

@@ -34,7 +34,7 @@ double contactGap(const ContactBounds& a, const ContactBounds& b);
 
 // Returns for each object the greatest of values[j] − (the shortest way from it to j, over gaps between objects), but
 // `least` where that is less. Objects that touch get the same value, and none is raised by more than `most` − `least`
-// over its own. `values` are within [least, most]. Near-linear in the number of objects, unless all overlap.
+// over its own. `values` are within [least, most]. Near-linear in the number of objects.
 std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, std::vector<double> values,
                                       double least, double most);
 

@@ -3,6 +3,7 @@
 #include "plan/frame_plan.h"
 
 #include <algorithm>
+#include <utility>
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
@@ -66,11 +67,6 @@ bool hasTextures(const Scene& scene, const Mesh& mesh) {
     });
 }
 
-// The box of an object in front of the near plane, as the lens sees it.
-CocBox cocBoxOf(const ObjectPlan& object, const Mesh& mesh, const FramePlan& plan) {
-    return cocBoxOf(object.viewBox, object.cocScale * mesh.cocScaleLeast, object.cocScale * mesh.cocScaleMost, plan);
-}
-
 // Depths and blur of an object's box, before anything is decided.
 ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t index, const glm::dmat4& viewFromWorld) {
     const Object& object = world.pose.objects[index];
@@ -92,11 +88,12 @@ ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t i
     if (box.empty()) return result;
     result.nearestDepth = -box.maximum.z;
     result.farthestDepth = -box.minimum.z;
+    const VertexBlurBounds& blurs = world.scene->meshes[static_cast<std::size_t>(object.mesh)].blurBounds;
     result.cocScale = object.cocScale;
+    result.own = ownBlur(plan.coc, object.cocScale, blurs);
+    result.blurMoves = blurs.moves && shutterIsOpen(world, plan.view);
     if (result.nearestDepth > plan.view.nearPlane)
-        result.coc = circleOfConfusionRange(
-            plan.coc, cocBoxOf(result, world.scene->meshes[static_cast<std::size_t>(object.mesh)], plan),
-            plan.view.width);
+        result.coc = circleOfConfusionRange(plan.coc, cocBoxOf(result.viewBox, result.own, plan), plan.view.width);
     else
         result.coc = {std::numeric_limits<double>::infinity(), 0, 0, std::numeric_limits<double>::infinity()};
     return result;
@@ -146,7 +143,7 @@ void chooseRefinement(ObjectPlan& object, const World& world, const FramePlan& p
         double longest = 0;
         for (const LevelDraw& draw : {object.coarse, object.fine})
             if (draw.sampleCount > 0) longest = std::max(longest, pyramid.levels[draw.level].longestEdge);
-        const CocBox box = cocBoxOf(object, world.scene->meshes[mesh], plan);
+        const CocBox box = cocBoxOf(object.viewBox, object.own, plan);
         object.cocDeviation =
             cocDeviation(plan.coc, box, longest * largestScale(object.pose),
                          plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect), plan.view.width);
@@ -160,7 +157,7 @@ std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const Ob
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     if (pyramid.levels.front().triangleCount == 0) return "has no triangles";
     if (plan.settings.keepAll) return "";
-    if (outsideWidenedFrustum(object.viewBox, plan, object.coc.largest)) return "no lens sample can see it";
+    if (outsideWidenedFrustum(object.viewBox, plan, object.own, object.coc.largest)) return "no lens sample can see it";
     return "";
 }
 
@@ -191,13 +188,16 @@ void leaveOutLens(FramePlan& plan, const World& world) {
     plan.apertureDiameter = 0;
     plan.samples.resize(kept);
     for (LensSample& sample : plan.samples) sample.lens = glm::vec2(0);
-    for (ObjectPlan& object : plan.objects) object.coc = {};
+    for (ObjectPlan& object : plan.objects) {
+        object.coc = {};
+        object.own = {};
+    }
 }
 
-bool scalesBlur(const FramePlan& plan, const World& world) {
+bool hasOwnBlur(const FramePlan& plan, const World& world) {
     return std::any_of(plan.objects.begin(), plan.objects.end(), [&](const ObjectPlan& object) {
         const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
-        return object.cocScale != 1 || mesh.cocScaleLeast != 1 || mesh.cocScaleMost != 1;
+        return object.cocScale != 1 || mesh.blurBounds != VertexBlurBounds{};
     });
 }
 
@@ -321,8 +321,8 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
 
     // Decide on the lens first: levels depend on the blur that remains.
     leaveOutLens(plan, world);
-    plan.usesCocScales = plan.usesLens && scalesBlur(plan, world);
-    plan.usesCocControls = plan.usesLens && (plan.usesCocScales || !plan.coc.thinLens());
+    plan.usesOwnBlur = plan.usesLens && hasOwnBlur(plan, world);
+    plan.usesCocControls = plan.usesLens && (plan.usesOwnBlur || !plan.coc.thinLens());
     for (ObjectPlan& object : plan.objects) {
         chooseLevels(object, world.pyramids[static_cast<std::size_t>(object.mesh)], plan);
         chooseRefinement(object, world, plan);
@@ -330,8 +330,8 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     }
 
     // Nearest first: what is drawn first hides the rest.
-    std::stable_sort(plan.objects.begin(), plan.objects.end(),
-                     [](const ObjectPlan& a, const ObjectPlan& b) { return a.nearestDepth < b.nearestDepth; });
+    std::ranges::sort(plan.objects, {},
+                      [](const ObjectPlan& object) { return std::pair(object.nearestDepth, object.object); });
     noteUnusedPaths(plan, world);
     noteLevels(plan, world);
     return plan;

@@ -15,10 +15,11 @@
 
 namespace defocus {
 
-// The time of a sample: `fraction` of the way from one moment of the shutter to the next.
+// The time of a sample.
 struct SampleMoment {
     std::uint32_t moment = 0;
-    float fraction = 0;  // [0, 1); it is 0 at the last moment
+    float fraction = 0;  // of the way from this moment of the shutter to the next, [0, 1); it is 0 at the last moment
+    float time = 0;      // of the exposure, [0, 1)
 };
 
 // One level of an object, and the lens samples that draw it.
@@ -79,6 +80,8 @@ struct ObjectPlan {
     std::optional<double> heldLensShare;
     std::vector<VisibleLevel> visible;  // levels that are drawn in part; a level that isn't here is drawn whole
     double cocScale = 1;                // factor on the object's blur, ≥ 0
+    OwnBlur own;                        // what its surfaces make of the lens's blur
+    bool blurMoves = false;             // its vertices have a blur of their own that changes while the shutter is open
     Refinement refinement = Refinement::none;
     bool mirrored = false;   // the transform flips the winding of triangles
     bool blended = false;    // it has alpha-blended primitives
@@ -130,7 +133,7 @@ struct FramePlan {
     std::vector<std::vector<bool>> levelsUsed;  // [mesh][level]: whether any object draws it
     bool usesLens = true;          // false: no blur reaches half a pixel, and the samples only smooth edges
     bool usesCocControls = false;  // C differs from a + b·w somewhere
-    bool usesCocScales = false;    // some object or vertex scales its blur
+    bool usesOwnBlur = false;      // some object or vertex makes something of its own of the blur
     bool usesTextures = false;
     bool usesBlending = false;
     bool usesTransmission = false;

@@ -69,18 +69,23 @@ std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::
     return motion;
 }
 
+bool shutterIsOpen(const World& world, const View& view) {
+    return momentCount(world, view) > 0;
+}
+
 void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPlan>& casters) {
-    const auto moves = [](const ObjectPlan& object) { return !object.motion.empty(); };
+    const auto moves = [](const ObjectPlan& object) { return !object.motion.empty() || object.blurMoves; };
     if (std::ranges::none_of(plan.objects, moves) && std::ranges::none_of(casters, moves)) return;
     const auto segments = static_cast<double>(momentCount(world, plan.view) - 1);
     for (std::size_t i = 0; i < plan.samples.size(); ++i) {
+        const float time = plan.samples[i].time;
         if (world.shutter.perSample) {
-            plan.moments.push_back({static_cast<std::uint32_t>(i), 0});
+            plan.moments.push_back({static_cast<std::uint32_t>(i), 0, time});
             continue;
         }
-        const double place = segments * static_cast<double>(plan.samples[i].time);
+        const double place = segments * static_cast<double>(time);
         const double moment = std::floor(place);
-        plan.moments.push_back({static_cast<std::uint32_t>(moment), static_cast<float>(place - moment)});
+        plan.moments.push_back({static_cast<std::uint32_t>(moment), static_cast<float>(place - moment), time});
     }
     const glm::dmat4 middleFromWorld = glm::inverse(plan.view.worldFromCamera);
     for (const glm::dmat4& worldFromCamera : plan.view.shutterCameras)

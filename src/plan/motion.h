@@ -14,7 +14,11 @@ void checkShutter(const World& world, const View& view, const RenderSettings& se
 // camera.
 std::vector<ObjectPose> objectMotion(const World& world, const View& view, std::size_t object, const ObjectPose& pose);
 
-// Fills plan.moments and plan.middleFromView. They stay empty if none of the plan's objects moves.
+// Returns whether the shutter is open for more than a moment.
+bool shutterIsOpen(const World& world, const View& view);
+
+// Fills plan.moments and plan.middleFromView. They stay empty if none of the plan's objects moves and no blur of
+// vertices changes.
 void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPlan>& casters);
 
 }  // namespace defocus

@@ -58,7 +58,7 @@ std::string drawsText(const ObjectPlan& object) {
     const bool shares = boundarySample(object).has_value();
     return fmt::format("{:<24}  {}{}", drawText(object.coarse, shares ? 1 - object.boundaryShare : 0),
                        drawText(object.fine, shares ? object.boundaryShare : 0),
-                       object.motion.empty() ? "" : "  moves");
+                       object.motion.empty() ? object.blurMoves ? "  changes its blur" : "" : "  moves");
 }
 
 std::size_t movingCount(const FramePlan& plan) {

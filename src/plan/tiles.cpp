@@ -39,7 +39,7 @@ FramePlan tileOf(const FramePlan& plan, const Tile& tile) {
     part.tile = tile;
     if (plan.settings.keepAll || plan.usesTransmission) return part;
     std::erase_if(part.objects, [&](const ObjectPlan& object) {
-        return outsideWidenedFrustum(object.viewBox, plan, object.coc.largest, tile.area);
+        return outsideWidenedFrustum(object.viewBox, plan, object.own, object.coc.largest, tile.area);
     });
     part.trianglesDrawn = 0;
     for (const ObjectPlan& object : part.objects)

@@ -8,6 +8,11 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <optional>
+#include <utility>
+
+#include "plan/clip_vertices.h"
+#include "plan/lens_facing.h"
 
 namespace defocus {
 
@@ -20,8 +25,9 @@ constexpr double storage = 1e-6;            // relative: of a cluster's values
 constexpr double guardBand = 1.8;           // images from the middle beyond which triangles may be clipped
 constexpr int shutterParts = 4;             // of the way between two moments, each with one bound of the motion
 constexpr std::size_t mostMoments = 64;     // of the shutter: with more, all clusters are drawn
-constexpr double leastSaving = 1.0 / 8;     // of a level's triangles, below which it is drawn whole
-constexpr std::uint32_t leastGap = 128;     // triangles: to hide fewer costs more than a further run of indices
+constexpr std::size_t mostPosedVertices = 100'000;  // of a level, at all moments: as many take some 10 ms
+constexpr double leastSaving = 1.0 / 8;             // of a level's triangles, below which it is drawn whole
+constexpr std::uint32_t leastGap = 128;             // triangles: to hide fewer costs more than a further run of indices
 
 // The lens in object space during a part of the exposure.
 struct LensRange {
@@ -40,7 +46,7 @@ struct ObjectViews {
     double leastVolume = 0;    // of a unit of the object's space, m³
     double largestSize = 0;    // bound of the matrices' norms
     double largestOffset = 0;  // m, of the object's origin from the camera
-    double cocScale = 1;
+    OwnBlur own;               // what the object's surfaces make of the blur
 };
 
 double frobeniusNorm(const glm::dmat3& m) {
@@ -89,6 +95,14 @@ void addLenses(ObjectViews& views, const ObjectPlan& object, const World& world)
     views.lenses = std::move(lenses);
 }
 
+// How far the samples reach on the unit disk.
+double lensReach(const FramePlan& plan) {
+    double reach = 0;
+    for (const LensSample& sample : plan.samples)
+        reach = std::max(reach, static_cast<double>(glm::length(sample.lens)));
+    return reach;
+}
+
 ObjectViews objectViews(const ObjectPlan& object, const World& world, const FramePlan& plan) {
     ObjectViews views;
     views.viewFromObject.push_back(object.viewFromObject);
@@ -97,17 +111,15 @@ ObjectViews objectViews(const ObjectPlan& object, const World& world, const Fram
         views.largestSize = std::max(views.largestSize, frobeniusNorm(glm::dmat3(matrix)));
         views.largestOffset = std::max(views.largestOffset, glm::length(glm::dvec3(matrix[3])));
     }
-    const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
-    if (mesh.cocScaleLeast != mesh.cocScaleMost) return views;
-    views.cocScale = object.cocScale * mesh.cocScaleLeast;
-    double reach = 0;  // of the samples on the unit disk
-    for (const LensSample& sample : plan.samples)
-        reach = std::max(reach, static_cast<double>(glm::length(sample.lens)));
+    views.own = object.own;
+    if (views.own.varies()) return views;
+    const double factor = views.own.factorMost;
+    const double reach = lensReach(plan);
     const ClipCircleOfConfusion& coc = plan.coc;
-    const double slope =
-        reach * views.cocScale * (coc.front + coc.chromatic) * std::hypot(coc.tilt.x, coc.aspect * coc.tilt.y);
+    const double slope = reach * factor * (coc.front + coc.chromatic) * std::hypot(coc.tilt.x, coc.aspect * coc.tilt.y);
     if (!(slope < 0.9)) return views;
-    views.lensRadius = reach * views.cocScale * std::abs(coc.a) * plan.tanHalfHorizontal / (1 - slope);
+    views.lensRadius =
+        reach * factor * std::max(std::abs(coc.a), std::abs(coc.aBehind)) * plan.tanHalfHorizontal / (1 - slope);
     views.shapeLoss = (1 + slope) / (1 - slope);
     addLenses(views, object, world);
     return views;
@@ -161,6 +173,20 @@ bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius,
     return nearest + cluster.planes - disk - lens.motion >= margin + storage * size;
 }
 
+// No triangle in the box is clipped into others, whose corners would be rounded anew.
+bool staysWhole(const CocBox& coc, const FramePlan& plan) {
+    const double reach = guardBand - circleOfConfusionRange(plan.coc, coc, plan.view.width).largest / plan.view.width *
+                                         std::max(1.0, plan.coc.aspect);
+    return std::max({-coc.ndcLeast.x, coc.ndcMost.x, -coc.ndcLeast.y, coc.ndcMost.y}) < reach;
+}
+
+// C is one linear function of the place all over the box.
+bool isOneLinearPiece(const CocBox& coc, const FramePlan& plan) {
+    const glm::dvec2 tanHalf = plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect);
+    const CocDeviation deviation = cocDeviation(plan.coc, coc, 1, tanHalf, plan.view.width);
+    return deviation.kinks == 0 && deviation.curved == 0;
+}
+
 bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     if (views.lenses.empty() || !(cluster.leastCosine > 0)) return false;
     const double margin = leastPlaneDistance(cluster, box, views, plan);
@@ -169,23 +195,155 @@ bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectVie
         return facesAway(cluster, lens, views.lensRadius, margin);
     });
     if (!away) return false;
-    // Neither clipped into other triangles nor bent by C?
-    const CocBox coc = cocBoxOf(box, views.cocScale, views.cocScale, plan);
-    const double reach = guardBand - circleOfConfusionRange(plan.coc, coc, plan.view.width).largest / plan.view.width *
-                                         std::max(1.0, plan.coc.aspect);
-    if (!(std::max({-coc.ndcLeast.x, coc.ndcMost.x, -coc.ndcLeast.y, coc.ndcMost.y}) < reach)) return false;
-    if (!plan.usesCocControls) return true;
-    const glm::dvec2 tanHalf = plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect);
-    const CocDeviation deviation = cocDeviation(plan.coc, coc, 1, tanHalf, plan.view.width);
-    return deviation.kinks == 0 && deviation.curved == 0;
+    const CocBox coc = cocBoxOf(box, views.own, plan);
+    return staysWhole(coc, plan) && (!plan.usesCocControls || isOneLinearPiece(coc, plan));
 }
+
+// ---- by the corners themselves -------------------------------------------------------------------------------------
+
+// A level's corners at moments of the exposure. Where C is any function, or vertices move against each other, only they
+// say what the lens sees.
+struct LevelCorners {
+    std::vector<ClipVertices> moments;  // one: everything stands still
+    bool apart = false;                 // each moment is a sample's own; else corners go evenly from one to the next
+    double terms = 0;                   // m, of the sums that make positions on the GPU
+    double lensRadius = 1;              // of the samples on the unit disk
+    double sign = 1;                    // −1: mirrored
+};
+
+LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
+    LevelCorners corners;
+    const std::size_t last = object.motion.empty() ? 0 : object.motion.size() - 1;
+    corners.apart = !object.motion.empty() && world.shutter.perSample;
+    const auto add = [&](const ObjectPose& pose, double time) {
+        corners.moments.push_back(clipVertices(plan, world, object, level, pose, time));
+        for (const glm::dmat4& matrix : pose.viewFromJoint)
+            corners.terms = std::max(corners.terms, glm::length(glm::dvec3(matrix[3])));
+    };
+    if (object.motion.empty() && !object.blurMoves) add(object.pose, 0.5);
+    if (object.motion.empty() && object.blurMoves)
+        for (const double time : {0.0, 1.0}) add(object.pose, time);
+    for (std::size_t i = 0; i < object.motion.size(); ++i)
+        add(object.motion[i], corners.apart ? static_cast<double>(plan.samples[i].time)
+                                            : static_cast<double>(i) / static_cast<double>(last));
+    // A skin adds matrices up: each term is as large as the place it leads to, or as the joint is far.
+    const double farthest = glm::length(glm::max(glm::abs(object.viewBox.minimum), glm::abs(object.viewBox.maximum)));
+    corners.terms = 2 * (corners.terms + farthest);
+    corners.lensRadius = lensReach(plan);
+    corners.sign = object.mirrored ? -1 : 1;
+    return corners;
+}
+
+// Whether a level's corners decide which of its clusters are drawn: it must show triangles as they are, and not be so
+// large that the test would take longer than it saves.
+bool cornersDecide(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
+    const bool bends = object.deformed || object.skinned;
+    if (!bends && !plan.usesCocControls) return false;
+    if (object.refinement != Refinement::none || object.nearestDepth <= plan.view.nearPlane) return false;
+    const PyramidLevel& own = world.pyramids[static_cast<std::size_t>(object.mesh)].levels[level];
+    return own.vertexCount * std::max<std::size_t>(object.motion.size(), 1) <= mostPosedVertices;
+}
+
+Bounds viewBoxOf(const IndexRange& range, const Pyramid& pyramid, const LevelCorners& corners, const FramePlan& plan) {
+    const glm::dvec3 tangents(plan.tanHalfHorizontal, plan.tanHalfHorizontal / plan.coc.aspect, -1);
+    Bounds box;
+    for (const ClipVertices& moment : corners.moments)
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+            box.extend(moment.places[pyramid.indices[i]] * tangents);
+    return box;
+}
+
+LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices) {
+    LensTriangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+        triangle.places[k] = moment.places[indices[k]];
+        triangle.coc[k] = moment.coc[indices[k]];
+    }
+    return triangle;
+}
+
+// By how much the determinant must be below 0 so that rounded corners can't turn the triangle over. Twice its area in
+// px² is W·H/4·det/(w₀w₁w₂); corners that move by r px change it by 2r·(sum of two edges) + 8r² at most.
+double leastDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
+    double least = infinity;
+    double most = 0;
+    double edge = 0;
+    for (const LensTriangle* triangle : {&from, &to})
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const glm::dvec3& p = triangle->places[i];
+            const glm::dvec3& q = triangle->places[j];
+            least = std::min(least, p.z);
+            most = std::max(most, p.z);
+            const glm::dvec2 step = glm::abs(glm::dvec2(p) / p.z - glm::dvec2(q) / q.z);
+            const double blur = std::abs(triangle->coc[i] / p.z - triangle->coc[j] / q.z);
+            edge = std::max(edge, plan.view.width * (step.x / 2 + blur) + plan.view.height * step.y / 2);
+        }
+    const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
+    const double rounded = snapping + focal / least * transformation * terms;
+    const double stretched = edge * (most / least) * (most / least);
+    return (4 * rounded * stretched + 8 * rounded * rounded) * 4 / plan.view.width / plan.view.height * most * most *
+           most;
+}
+
+// Two corners are one.
+bool drawsNothing(const LensTriangle& t) {
+    const auto same = [&](std::size_t i, std::size_t j) { return t.places[i] == t.places[j] && t.coc[i] == t.coc[j]; };
+    return same(0, 1) || same(1, 2) || same(2, 0);
+}
+
+bool triangleFacesAway(const std::uint32_t* indices, const LevelCorners& corners, const FramePlan& plan) {
+    const double aspect = plan.coc.aspect;
+    const auto away = [&](LensTriangle from, LensTriangle to, int parts) {
+        if (drawsNothing(from) && drawsNothing(to)) return true;
+        if (corners.sign < 0)
+            for (LensTriangle* triangle : {&from, &to}) {
+                std::swap(triangle->places[1], triangle->places[2]);
+                std::swap(triangle->coc[1], triangle->coc[2]);
+            }
+        const double margin = leastDeterminant(from, to, corners.terms, plan);
+        for (int part = 0; part < parts; ++part) {
+            const LensTriangle begin = between(from, to, static_cast<double>(part) / parts);
+            const LensTriangle end = between(from, to, static_cast<double>(part + 1) / parts);
+            if (!(largestDeterminant(begin, end, aspect, corners.lensRadius) <= -margin)) return false;
+        }
+        return true;
+    };
+    const std::vector<ClipVertices>& moments = corners.moments;
+    if (moments.size() == 1 || corners.apart)
+        return std::all_of(moments.begin(), moments.end(), [&](const ClipVertices& moment) {
+            const LensTriangle triangle = triangleAt(moment, indices);
+            return away(triangle, triangle, 1);
+        });
+    for (std::size_t i = 0; i + 1 < moments.size(); ++i)
+        if (!away(triangleAt(moments[i], indices), triangleAt(moments[i + 1], indices), shutterParts)) return false;
+    return true;
+}
+
+// C of a corner is linear between two moments: of the thin lens, because w is; else if it is one linear function.
+bool goesEvenly(const CocBox& coc, const LevelCorners& corners, const ObjectPlan& object, const FramePlan& plan) {
+    if (corners.apart || corners.moments.size() == 1 || object.motion.empty()) return true;
+    if (object.blurMoves) return false;
+    return plan.coc.thinLens() || isOneLinearPiece(coc, plan);
+}
+
+bool cornersFaceAway(const IndexRange& range, const Bounds& box, const LevelCorners& corners, const ObjectPlan& object,
+                     const Pyramid& pyramid, const FramePlan& plan) {
+    if (!(-box.maximum.z > plan.view.nearPlane * (1 + storage)) || plan.coc.chromatic > 0) return false;
+    const CocBox coc = cocBoxOf(box, object.own, plan);
+    if (!staysWhole(coc, plan) || !goesEvenly(coc, corners, object, plan)) return false;
+    for (std::uint32_t i = range.first; i < range.first + range.count; i += 3)
+        if (!triangleFacesAway(&pyramid.indices[i], corners, plan)) return false;
+    return true;
+}
+
+// ---- levels --------------------------------------------------------------------------------------------------------
 
 bool clusterOutside(const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
     double largest = infinity;
     if (-box.maximum.z > plan.view.nearPlane)
-        largest = circleOfConfusionRange(plan.coc, cocBoxOf(box, views.cocScale, views.cocScale, plan), plan.view.width)
-                      .largest;
-    return outsideWidenedFrustum(box, plan, largest);
+        largest = circleOfConfusionRange(plan.coc, cocBoxOf(box, views.own, plan), plan.view.width).largest;
+    return outsideWidenedFrustum(box, plan, views.own, largest);
 }
 
 bool doubleSided(const Scene& scene, const Primitive& primitive) {
@@ -226,17 +384,24 @@ VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& obje
     VisibleLevel visible;
     visible.level = number;
     const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
-    const PyramidLevel& level = world.pyramids[static_cast<std::size_t>(object.mesh)].levels[number];
+    const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
+    const PyramidLevel& level = pyramid.levels[number];
+    std::optional<LevelCorners> corners;
+    if (cornersDecide(object, number, world, plan)) corners = levelCorners(object, number, world, plan);
+    const bool bends = object.deformed || object.skinned;
+    if (!corners && bends) return visible;
     auto cluster = level.clusters.begin();
     for (std::size_t p = 0; p < level.primitives.size(); ++p) {
         Runs runs(visible);
         const bool oneSided = !doubleSided(*world.scene, mesh.primitives[p]);
         const std::uint32_t end = level.primitives[p].first + level.primitives[p].count;
         for (; cluster != level.clusters.end() && cluster->indices.first < end; ++cluster) {
-            const Bounds box = viewBoxOf(*cluster, views);
+            const Bounds box =
+                corners ? viewBoxOf(cluster->indices, pyramid, *corners, plan) : viewBoxOf(*cluster, views);
             if (clusterOutside(box, views, plan))
                 runs.hideOutside(cluster->indices.count / 3);
-            else if (oneSided && clusterFacesAway(*cluster, box, views, plan))
+            else if (oneSided && ((!bends && clusterFacesAway(*cluster, box, views, plan)) ||
+                                  (corners && cornersFaceAway(cluster->indices, box, *corners, object, pyramid, plan))))
                 runs.hideFacingAway(cluster->indices.count / 3);
             else
                 runs.show(cluster->indices);
@@ -248,10 +413,9 @@ VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& obje
 
 }  // namespace
 
-CocBox cocBoxOf(const Bounds& viewBox, double scaleLeast, double scaleMost, const FramePlan& plan) {
+CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan) {
     CocBox box{.zNear = -viewBox.maximum.z, .zFar = -viewBox.minimum.z};
-    box.scaleLeast = scaleLeast;
-    box.scaleMost = scaleMost;
+    box.own = own;
     const double aspect = static_cast<double>(plan.view.width) / plan.view.height;
     const glm::dvec2 perTangent(1 / plan.tanHalfHorizontal, aspect / plan.tanHalfHorizontal);
     box.ndcLeast = glm::dvec2(infinity);
@@ -264,11 +428,25 @@ CocBox cocBoxOf(const Bounds& viewBox, double scaleLeast, double scaleMost, cons
     return box;
 }
 
+namespace {
+
+// The largest |factor·(a + b·w) + added·w| of any wavelength: linear in each of the two, so that their ends bound it.
+double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, double w) {
+    double reach = 0;
+    for (const double factor : {own.factorLeast, own.factorMost})
+        for (const double added : {own.addedLeast, own.addedMost})
+            reach = std::max(reach, std::abs(factor * (coc.a + coc.front * w) + added * w));
+    return reach + own.factorMost * std::abs(w) * coc.chromatic;
+}
+
+}  // namespace
+
 // All corners lie outside one plane of the frustum: for the left one, at the place −1 in the image, while x/tan + w +
 // |C| < 0 (half a pixel added for the jitter). The thin lens's |C(w)| is convex, so corners bound it; otherwise |C|/w
 // is at most `largest` px over the image's width. Within the image a further pixel makes up for rounded corners of
 // triangles.
-bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest, const PixelRectangle& area) {
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
+                           const PixelRectangle& area) {
     const View& view = plan.view;
     const ClipCircleOfConfusion& coc = plan.coc;
     const double tanX = plan.tanHalfHorizontal;
@@ -284,8 +462,7 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double 
     bool outside[5] = {true, true, true, true, true};
     for (const glm::dvec3& corner : viewBox.corners()) {
         const double w = -corner.z;
-        const double reach = coc.thinLens() ? std::abs(coc.a + coc.front * w) + std::abs(w) * coc.chromatic
-                                            : std::abs(w) * largest / view.width;
+        const double reach = coc.thinLens() ? thinLensReach(coc, own, w) : std::abs(w) * largest / view.width;
         const double x = corner.x / tanX;
         const double y = corner.y / tanY;
         const double marginX = std::abs(w) / view.width + reach;
@@ -299,13 +476,15 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double 
     return std::any_of(std::begin(outside), std::end(outside), [](bool value) { return value; });
 }
 
-bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest) {
-    return outsideWidenedFrustum(viewBox, plan, largest, {0, 0, plan.view.width, plan.view.height});
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest) {
+    return outsideWidenedFrustum(viewBox, plan, own, largest, {0, 0, plan.view.width, plan.view.height});
 }
 
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan) {
-    if (object.deformed || object.skinned || object.motion.size() > mostMoments) return;
-    const ObjectViews views = objectViews(object, world, plan);
+    if (object.motion.size() > mostMoments) return;
+    ObjectViews views;
+    views.own = object.own;
+    if (!object.deformed && !object.skinned) views = objectViews(object, world, plan);
     const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
     for (LevelDraw* draw : {&object.coarse, &object.fine}) {
         if (draw->sampleCount == 0) continue;

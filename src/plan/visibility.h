@@ -16,7 +16,10 @@
 //
 // A cluster faces away if the whole disk lies behind the planes of all its triangles at every t. The test uses the cone
 // of the cluster's normals in object space, where mirrored objects need no exception. If C consists of several linear
-// pieces inside the cluster's box, or is curved there, the cluster is never taken to face away.
+// pieces inside the cluster's box, or is curved there, or if vertices have a blur of their own or move against each
+// other (skins, morph targets), each triangle of the cluster is tested by its corners, posed on the CPU: by Eq. 5, and
+// while they move by Eq. 7 and 8 (lens_facing.h). That holds for triangles that are drawn as they are. An object whose
+// triangles are divided along C keeps those clusters, and so does a large mesh, whose test would take too long.
 //
 // Rounding. A renderer rounds positions, to 1/256 px at best, and this may turn a narrow triangle over. So the lens
 // must lie behind the planes by a margin that no rounding bridges. Then nothing that is left out would have drawn a
@@ -28,17 +31,18 @@
 
 namespace defocus {
 
-// Returns the part of `viewBox` in front of the near plane as the lens sees it. The blur of its surfaces is scaled by
-// `scaleLeast` to `scaleMost`.
-CocBox cocBoxOf(const Bounds& viewBox, double scaleLeast, double scaleMost, const FramePlan& plan);
+// Returns the part of `viewBox` in front of the near plane as the lens sees it; `own` is what its surfaces make of the
+// blur.
+CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan);
 
-// Returns whether no lens sample sees any part of the box. No CoC in the box is larger than `largest` px.
-bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest);
+// Returns whether no lens sample sees any part of the box, whose surfaces make `own` of the blur. No CoC in the box is
+// larger than `largest` px.
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest);
 // The same of a part of the image.
-bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, double largest, const PixelRectangle& area);
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
+                           const PixelRectangle& area);
 
-// Fills object.visible and lowers the triangle counts of its draws. The vertices of the object must not move against
-// each other.
+// Fills object.visible and lowers the triangle counts of its draws.
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan);
 
 }  // namespace defocus

@@ -34,6 +34,7 @@ struct GpuFrame {
     glm::vec4 coc;
     glm::vec4 cocField;
     glm::vec4 cocLimits;
+    glm::vec4 cocOther;
     glm::vec4 window;
     glm::mat4 worldFromView;
     std::array<glm::vec4, mostLights> lightPositions;
@@ -156,7 +157,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     const bool knownMap = type == EnvironmentType::map && environmentMap_;
     if (type == EnvironmentType::map && !knownMap) environmentMap_ = environmentTexture(*world.environment.map);
     if (!knownMap) irradiance_ = diffuseCoefficients(world.environment);
-    if (plan.usesCocScales) defines_.emplace_back("COC_SCALES", "1");
+    if (plan.usesOwnBlur) defines_.emplace_back("OWN_BLUR", "1");
     if (plan.coc.chromatic > 0) defines_.emplace_back("CHROMATIC", "1");
     countsInAlpha_ = barrelCuts(plan);
     if (countsInAlpha_) defines_.emplace_back("CAT_EYE", fmt::format("{:.6f}", plan.view.lens.catEye));
@@ -175,6 +176,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     block.cocField = {coc.tilt, coc.curvature, coc.gain};
     block.cocLimits = {std::min(coc.foregroundLimit, unlimitedBlur), std::min(coc.backgroundLimit, unlimitedBlur),
                        1 / (coc.aspect * coc.aspect), plan.settings.cocTolerance};
+    block.cocOther = {coc.aBehind, coc.shareOfMillimetre, 0, 0};
     const LayerWindow window = layerWindow(plan);
     block.window = {window.imageLeft, window.imageBottom, window.imageWidth, window.imageHeight};
     block.worldFromView = glm::mat4(glm::mat3(view.worldFromCamera));
@@ -213,9 +215,9 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
             {radius * sample.lens.x, radius * sample.lens.y, static_cast<float>(dither - std::floor(dither)), layer}};
     }
     samples_ = Buffer::of(std::span<const GpuSample>(samples));
-    std::vector<glm::vec2> moments;
-    for (const SampleMoment& moment : plan.moments) moments.emplace_back(moment.moment, moment.fraction);
-    moments_ = moments.empty() ? Buffer() : Buffer::of(std::span<const glm::vec2>(moments));
+    std::vector<glm::vec3> moments;
+    for (const SampleMoment& moment : plan.moments) moments.emplace_back(moment.moment, moment.fraction, moment.time);
+    moments_ = moments.empty() ? Buffer() : Buffer::of(std::span<const glm::vec3>(moments));
 
     // At infinity C/w = b: the sky seen through a pixel lies where the lens and the jitter moved it from, in units of
     // the image plane at distance 1. With controls, C/w depends on the pixel, which multiplies what the lens adds.

@@ -176,7 +176,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     result.uv0 = prefixBuffer(uv0, uv0.size());
     result.uv1 = prefixBuffer(uv1, uv1.size());
     result.tangents = prefixBuffer(vertices.tangents, vertexCount);
-    result.cocScales = prefixBuffer(vertices.cocScales, vertexCount);
+    result.blurs = prefixBuffer(vertices.blurs, vertexCount);
     result.indices = prefixBuffer(indices, indices.size());
 
     VertexArray& array = result.vertexArray;
@@ -190,7 +190,7 @@ void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
     attach(uv0Location, result.uv0, 2, sizeof(glm::vec2));
     attach(uv1Location, result.uv1, 2, sizeof(glm::vec2));
     attach(tangentLocation, result.tangents, 4, sizeof(glm::vec4));
-    attach(cocScaleLocation, result.cocScales, 1, sizeof(float));
+    attach(blurLocation, result.blurs, 3, sizeof(VertexBlur));
     if (result.colorRanges) {
         array.attribute(colorRangeLocation, 4, GL_UNSIGNED_SHORT, false);
         array.bind(colorRangeLocation, result.colorRanges, 0, sizeof(glm::u16vec4));
@@ -339,7 +339,7 @@ std::size_t GpuScene::bytes() const {
     std::size_t total = 0;
     for (const auto& [index, mesh] : meshes_)
         for (const Buffer* buffer : {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.colorRanges, &mesh.uv0,
-                                     &mesh.uv1, &mesh.tangents, &mesh.cocScales, &mesh.indices})
+                                     &mesh.uv1, &mesh.tangents, &mesh.blurs, &mesh.indices})
             total += buffer->bytes();
     for (const auto& [index, mesh] : meshes_)
         for (const Buffer* buffer : {&mesh.deformation.joints, &mesh.deformation.weights, &mesh.deformation.joints1,

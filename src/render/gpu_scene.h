@@ -27,7 +27,7 @@ enum AttributeLocation : unsigned {
     tangentLocation,
     lensLocation,
     eyeLocation,
-    cocScaleLocation,
+    blurLocation,
     jointsLocation,
     weightsLocation,
     joints1Location,
@@ -62,7 +62,7 @@ struct GpuDeformation {
 struct GpuMesh {
     glm::dvec3 origin{0.0};  // object units; positions in the buffers are relative to it
     VertexArray vertexArray;
-    Buffer positions, normals, colors, colorRanges, uv0, uv1, tangents, cocScales, indices;
+    Buffer positions, normals, colors, colorRanges, uv0, uv1, tangents, blurs, indices;
     GpuDeformation deformation;
     std::vector<GpuLevel> levels;
 };

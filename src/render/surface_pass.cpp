@@ -47,7 +47,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
         const ObjectPlan& object = plan.objects[index];
         const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
         GpuMesh& gpuMesh = scene_->mesh(object.mesh);
-        if (frame_->moments()) gpuMesh.vertexArray.attribute(momentLocation, 2, GL_FLOAT, false, true);
+        if (frame_->moments()) gpuMesh.vertexArray.attribute(momentLocation, 3, GL_FLOAT, false, true);
         if (frame_->bandShifts()) gpuMesh.vertexArray.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
         for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
             Draw draw;
@@ -57,6 +57,7 @@ void SurfacePass::addDraws(const FramePlan& plan) {
             draw.material = mesh.primitives[p].material;
             draw.mirrored = object.mirrored;
             draw.refinement = object.refinement;
+            draw.blurMoves = object.blurMoves;
             materialSlots_.try_emplace(draw.material, materialSlots_.size());
             addLevel(draw, object, object.coarse, ScreenDoor::coarseShare);
             addLevel(draw, object, object.fine, ScreenDoor::fineShare);
@@ -130,7 +131,8 @@ const Program& SurfacePass::program(const Draw& draw) {
     const bool colored = static_cast<bool>(mesh.colors);
     set(colored && shaded() && draw.level == 0, "VERTEX_COLOR_RANGES");
     set(colored && shaded() && draw.level > 0, "LEVEL_COLOR_RANGE");
-    set(static_cast<bool>(mesh.cocScales), "VERTEX_COC_SCALES");
+    set(static_cast<bool>(mesh.blurs), "VERTEX_BLURS");
+    set(draw.blurMoves && frame_->moments(), "BLUR_MOVES");
     set(refined, "REFINED");
     set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // other stages: a program of its own
     set(material.alphaMode == AlphaMode::mask, "ALPHA_MASK");
@@ -161,7 +163,7 @@ void SurfacePass::bindFrame() {
 void SurfacePass::bindSamples(GpuMesh& mesh) {
     mesh.vertexArray.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
     mesh.vertexArray.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
-    if (frame_->moments()) mesh.vertexArray.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec2));
+    if (frame_->moments()) mesh.vertexArray.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec3));
     if (frame_->bandShifts()) mesh.vertexArray.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
 }
 

@@ -80,6 +80,7 @@ private:
         std::size_t commandOffset = 0;  // bytes into commands_, where there are several runs
         std::uint32_t triangleCount = 0;
         bool mirrored = false;
+        bool blurMoves = false;
         Refinement refinement = Refinement::none;
         ScreenDoor screenDoor = ScreenDoor::open;
         const Program* program = nullptr;

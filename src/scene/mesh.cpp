@@ -33,6 +33,21 @@ std::vector<std::uint32_t> weldedIndices(const std::vector<glm::vec3>& positions
 
 }  // namespace
 
+VertexBlurBounds boundsOf(const std::vector<VertexBlur>& blurs) {
+    VertexBlurBounds bounds;
+    if (blurs.empty()) return bounds;
+    bounds.factorLeast = bounds.factorMost = blurs.front().factor;
+    bounds.addedLeast = bounds.addedMost = blurs.front().opening;
+    for (const VertexBlur& blur : blurs) {
+        bounds.factorLeast = std::min(bounds.factorLeast, blur.factor);
+        bounds.factorMost = std::max(bounds.factorMost, blur.factor);
+        bounds.addedLeast = std::min({bounds.addedLeast, blur.opening, blur.closing});
+        bounds.addedMost = std::max({bounds.addedMost, blur.opening, blur.closing});
+        bounds.moves |= blur.opening != blur.closing;
+    }
+    return bounds;
+}
+
 std::size_t Mesh::triangleCount() const {
     std::size_t count = 0;
     for (const Primitive& primitive : primitives) count += primitive.indices.size() / 3;

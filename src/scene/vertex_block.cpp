@@ -59,7 +59,7 @@ void fillTangents(std::vector<glm::vec4>& tangents, const std::vector<glm::vec3>
 Vertices gathered(const Vertices& vertices, std::span<const std::uint32_t> order) {
     return {pick(vertices.positions, order), pick(vertices.normals, order), pick(vertices.tangents, order),
             pick(vertices.uv0, order),       pick(vertices.uv1, order),     pick(vertices.colors, order),
-            pick(vertices.joints, order),    pick(vertices.weights, order), pick(vertices.cocScales, order),
+            pick(vertices.joints, order),    pick(vertices.weights, order), pick(vertices.blurs, order),
             pick(vertices.joints1, order),   pick(vertices.weights1, order)};
 }
 
@@ -122,7 +122,7 @@ std::uint32_t append(Mesh& mesh, const VertexBlock& block) {
     join(to.colors, count, from.colors, added, glm::vec4(1));
     join(to.joints, count, from.joints, added, glm::u16vec4(0));
     join(to.weights, count, from.weights, added, glm::vec4(1, 0, 0, 0));
-    join(to.cocScales, count, from.cocScales, added, 1.0f);
+    join(to.blurs, count, from.blurs, added, VertexBlur{});
     join(to.joints1, count, from.joints1, added, glm::u16vec4(0));
     join(to.weights1, count, from.weights1, added, glm::vec4(0));
 

@@ -27,7 +27,7 @@ VertexBlock flatShaded(const VertexBlock& block, std::span<std::vector<std::uint
 
 // Appends `block` to the mesh's vertices and returns the index of its first. What only one side has is filled with
 // neutral values on the other: normal +y, a tangent perpendicular to the normal, uv 0, white, the first joint, no
-// displacement.
+// displacement, the lens's blur.
 std::uint32_t append(Mesh& mesh, const VertexBlock& block);
 
 // Any unit vector perpendicular to the unit vector `normal`.

@@ -19,6 +19,7 @@ namespace {
 
 constexpr ImU32 plate = IM_COL32(12, 12, 12, 190);
 constexpr ImU32 white = IM_COL32(240, 240, 240, 255);
+constexpr ImU32 amber = IM_COL32(255, 198, 92, 255);
 constexpr ImU32 quiet = IM_COL32(190, 190, 190, 255);
 
 ImVec2 corner(const HudContext& context, double x, double y) {
@@ -31,17 +32,20 @@ ImU32 seeThrough(ImU32 color, float alpha) {
     return (color & ~IM_COL32_A_MASK) | static_cast<ImU32>(own * alpha) << IM_COL32_A_SHIFT;
 }
 
-// Text on a dark plate; `at` is its corner or, where the anchors say so, another point of it. Returns its size.
+// Text on a dark plate; `at` is its corner or, where the anchors say so, another point of it. Lines end after `width`;
+// 0: where the text does. Returns its size.
 ImVec2 label(const HudContext& context, ImVec2 at, float anchorX, float anchorY, const std::string& text, ImU32 color,
-             float alpha = 1) {
+             float alpha = 1, float width = 0) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float pad = 6 * context.scale;
-    const ImVec2 words = ImGui::CalcTextSize(text.c_str());
+    const float wrap = width > 2 * pad ? width - 2 * pad : 0;
+    const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap > 0 ? wrap : -1);
     const ImVec2 size(words.x + 2 * pad, words.y + pad);
     at.x = std::floor(at.x - anchorX * size.x);
     at.y = std::floor(at.y - anchorY * size.y);
     list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, seeThrough(plate, alpha), 4 * context.scale);
-    list.AddText({at.x + pad, at.y + 0.5f * pad}, seeThrough(color, alpha), text.c_str());
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + pad, at.y + 0.5f * pad}, seeThrough(color, alpha),
+                 text.c_str(), nullptr, wrap);
     return size;
 }
 
@@ -60,8 +64,8 @@ std::string errorLabel(const ViewPicture& picture) {
     return error ? fmt::format("{} error about {:.2g}", picture.converged() ? " converged," : ",", *error) : "";
 }
 
-// Lens and samples at the bottom left: side by side, one above the other where the picture is narrow. Returns the
-// corner at their top right.
+// Lens and samples at the bottom left: side by side, one above the other where the picture is narrow. Above them what
+// is odd about the picture. Returns the corner at their top right.
 ImVec2 drawStatus(const HudContext& context, const ViewState& state) {
     const float gap = 8 * context.scale;
     const ImVec2 at = corner(context, 0, 1);
@@ -89,6 +93,10 @@ ImVec2 drawStatus(const HudContext& context, const ViewState& state) {
         const ImVec2 size = label(context, next, 0, 1, text, color);
         next.x += size.x + 0.5f * gap;
         end = {std::max(end.x, next.x), next.y - size.y};
+    }
+    for (const std::string& warning : context.warnings) {
+        const ImVec2 size = label(context, {at.x + gap, end.y - 0.5f * gap}, 0, 1, warning, amber, 1, room);
+        end = {std::max(end.x, at.x + gap + size.x), end.y - 0.5f * gap - size.y};
     }
     return end;
 }

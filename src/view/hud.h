@@ -22,6 +22,7 @@ struct HudContext {
     double frameMilliseconds = 0;
     std::string leftLabel, rightLabel;  // of the two sides; empty: one image
     bool mouseOnInterface = false;
+    std::vector<std::string> warnings;       // of the picture, a line each
     const StillExport* exporting = nullptr;  // null: nothing is being written
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 using Names = std::vector<std::string_view>;
 
-const Names focusFields = {"focusDistance", "focusRangeFront", "focusRangeBehind",
+const Names focusFields = {"focusDistance", "focusRangeFront", "focusRangeBehind", "focusRangeRefocuses",
                            "focusTilt",     "focusSwing",      "fieldCurvature"};
 const Names apertureFields = {"bladeCount",  "bladeRotation",       "bladeCurvature", "anamorphicRatio",
                               "obstruction", "sphericalAberration", "catEye",         "axialChromaticAberration"};

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 
+#include "gl/read_back.h"
 #include "gl/timer.h"
 #include "render/aov/aov.h"
 #include "render/aov/work.h"
@@ -64,6 +65,8 @@ public:
         return growing_ ? first_->estimatedError() : std::nullopt;
     }
     [[nodiscard]] std::uint32_t shownSamples() const { return shownSamples_; }  // in the texture
+    // The first side as it is, linear.
+    [[nodiscard]] Image image() { return readBack(*first_->texture(), 4); }
     [[nodiscard]] const FramePlan& plan() const { return first_->plan(); }
     [[nodiscard]] const FramePlan* secondPlan() const { return second_ ? &second_->plan() : nullptr; }
     [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // of the two sides, dB

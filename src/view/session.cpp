@@ -112,6 +112,7 @@ void ViewSession::frame() {
     noteEdits();
     updatePicture();
     meter();
+    updateWarnings();
     exportStep();
 
     const Clock::time_point interfaceBegin = Clock::now();
@@ -256,6 +257,7 @@ void ViewSession::drawInterface() {
     hud.frameMilliseconds = frameMilliseconds_;
     hud.mouseOnInterface = ImGui::GetIO().WantCaptureMouse;
     hud.exporting = export_ ? &*export_ : nullptr;
+    hud.warnings = warnings_;
     drawHud(hud, state_);
 
     PanelContext panel;

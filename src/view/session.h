@@ -62,8 +62,10 @@ private:
     void keepViews(const ViewActions& actions);
     void hide(const Request& options);
     void poseScene();
+    void lightTheScene();
     void makePicture();
     void updatePicture();
+    void updateWarnings();
     void drawInterface();
     void act();
     void tiltFocus();
@@ -113,11 +115,15 @@ private:
     bool draft_ = false;  // its pyramids are yet to come
     std::optional<ViewPicture> picture_;
     std::optional<StillExport> export_;
+    std::vector<std::string> warnings_;  // of the picture that rests
+    std::vector<std::string> clipping_;  // of these
+    std::optional<std::pair<double, ToneMap>> clippingKnownAt_;
     std::uint64_t poseVersion_ = 0;
     double posedTime_ = 0;
     int posedClip_ = 0;
     ShutterSettings posedShutter_;
-    std::vector<glm::dmat4> shutterCameras_;  // of a camera of the file that moves while the shutter is open
+    std::optional<double> lightAngle_, lightRadius_;  // of the lights as they are
+    std::vector<glm::dmat4> shutterCameras_;          // of a camera of the file that moves while the shutter is open
     Clock::time_point begin_ = Clock::now();
     double lastFrame_ = 0;
     double statsWrittenAt_ = -1;

@@ -289,6 +289,7 @@ void ViewSession::writeStats() {
         {"psnr", picture_ && picture_->psnr() && std::isfinite(*picture_->psnr())
                      ? nlohmann::ordered_json(*picture_->psnr())
                      : nullptr},
+        {"warnings", warnings_},
         {"drawn", {plan.view.width, plan.view.height, plan.samples.size()}},
         {"marker", state_.marker ? json{{"name", state_.marker->name}, {"distance", state_.marker->distance}} : json()},
         {"undoSteps", history_.undoSteps()},

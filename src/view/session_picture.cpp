@@ -5,10 +5,18 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "frame/picture_warnings.h"
+#include "frame/plan_warnings.h"
 #include "frame/reference_image.h"
 #include "view/session.h"
 
 namespace defocus {
+
+namespace {
+
+constexpr std::uint32_t clippingSamples = 16;  // that show whether a picture is clipped
+
+}
 
 PictureRequest ViewSession::request() const {
     PictureRequest result;
@@ -83,6 +91,23 @@ void ViewSession::updatePicture() {
         makePicture();
         picture_->update(request(), state_.budget);
     }
+}
+
+// What a person should know of a picture that rests. The plan knows most of it; what is clipped is looked for once.
+void ViewSession::updateWarnings() {
+    warnings_.clear();
+    if (!picture_ || picture_->moving()) {
+        clippingKnownAt_.reset();
+        return;
+    }
+    const WriteOptions write = writeOptions();
+    const std::pair key(write.exposure, write.toneMap);
+    if (picture_->samples() >= clippingSamples && clippingKnownAt_ != key) {
+        clipping_ = clippingWarnings(picture_->image(), write);
+        clippingKnownAt_ = key;
+    }
+    warnings_ = planWarnings(picture_->plan(), *chosenMethod(state_.options).method, state_.mostSamples);
+    if (clippingKnownAt_) warnings_.insert(warnings_.end(), clipping_.begin(), clipping_.end());
 }
 
 std::string ViewSession::sideLabel(const PictureSide& side) const {

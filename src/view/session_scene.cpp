@@ -61,6 +61,8 @@ void ViewSession::adoptScene(LoadedScene scene) {
     posedTime_ = state_.animation.time;
     posedClip_ = clip;
     posedShutter_ = state_.options.shutter;
+    lightAngle_ = state_.options.lightAngle;
+    lightRadius_ = state_.options.lightRadius;
     shutterCameras_ = frame_->view.shutterCameras;
     state_.selected = -1;
     state_.shotKeys.clear();
@@ -120,6 +122,8 @@ void ViewSession::moveThings(double seconds) {
     }
     if (state_.poppingSince && now() - *state_.poppingSince > poppingDuration) actions_.togglePopping = true;
 
+    if (state_.options.lightAngle != lightAngle_ || state_.options.lightRadius != lightRadius_) lightTheScene();
+
     AnimationState& animation = state_.animation;
     const std::vector<AnimationClip>& clips = frame_->scene->clips;
     if (clips.empty()) {
@@ -144,7 +148,7 @@ void ViewSession::poseScene() {
     state_.options.time = animation.time;
     state_.options.clip = animation.clip == 0 ? "" : clipText(scene, animation.clip);
     world.pose = exposedPose(state_.options, scene);
-    world.lights = movedLights(world.lights, world.pose);
+    lightTheScene();
     PlacedCamera standing;
     standing.worldFromCamera = state_.camera.worldFromCamera;
     const PlacedCamera camera = followedCamera().value_or(standing);
@@ -155,6 +159,13 @@ void ViewSession::poseScene() {
     posedTime_ = animation.time;
     posedClip_ = animation.clip;
     posedShutter_ = state_.options.shutter;
+}
+
+// The lights stand where the pose has them, of the sizes that the options ask for.
+void ViewSession::lightTheScene() {
+    lightAngle_ = state_.options.lightAngle;
+    lightRadius_ = state_.options.lightRadius;
+    frame_->world.lights = sizedLights(state_.options, frame_->ownLights, frame_->world.pose);
     ++poseVersion_;
 }
 

@@ -40,6 +40,26 @@ void environmentRows(ViewState& state, ViewActions& actions) {
     if (ImGui::IsItemDeactivatedAfterEdit()) actions.changed = state.options;
 }
 
+// A size of lights: their own, or one for all.
+void lightSizeRow(const char* name, const char* label, const char* tooltip, double first, double most,
+                  const char* format, std::optional<double>& size) {
+    ImGui::PushID(name);
+    rowLabel(label, tooltip);
+    bool given = size.has_value();
+    if (ImGui::Checkbox("##given", &given)) size = given ? std::optional(first) : std::nullopt;
+    notePlace(name);
+    ImGui::SameLine();
+    if (size) {
+        const double least = 0;
+        ImGui::SetNextItemWidth(-1);
+        ImGui::SliderScalar("##size", ImGuiDataType_Double, &*size, &least, &most, format,
+                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+    } else {
+        ImGui::TextDisabled("their own");
+    }
+    ImGui::PopID();
+}
+
 void shadowRows(ViewState& state, ViewActions& actions) {
     rowLabel("Ground", "A grey ground beneath the scene, which catches its shadows (--ground)");
     bool ground = state.options.ground;
@@ -51,6 +71,12 @@ void shadowRows(ViewState& state, ViewActions& actions) {
     const std::vector<std::string> names = {"with a ground", "on", "off"};
     const int chosen = combo("##shadows", names, names[static_cast<std::size_t>(state.options.settings.shadows)]);
     if (chosen >= 0) state.options.settings.shadows = static_cast<Shadows>(chosen);
+    const Shadows shadows = state.options.settings.shadows;
+    if (shadows == Shadows::off || (shadows == Shadows::automatic && !state.options.ground)) return;
+    lightSizeRow("lightAngle", "Suns' size", "What directional lights measure across (--light-angle)", 5, 90, "%.3g°",
+                 state.options.lightAngle);
+    lightSizeRow("lightRadius", "Lamps' radius", "Radius of point and spot lights (--light-radius)", 0.1, 10, "%.3g m",
+                 state.options.lightRadius);
 }
 
 }  // namespace

@@ -81,6 +81,7 @@ inline const Words moving = {"--shutter", "1", "--time", "1"};
 inline const Words threeBlades = {"--fstop", "0.5", "--blades", "3"};
 inline const Words farFocus = {"--fstop", "0.5", "--focus-distance", "8"};
 inline const Words nearFocus = {"--fstop", "0.5", "--focus-distance", "1"};
+inline const Words nearRange = {"--fstop", "0.5", "--focus-distance", "1", "--focus-range-behind", "1"};
 
 // All that one of the two names but the other doesn't is `only` its own.
 inline Words only(const char* method) {
@@ -154,6 +155,7 @@ inline const std::map<std::string, OptionCase>& settingCases() {
         {"backgroundLimit", {{"--background-limit", "0"}, nearFocus}},
         {"focusRangeFront", {{"--focus-range-front", "1"}, farFocus}},
         {"focusRangeBehind", {{"--focus-range-behind", "5"}, nearFocus}},
+        {"focusRangeRefocuses", {{"--focus-range-refocuses"}, nearRange}},
         {"focusTilt", {{"--focus-tilt", "40"}, blurred}},
         {"focusSwing", {{"--focus-swing", "40"}, blurred}},
         {"fieldCurvature", {{"--field-curvature", "2"}, blurred}},

@@ -178,6 +178,7 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
         [&](Request& r) { r.lens.axialChromaticAberration = number(); },
         [&](Request& r) { r.lens.foregroundLimit = number(); },
         [&](Request& r) { r.lens.focusRangeFront = number(); },
+        [&](Request& r) { r.lens.focusRangeRefocuses = true; },
         [&](Request& r) { r.lens.focusTilt = number(); },
         [&](Request& r) { r.lens.fieldCurvature = number(); },
         [&](Request& r) { r.lens.radialBlurGain = number(); },

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -14,8 +15,14 @@
 #include "fuzz/targets.h"
 
 namespace {
+
 const defocus::FuzzTarget* target = nullptr;
-}
+
+// Seconds of processor time that one input may take. libFuzzer's own limit (-timeout) is of the clock on the wall,
+// which a busy machine stretches.
+constexpr double longestRun = 60;
+
+}  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
     const char* const name = std::getenv("DEFOCUS_FUZZ_TARGET");
@@ -45,6 +52,12 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    if (size <= target->mostBytes) target->run(std::as_bytes(std::span(data, size)));
+    if (size > target->mostBytes) return 0;
+    const std::clock_t begin = std::clock();
+    target->run(std::as_bytes(std::span(data, size)));
+    if (const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC; seconds > longestRun) {
+        std::fprintf(stderr, "SUMMARY: %.0f s of processor time\n", seconds);
+        std::abort();
+    }
     return 0;
 }

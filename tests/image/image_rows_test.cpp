@@ -84,6 +84,13 @@ TEST_F(ImageRows, unfinishedFilesAreRemoved) {
     EXPECT_TRUE(fs::is_empty(folder()));
 }
 
+TEST_F(ImageRows, thatNeverCameAreGivenUpWithoutAWord) {
+    testing::internal::CaptureStderr();
+    for (const std::string name : {"a.exr", "a.png", "a.jpg"}) ImageRowWriter writer(folder() / name, 4, 3, 4, {});
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_TRUE(fs::is_empty(folder()));
+}
+
 TEST_F(ImageRows, whatIsNoFileOfRowsIsRefused) {
     writeImage(folder() / "a.png", pattern(8, 8));
     writeFile(folder() / "b.exr", "not an image");

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <random>
 
 namespace defocus {
@@ -24,6 +26,7 @@ Lens anyLens(std::mt19937& random) {
     Lens lens = lensAt(0.5 + 4 * unit(random));
     if (unit(random) < 0.5) lens.focusRangeFront = lens.focusDistance * 0.9 * unit(random);
     if (unit(random) < 0.5) lens.focusRangeBehind = 3 * unit(random);
+    lens.focusRangeRefocuses = unit(random) < 0.3;
     if (unit(random) < 0.5) lens.focusTilt = 2 * unit(random) - 1;
     if (unit(random) < 0.5) lens.focusSwing = 2 * unit(random) - 1;
     if (unit(random) < 0.5) lens.fieldCurvature = 4 * unit(random) - 2;
@@ -62,6 +65,34 @@ TEST(CircleOfConfusion, backgroundLimitHasItsKinkBehindTheFocus) {
     EXPECT_EQ(circleOfConfusion(limited, 1, 1000), circleOfConfusion(free, 1, 1000));
 }
 
+// Munkberg et al. 2012: the range in focus is extended, and the near and the far blur are preserved.
+TEST(CircleOfConfusion, focusRangeIsSharpAndPreservesNearAndFarBlur) {
+    Lens lens = lensAt(2);
+    const ClipCircleOfConfusion plain = clipCircleOfConfusion(lens, 1000, 750);
+    lens.focusRangeFront = 0.5;
+    lens.focusRangeBehind = 3;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const bool refocuses : {false, true}) {
+        lens.focusRangeRefocuses = refocuses;
+        const ClipCircleOfConfusion range = clipCircleOfConfusion(lens, 1000, 750);
+        for (const double z : {1.5, 1.7, 2.0, 4.0, 5.0}) EXPECT_NEAR(circleOfConfusion(range, z, 1000), 0, 1e-9);
+        // It grows from both ends without a step, nearer and farther all the way.
+        EXPECT_NEAR(circleOfConfusion(range, 1.5 * (1 - 1e-9), 1000), 0, 1e-5);
+        EXPECT_NEAR(circleOfConfusion(range, 5 * (1 + 1e-9), 1000), 0, 1e-5);
+        EXPECT_LT(circleOfConfusion(range, 1.4, 1000), -1);
+        EXPECT_GT(circleOfConfusion(range, 5.5, 1000), 1);
+        // Near the lens, |C| is the aperture's.
+        EXPECT_NEAR(circleOfConfusion(range, 1e-6, 1000) / circleOfConfusion(plain, 1e-6, 1000), 1, 1e-5);
+        // Far away it is what it was, or that of a focus at 5 m.
+        const double far = circleOfConfusion(range, infinity, 1000) / circleOfConfusion(plain, infinity, 1000);
+        EXPECT_NEAR(far, refocuses ? 2.0 / 5 : 1, 1e-12);
+        // And in between: A·W/(2 tan)·(1/s)·(1 − 5/z), or ·(1/5 − 1/z).
+        const double atInfinity = circleOfConfusion(plain, infinity, 1000);
+        EXPECT_NEAR(circleOfConfusion(range, 8, 1000),
+                    refocuses ? atInfinity * 2 * (1.0 / 5 - 1.0 / 8) : atInfinity * (1 - 5.0 / 8), 1e-9);
+    }
+}
+
 TEST(CircleOfConfusion, tiltedPlaneIsInFocus) {
     Lens lens = lensAt(3);
     lens.focusTilt = 0.7;
@@ -96,14 +127,17 @@ TEST(CircleOfConfusion, rangeOverABoxHoldsEveryPointOfIt) {
         box.zFar = box.zNear + random(source, 0, 5);
         box.ndcLeast = {random(source, -1.2, 1), random(source, -1.2, 1)};
         box.ndcMost = box.ndcLeast + glm::dvec2(random(source, 0, 1), random(source, 0, 1));
-        box.scaleLeast = random(source, 0, 1);
-        box.scaleMost = box.scaleLeast + random(source, 0, 1);
+        box.own.factorLeast = random(source, 0, 1);
+        box.own.factorMost = box.own.factorLeast + random(source, 0, 1);
+        box.own.addedLeast = random(source, -0.05, 0.05);
+        box.own.addedMost = box.own.addedLeast + random(source, 0, 0.05);
         const CocRange range = circleOfConfusionRange(coc, box, 1000);
         for (int i = 0; i < 50; ++i) {
             const glm::dvec2 ndc(random(source, box.ndcLeast.x, box.ndcMost.x),
                                  random(source, box.ndcLeast.y, box.ndcMost.y));
             const double c = circleOfConfusion(coc, random(source, box.zNear, box.zFar), 1000, ndc,
-                                               random(source, box.scaleLeast, box.scaleMost));
+                                               random(source, box.own.factorLeast, box.own.factorMost),
+                                               random(source, box.own.addedLeast, box.own.addedMost));
             const double slack = 1e-9 * (1 + range.largest);
             EXPECT_GE(c, range.nearest - slack);
             EXPECT_LE(c, range.farthest + slack);
@@ -154,16 +188,29 @@ TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
         const double shrink = std::pow(10.0, random(source, -3, 0));
         ends[1] = ends[0] + (ends[1] - ends[0]) * shrink;
         const auto ndcOf = [&](const glm::dvec3& p) { return glm::dvec2(p) / (tanHalf * p.z); };
-        const auto clip = [&](const glm::dvec3& p) { return p.z * circleOfConfusion(coc, p.z, width, ndcOf(p)); };
+        // What the vertices at the ends have is linear along the edge.
+        const bool vary = trial % 2 == 0;
+        const glm::dvec2 factors(random(source, 0, 2), random(source, 0, 2));
+        const glm::dvec2 added(random(source, -0.05, 0.05), random(source, -0.05, 0.05));
+        const auto at = [](const glm::dvec2& values, double t) { return values.x + t * (values.y - values.x); };
+        const auto clip = [&](double t) {
+            const glm::dvec3 p = ends[0] + t * (ends[1] - ends[0]);
+            const double factor = vary ? at(factors, t) : factors.x;
+            return p.z * circleOfConfusion(coc, p.z, width, ndcOf(p), factor, vary ? at(added, t) : added.x);
+        };
         CocBox box{std::min(ends[0].z, ends[1].z), std::max(ends[0].z, ends[1].z)};
         box.ndcLeast = glm::min(ndcOf(ends[0]), ndcOf(ends[1]));
         box.ndcMost = glm::max(ndcOf(ends[0]), ndcOf(ends[1]));
+        box.own = {factors.x, factors.x, added.x, added.x};
+        if (vary)
+            box.own = {std::min(factors.x, factors.y), std::max(factors.x, factors.y), std::min(added.x, added.y),
+                       std::max(added.x, added.y)};
         const CocDeviation bound = cocDeviation(coc, box, glm::length(ends[1] - ends[0]), tanHalf, width);
         double deviation = 0;
         for (double t = 0; t <= 1; t += 0.05) {
             const glm::dvec3 p = ends[0] + t * (ends[1] - ends[0]);
-            const double chord = (1 - t) * clip(ends[0]) + t * clip(ends[1]);
-            deviation = std::max(deviation, std::abs(clip(p) - chord) / p.z);
+            const double chord = (1 - t) * clip(0) + t * clip(1);
+            deviation = std::max(deviation, std::abs(clip(t) - chord) / p.z);
         }
         EXPECT_LE(deviation, bound.kinks + bound.curved + 1e-6) << "trial " << trial;
         large += deviation > 0.5 ? 1 : 0;

@@ -40,12 +40,13 @@ TEST(Contact, valuesSpreadAlongTheShortestWay) {
     const auto uniform = [&](double least, double most) {
         return std::uniform_real_distribution<double>(least, most)(random);
     };
-    for (const std::size_t count : {1u, 2u, 40u, 150u}) {
+    // Scattered, and in a heap.
+    for (const auto& [count, side] : {std::pair(1u, 400.0), {2u, 400.0}, {40u, 400.0}, {150u, 400.0}, {150u, 30.0}}) {
         std::vector<ContactBounds> bounds;
         std::vector<double> values;
         for (std::size_t i = 0; i < count; ++i) {
-            const double x = uniform(-20, 400);
-            const double y = uniform(-20, 300);
+            const double x = uniform(-20, side);
+            const double y = uniform(-20, 0.75 * side);
             const double depth = uniform(10, 50);
             bounds.push_back(box(x, y, x + uniform(0, 25), y + uniform(0, 25), depth, depth + uniform(0, 8)));
             values.push_back(uniform(3, 8));

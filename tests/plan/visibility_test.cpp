@@ -87,7 +87,13 @@ ClipTriangle clipTriangle(const FramePlan& plan, const World& world, const Objec
         const double w = -p.z;
         triangle.p[k] = {p.x / plan.tanHalfHorizontal, p.y * plan.coc.aspect / plan.tanHalfHorizontal, w};
         const glm::dvec2 ndc = glm::dvec2(triangle.p[k]) / w;
-        triangle.c[k] = w * circleOfConfusion(plan.coc, w, plan.view.width, ndc, object.cocScale) / plan.view.width;
+        VertexBlur blur;
+        if (!pyramid.vertices.blurs.empty()) blur = pyramid.vertices.blurs[pyramid.indices[first + k]];
+        const double millimetres = (1 - time) * double(blur.opening) + time * double(blur.closing);
+        triangle.c[k] = w *
+                        circleOfConfusion(plan.coc, w, plan.view.width, ndc, object.cocScale * double(blur.factor),
+                                          object.cocScale * millimetres / plan.view.lens.horizontalAperture) /
+                        plan.view.width;
     }
     return triangle;
 }
@@ -140,7 +146,7 @@ Counts checkTriangles(const SmallWorld& small, const FramePlan& plan) {
     for (const ObjectPlan& object : plan.objects) {
         const VisibleLevel* visible = visibleLevel(object, 0);
         const double sign = object.mirrored ? -1 : 1;
-        const bool moves = !object.motion.empty();
+        const bool moves = !object.motion.empty() || object.blurMoves;
         bool away = true;
         bool unseen = true;
         for (int step = 0; step <= (moves ? 24 : 0); ++step) {
@@ -220,7 +226,7 @@ TEST(Visibility, randomTrianglesUnderControlsOfTheBlur) {
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
         const Counts counts = checkTriangles(*small, plan);
         if (variant == 5) {
-            EXPECT_EQ(counts.away, 0) << "a curved C is not tested";
+            EXPECT_GT(counts.away, 0) << "where triangles are drawn as they are";
             continue;
         }
         away += counts.away;
@@ -246,6 +252,57 @@ TEST(Visibility, randomTrianglesThatMoveDuringTheExposure) {
         EXPECT_GT(counts.couldBeAway, 200);
         EXPECT_GT(counts.away, (speed < 0.1 ? 0.6 : 0.4) * counts.couldBeAway) << "speed " << speed;
     }
+}
+
+// Eq. 5 for any C: each corner has a blur of its own, which may change while the shutter is open.
+TEST(Visibility, randomTrianglesWhoseCornersHaveTheirOwnBlur) {
+    Random random(5);
+    for (const bool changes : {false, true})
+        for (const double size : {0.05, 0.2}) {
+            const auto small = looseTriangles(random, 1500, size);
+            for (std::size_t i = 0; i < small->scene.meshes.size(); ++i) {
+                Mesh& mesh = small->scene.meshes[i];
+                for (int k = 0; k < 3; ++k) {
+                    const auto opening = static_cast<float>(random(-0.5, 0.5));
+                    const auto closing = changes ? static_cast<float>(random(-0.5, 0.5)) : opening;
+                    mesh.vertices.blurs.push_back({static_cast<float>(random(0, 1.5)), opening, closing});
+                }
+                mesh.blurBounds = boundsOf(mesh.vertices.blurs);
+                small->world.pose.objects[i].cocScale = i % 3 == 0 ? random(0, 1.5) : 1;
+            }
+            finish(*small);
+            if (changes) small->world.shutter.poses.assign(2, small->world.pose);
+            RenderSettings settings = settingsFor(64);
+            settings.cocTolerance = 1e6;  // triangles are drawn as they are
+            const Counts counts = checkTriangles(*small, planFrame(small->world, small->view, settings));
+            EXPECT_GT(counts.couldBeAway, 100);
+            EXPECT_GT(counts.away, 0.6 * counts.couldBeAway) << "size " << size << ", changes: " << changes;
+        }
+}
+
+// The frustum is widened by the object's own blur, not by the lens's.
+TEST(Visibility, anObjectBlurredMoreThanTheLensBlursIsSeenFromFarther) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+    small->scene.meshes.push_back(quad(0));
+    small->view.width = 400;
+    small->view.height = 300;
+    small->view.lens.fStop = 1;
+    small->view.lens.focusDistance = 2;
+    // 10 px beside the image, 0.4 px wide, where the lens blurs by 7 px.
+    const double pixel = 2 * tanHalfHorizontalFov(small->view.lens) * 4 / 400;
+    place(*small, 0,
+          glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(210 * pixel, 0, -4)), glm::dvec3(0.2 * pixel)));
+    finish(*small);
+    EXPECT_TRUE(planFrame(small->world, small->view, settingsFor(16)).objects.empty());
+    small->world.pose.objects[0].cocScale = 4;
+    EXPECT_EQ(planFrame(small->world, small->view, settingsFor(16)).objects.size(), 1u);
+    small->world.pose.objects[0].cocScale = 1;
+    Mesh& mesh = small->scene.meshes[0];
+    mesh.vertices.blurs.assign(4, {0, 2, 2});
+    mesh.blurBounds = boundsOf(mesh.vertices.blurs);
+    finish(*small);
+    EXPECT_EQ(planFrame(small->world, small->view, settingsFor(16)).objects.size(), 1u);
 }
 
 // ---- clusters -----------------------------------------------------------------------------------
@@ -283,6 +340,27 @@ TEST(Visibility, mostOfASpheresFarSideIsLeftOut) {
             return entry.reason == "their clusters show their back to all of the lens";
         }));
     }
+}
+
+// What a skin moves is tested by its corners. A skin of one joint that stands still shows as much as the mesh alone.
+TEST(Visibility, aSkinnedSpheresFarSideIsLeftOut) {
+    const auto rigid = oneSphere(at(0, -4));
+    const auto skinned = oneSphere(at(0, -4));
+    Vertices& vertices = skinned->scene.meshes[0].vertices;
+    vertices.joints.assign(vertices.count(), glm::u16vec4(0));
+    vertices.weights.assign(vertices.count(), glm::vec4(1, 0, 0, 0));
+    finish(*skinned);
+    skinned->world.pose.objects[0].worldFromJoint = {at(0, -4)};
+    const FramePlan expected = planFrame(rigid->world, rigid->view, settingsFor(16));
+    const FramePlan found = planFrame(skinned->world, skinned->view, settingsFor(16));
+    EXPECT_GT(share(found.trianglesFacingAway, found), 0.35);
+    EXPECT_NEAR(share(found.trianglesFacingAway, found), share(expected.trianglesFacingAway, expected), 0.08);
+    // While the joint turns the sphere, each cluster must face away all the time.
+    skinned->world.shutter.poses.assign(2, skinned->world.pose);
+    skinned->world.shutter.poses[1].objects[0].worldFromJoint = {glm::rotate(at(0, -4), 0.2, glm::dvec3(0, 1, 0))};
+    const FramePlan turning = planFrame(skinned->world, skinned->view, settingsFor(16));
+    EXPECT_GT(share(turning.trianglesFacingAway, turning), 0.25);
+    EXPECT_LT(turning.trianglesFacingAway, found.trianglesFacingAway);
 }
 
 TEST(Visibility, doubleSidedSurfacesNeverFaceAway) {

@@ -174,6 +174,12 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"backgroundLimit", [](Lens& lens) { lens.backgroundLimit = 1; }, 0.7},
         Control{"bothLimits", [](Lens& lens) { lens.foregroundLimit = 2, lens.backgroundLimit = 1; }, 0.7},
         Control{"focusRange", [](Lens& lens) { lens.focusRangeFront = 1.2, lens.focusRangeBehind = 2; }, 0.7},
+        Control{"refocusedRange",
+                [](Lens& lens) {
+                    lens.focusRangeFront = 1.2, lens.focusRangeBehind = 2;
+                    lens.focusRangeRefocuses = true;
+                },
+                0.7},
         Control{"rangeAndLimits",
                 [](Lens& lens) {
                     lens.focusRangeFront = 0.5, lens.focusRangeBehind = 1;
@@ -238,11 +244,27 @@ TEST_F(CocControls, limitBehindLeavesFocusAndForeground) {
     EXPECT_GT(rootMeanSquare(part(before, 2), part(after, 2)), 0.01);
 }
 
-// The blur in front is that of a lens focused at the range's near end, behind it that of one focused at the far end.
-TEST_F(CocControls, focusRangeKeepsTheBlurOnEitherSide) {
+// The blur in front is that of a lens focused at the range's near end. Behind it, what preserves the far blur is that
+// of a lens focused at the far end, with an aperture as much larger as this end is farther away than the focus.
+TEST_F(CocControls, focusRangePreservesNearAndFarBlur) {
     const auto small = threePatches();
     small->view.lens.focusRangeFront = 0.5;
     small->view.lens.focusRangeBehind = 2;
+    const Image range = rendered(*small, 64);
+    small->view.lens.focusRangeFront = small->view.lens.focusRangeBehind = 0;
+    small->view.lens.focusDistance = 2;
+    EXPECT_LT(rootMeanSquare(part(range, 0), part(rendered(*small, 64), 0)), 1e-4);
+    small->view.lens.focusDistance = 4.5;
+    small->view.lens.fStop /= 4.5 / 2.5;
+    EXPECT_LT(rootMeanSquare(part(range, 2), part(rendered(*small, 64), 2)), 1e-4);
+}
+
+// Refocused, with the aperture as it is.
+TEST_F(CocControls, focusRangeRefocusesAtItsEnds) {
+    const auto small = threePatches();
+    small->view.lens.focusRangeFront = 0.5;
+    small->view.lens.focusRangeBehind = 2;
+    small->view.lens.focusRangeRefocuses = true;
     const Image range = rendered(*small, 64);
     small->view.lens.focusRangeFront = small->view.lens.focusRangeBehind = 0;
     small->view.lens.focusDistance = 2;
@@ -323,8 +345,8 @@ TEST_F(CocControls, scaleOfAVertexIsThatOfItsObject) {
     small->world.pose.objects[2].cocScale = 1;
     // A mesh of its own for the third patch, with the attribute.
     Mesh scaled = quad(0);
-    scaled.vertices.cocScales.assign(4, 0.25f);
-    scaled.cocScaleLeast = scaled.cocScaleMost = 0.25f;
+    scaled.vertices.blurs.assign(4, {0.25f, 0, 0});
+    scaled.blurBounds = boundsOf(scaled.vertices.blurs);
     small->scene.meshes.push_back(scaled);
     small->world.pose.objects[2].mesh = 1;
     small->world.pyramids.push_back(buildPyramid(scaled));

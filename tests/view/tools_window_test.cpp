@@ -49,6 +49,11 @@ protected:
     [[nodiscard]] bool unfolds(const std::string& section, const std::string& inside) const {
         return clicks(section, [&](const json& s) { return s.at("places").contains(inside); });
     }
+    // Makes room for the sections below them.
+    [[nodiscard]] bool foldsFocusAndLens() const {
+        return clicks("Focus", [](const json& s) { return s.at("places").contains("aperture ring"); }) &&
+               clicks("Lens", [](const json& s) { return s.at("places").contains("Image"); });
+    }
     // Presses a key until `condition` holds.
     [[nodiscard]] bool presses(const std::string& name, const std::function<bool(const json&)>& condition) const {
         return insists([&] { key(name); }, condition);
@@ -80,6 +85,42 @@ TEST_F(ViewTools, whereNothingIsBlurredOneSampleOfEachPixelIsDrawn) {
     ASSERT_TRUE(reaches([](const json& s) { return s.at("moving") == true && s.at("changes") > 5; })) << state();
     EXPECT_EQ(reached().at("drawn"), (json{400, 300, 1}));
     act("keyup d");
+}
+
+TEST_F(ViewTools, aPictureThatRestsSaysWhatIsOddAboutIt) {
+    openTwoQuads({"--fstop", "64", "--blur-scale", "0.001"});
+    const auto says = [](const json& s) { return s.at("warnings").size() == 1; };
+    ASSERT_TRUE(reaches(says)) << state();
+    EXPECT_EQ(reached().at("warnings").at(0).get<std::string>().find("nothing is blurred"), 0u) << reached();
+}
+
+TEST_F(ViewTools, aPictureThatIsAllWhiteSaysWhichExposureHelps) {
+    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4", "--exposure", "12"});
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("warnings").size() == 1; })) << state();
+    EXPECT_NE(reached().at("warnings").at(0).get<std::string>().find("is white at an exposure of 12 EV"),
+              std::string::npos)
+        << reached();
+}
+
+TEST_F(ViewTools, aPictureAsItShouldBeSaysNothing) {
+    openTwoQuads({"--fstop", "1.4", "--focus-distance", "4"});
+    ASSERT_TRUE(reaches([](const json& s) { return s.at("moving") == false && s.at("samples") > 1; })) << state();
+    EXPECT_TRUE(reached().at("warnings").empty()) << reached();
+}
+
+TEST_F(ViewTools, lightsGetASizeAndTheirOwnBack) {
+    openTall({"--shadows", "on"});
+    const auto isSized = [](const json& s) {
+        return s.at("command").get<std::string>().find("--light-angle 5 ") != std::string::npos;
+    };
+    ASSERT_TRUE(foldsFocusAndLens()) << state();
+    ASSERT_TRUE(unfolds("Surroundings", "lightAngle")) << state();
+    ASSERT_FALSE(isSized(state()));
+    const std::uint64_t before = state().at("changes");
+    ASSERT_TRUE(clicks("lightAngle", isSized)) << state();
+    EXPECT_TRUE(reaches([&](const json& s) { return s.at("changes") > before; })) << state();  // it is drawn anew
+    key("ctrl+z");
+    EXPECT_TRUE(reaches([&](const json& s) { return !isSized(s); })) << state();
 }
 
 TEST_F(ViewTools, aClickIsMarkedForAMoment) {
@@ -263,9 +304,7 @@ TEST_F(ViewTools, savedViewsComeBackInTheNextRun) {
 TEST_F(ViewTools, theMeterExposesWhereTheViewRests) {
     openTall({"--exposure", "3"});
     EXPECT_EQ(state().at("exposure"), 3);
-    // Those above it out of the way.
-    ASSERT_TRUE(clicks("Focus", [](const json& s) { return s.at("places").contains("aperture ring"); })) << state();
-    ASSERT_TRUE(clicks("Lens", [](const json& s) { return s.at("places").contains("Image"); })) << state();
+    ASSERT_TRUE(foldsFocusAndLens()) << state();
     ASSERT_TRUE(unfolds("Image", "auto-exposure")) << state();
     ASSERT_TRUE(clicks("auto-exposure", [](const json& s) { return s.at("exposure") != 3; })) << state();
     const double metered = reached().at("exposure");

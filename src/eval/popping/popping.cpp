@@ -111,7 +111,7 @@ Image pixelsOf(const std::vector<const ObjectPlan*>& changed, const FramePlan& p
     const auto bounded = [](double place, int size) { return static_cast<int>(std::clamp<double>(place, 0, size)); };
     for (const ObjectPlan* object : changed) {
         CocBox box{.ndcLeast = glm::dvec2(-1), .ndcMost = glm::dvec2(1)};
-        if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, 1, 1, plan);
+        if (object->nearestDepth > plan.view.nearPlane) box = cocBoxOf(object->viewBox, object->own, plan);
         const double reach = 0.5 * object->coc.largest + 1;  // an edge lies half a pixel beside a pixel's middle
         const int left = bounded(0.5 * (1 + box.ndcLeast.x) * objects.width - reach, objects.width);
         const int right = bounded(0.5 * (1 + box.ndcMost.x) * objects.width + reach + 1, objects.width);

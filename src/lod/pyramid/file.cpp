@@ -29,8 +29,7 @@ void hashStream(std::uint64_t& hash, const std::vector<T>& stream) {
 }
 
 void hashVertices(std::uint64_t& hash, const Vertices& vertices) {
-    const auto& [positions, normals, tangents, uv0, uv1, colors, joints, weights, cocScales, joints1, weights1] =
-        vertices;
+    const auto& [positions, normals, tangents, uv0, uv1, colors, joints, weights, blurs, joints1, weights1] = vertices;
     hashStream(hash, positions);
     hashStream(hash, normals);
     hashStream(hash, tangents);
@@ -39,7 +38,7 @@ void hashVertices(std::uint64_t& hash, const Vertices& vertices) {
     hashStream(hash, colors);
     hashStream(hash, joints);
     hashStream(hash, weights);
-    hashStream(hash, cocScales);
+    hashStream(hash, blurs);
     hashStream(hash, joints1);
     hashStream(hash, weights1);
 }

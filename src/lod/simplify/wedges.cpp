@@ -9,7 +9,8 @@ namespace defocus {
 
 namespace {
 
-constexpr double leastQuality = 1e-3;  // twice the area / sum of squared edges; 0.29 for an equilateral triangle
+constexpr float leastBlurRange = 1e-3f;  // mm, or of the factor: less is not worth an edge
+constexpr double leastQuality = 1e-3;    // twice the area / sum of squared edges; 0.29 for an equilateral triangle
 
 // How the attributes of a table of AttributeQuadric<n> change from one row to another.
 template <std::size_t n>
@@ -57,8 +58,12 @@ void addFaceTo(LargeVector<AttributeQuadric<n>>& quadrics, const WedgeTable& tab
 
 void WedgeTable::assign(const Vertices& vertices, float uvScale) {
     hasColors_ = !vertices.colors.empty();
+    hasBlurs_ = !vertices.blurs.empty();
     hasUv_ = !vertices.uv0.empty();
-    attributeCount_ = std::size_t{3} + (hasColors_ ? 3 : 0) + (hasUv_ ? 2 : 0);
+    attributeCount_ = std::size_t{3} + (hasColors_ ? 3 : 0) + (hasBlurs_ ? 3 : 0) + (hasUv_ ? 2 : 0);
+    const VertexBlurBounds blurs = boundsOf(vertices.blurs);
+    const float perFactor = blurWeight / std::max(blurs.factorMost - blurs.factorLeast, leastBlurRange);
+    const float perMillimetre = blurWeight / std::max(blurs.addedMost - blurs.addedLeast, leastBlurRange);
     sources_.resize(vertices.count());
     rows_.clear();
     rows_.reserve(attributeCount_ * vertices.count());
@@ -69,6 +74,11 @@ void WedgeTable::assign(const Vertices& vertices, float uvScale) {
         if (hasColors_) {
             const glm::vec3 color = colorWeight * glm::vec3(vertices.colors[v]);
             rows_.insert(rows_.end(), {color.x, color.y, color.z});
+        }
+        if (hasBlurs_) {
+            const VertexBlur& blur = vertices.blurs[v];
+            rows_.insert(rows_.end(),
+                         {perFactor * blur.factor, perMillimetre * blur.opening, perMillimetre * blur.closing});
         }
         if (hasUv_) {
             const glm::vec2 uv = uvWeight * uvScale * vertices.uv0[v];
@@ -88,8 +98,14 @@ void WedgeTable::startQuadrics() {
         case 6:
             quadrics_.emplace<2>(sources_.size());
             break;
-        default:
+        case 8:
             quadrics_.emplace<3>(sources_.size());
+            break;
+        case 9:
+            quadrics_.emplace<4>(sources_.size());
+            break;
+        default:
+            quadrics_.emplace<5>(sources_.size());
             break;
     }
 }
@@ -121,7 +137,9 @@ double WedgeTable::uvDifference(WedgeNumber a, WedgeNumber b) const {
 double WedgeTable::difference(WedgeNumber a, WedgeNumber b) const {
     const double normals = squares(row(a), row(b), 0, 3) / double{normalWeight * normalWeight};
     const double colors = hasColors_ ? squares(row(a), row(b), 3, 6) / double{colorWeight * colorWeight} : 0;
-    return normals + 4 * colors + uvDifference(a, b);
+    const std::size_t first = hasColors_ ? 6 : 3;
+    const double blurs = hasBlurs_ ? squares(row(a), row(b), first, first + 3) / double{blurWeight * blurWeight} : 0;
+    return normals + 4 * (colors + blurs) + uvDifference(a, b);
 }
 
 void WedgeTable::addFace(const WedgeNumber* corners, const glm::dvec3* places) {

@@ -23,6 +23,9 @@ namespace defocus {
 constexpr float normalWeight = 0.003f;
 constexpr float colorWeight = 0.005f;  // of colours in [0, 1]
 constexpr float uvWeight = 0.05f;
+// Of a blur that vertices have themselves, over the mesh's range of it. A level must show a blur where the file has it:
+// four times a colour's weight.
+constexpr float blurWeight = 0.02f;
 
 class WedgeTable {
 public:
@@ -37,7 +40,7 @@ public:
     [[nodiscard]] std::size_t size() const { return sources_.size(); }
     // The mesh vertex that the wedge's corners draw.
     [[nodiscard]] MeshVertexNumber source(WedgeNumber w) const { return sources_[w.value]; }
-    // Weighted attributes: normal, then colour, then uv, as far as the mesh has them.
+    // Weighted attributes: normal, then colour, then blur, then uv, as far as the mesh has them.
     [[nodiscard]] std::span<const float> row(WedgeNumber w) const {
         return {&rows_[w.value * attributeCount_], attributeCount_};
     }
@@ -50,7 +53,7 @@ public:
     // Returns the squared distance between two wedges in texture space, in units of the frame.
     [[nodiscard]] double uvDifference(WedgeNumber a, WedgeNumber b) const;
     // Returns how unlike two wedges are: the sum of the squared distances between their normals, between their colours
-    // (times 4) and in texture space.
+    // and blurs (times 4) and in texture space.
     [[nodiscard]] double difference(WedgeNumber a, WedgeNumber b) const;
 
     // Adds a face to the quadrics of the three wedges at its corners, which lie at `places`. Leaves a sliver out,
@@ -65,12 +68,15 @@ public:
     void prefetch(WedgeNumber w) const;
 
 private:
-    // All sets of attributes that a mesh can have: its normals alone, or with uv, with colours, with both.
+    // All numbers of attributes that a mesh can have: its normals alone, or with uv (2), with colours (3), with blurs
+    // (3), with some of them.
     using Quadrics = std::variant<LargeVector<AttributeQuadric<3>>, LargeVector<AttributeQuadric<5>>,
-                                  LargeVector<AttributeQuadric<6>>, LargeVector<AttributeQuadric<8>>>;
+                                  LargeVector<AttributeQuadric<6>>, LargeVector<AttributeQuadric<8>>,
+                                  LargeVector<AttributeQuadric<9>>, LargeVector<AttributeQuadric<11>>>;
 
     std::size_t attributeCount_ = 3;
     bool hasColors_ = false;
+    bool hasBlurs_ = false;
     bool hasUv_ = false;
     LargeVector<float> rows_;  // attributeCount_ a wedge
     LargeVector<MeshVertexNumber> sources_;

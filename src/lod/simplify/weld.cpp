@@ -61,7 +61,7 @@ std::vector<Stream> attributeStreams(const Mesh& mesh) {
     addStream(streams, mesh.vertices.colors);
     addStream(streams, mesh.vertices.joints);
     addStream(streams, mesh.vertices.weights);
-    addStream(streams, mesh.vertices.cocScales);
+    addStream(streams, mesh.vertices.blurs);
     addStream(streams, mesh.vertices.joints1);
     addStream(streams, mesh.vertices.weights1);
     for (const MorphTarget& target : mesh.morphTargets) {

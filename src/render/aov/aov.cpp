@@ -47,7 +47,7 @@ AovPass::AovPass(const World& world, std::filesystem::path shaderFolder)
     : shaderFolder_(std::move(shaderFolder)),
       scene_(world),
       surfaces_(scene_, {.fragmentShader = "aov/aov.frag",
-                         .defines = {{"READS_COC_SCALE", "1"}},
+                         .defines = {{"READS_OWN_BLUR", "1"}},
                          .look = SurfaceLook::flat,
                          .shaderFolder = shaderFolder_}),
       edges_(scene_, {.fragmentShader = "aov/wireframe.frag",

@@ -13,7 +13,7 @@ GlTexture layersOf(const DepthLayersInfo& info, TextureFormat format, std::uint3
 ShaderDefines definesOf(const DepthLayersInfo& info) {
     ShaderDefines defines = layerFormatDefines(info.format);
     defines.emplace_back("PEELED", "1");
-    defines.emplace_back("READS_COC_SCALE", "1");
+    defines.emplace_back("READS_OWN_BLUR", "1");
     if (info.blended) defines.emplace_back("BLENDED", "1");
     return defines;
 }
@@ -37,7 +37,8 @@ FramePlan widened(const FramePlan& plan, int border) {
     const double higher = static_cast<double>(wide.view.height) / plan.view.height;
     wide.tanHalfHorizontal *= wider;
     ClipCircleOfConfusion& coc = wide.coc;
-    for (double* share : {&coc.a, &coc.front, &coc.behind, &coc.foregroundLimit, &coc.backgroundLimit, &coc.chromatic})
+    for (double* share : {&coc.a, &coc.aBehind, &coc.front, &coc.behind, &coc.foregroundLimit, &coc.backgroundLimit,
+                          &coc.chromatic, &coc.shareOfMillimetre})
         *share /= wider;
     coc.tilt *= glm::dvec2(wider, higher);
     coc.curvature *= wider * wider;

@@ -43,7 +43,7 @@ public:
 
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
-        if (plan.coc.chromatic > 0 && (plan.usesCocControls || plan.usesCocScales))
+        if (plan.coc.chromatic > 0 && (plan.usesCocControls || plan.usesOwnBlur))
             fail(
                 "method layered: with controls of the blur it has one focus for all wavelengths; leave out the axial "
                 "chromatic aberration or choose accumulation");

@@ -216,7 +216,9 @@ void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool
         const GpuPoses& poses = poses_[vertices.object];
         const Program& program = vertexProgram(vertices, attributes);
         program.use();
-        if (poses.moving) glUniform2f(0, static_cast<float>(moment), fraction);
+        const float place = static_cast<float>(moment) + fraction;
+        if (poses.moving || (changesBlur(vertices) && !attributes))
+            glUniform3f(0, static_cast<float>(moment), fraction, place / static_cast<float>(parts_));
         objects_.bind(1, vertices.object);
         if (poses.texels) poses.texels.attach(6);
         if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
@@ -233,11 +235,16 @@ void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool
     glDisable(GL_RASTERIZER_DISCARD);
 }
 
+bool LensFront::changesBlur(const Vertices& vertices) const {
+    return plan_.objects[vertices.object].blurMoves && !plan_.moments.empty();
+}
+
 const Program& LensFront::vertexProgram(const Vertices& vertices, bool attributes) {
     const GpuMesh& mesh = scene_->mesh(plan_.objects[vertices.object].mesh);
     ShaderDefines defines = frame_->defines();
     if (mesh.colors) defines.emplace_back("VERTEX_COLORS", "1");
-    if (mesh.cocScales) defines.emplace_back("VERTEX_COC_SCALES", "1");
+    if (mesh.blurs) defines.emplace_back("VERTEX_BLURS", "1");
+    if (changesBlur(vertices) && !attributes) defines.emplace_back("BLUR_MOVES", "1");
     if (attributes) defines.emplace_back("ATTRIBUTES", "1");
     poseDefines(defines, poses_[vertices.object], mesh);
     const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));

@@ -95,6 +95,7 @@ private:
     void makeTriangles();
     void makeVertices(const Buffer& target, std::size_t vertexBytes, bool attributes, std::uint32_t moment,
                       float fraction);
+    [[nodiscard]] bool changesBlur(const Vertices& vertices) const;
     const Program& vertexProgram(const Vertices& vertices, bool attributes);
     void makeDepths();
     void countTiles();

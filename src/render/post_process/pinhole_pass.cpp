@@ -17,12 +17,12 @@ GlTexture texture(int width, int height, TextureFormat format) {
 
 ShaderDefines definesOf(LayerFormat format) {
     ShaderDefines defines = layerFormatDefines(format);
-    defines.emplace_back("READS_COC_SCALE", "1");
+    defines.emplace_back("READS_OWN_BLUR", "1");
     return defines;
 }
 
-// Of every surface but the sky and what is translucent: those leave the scale as it is.
-void writeCocScales(bool on) {
+// Of every surface but the sky and what is translucent: those leave it as it is.
+void writeOwnBlur(bool on) {
     const GLboolean mask = on ? GL_TRUE : GL_FALSE;
     glColorMaski(1, mask, mask, mask, mask);
 }
@@ -53,12 +53,12 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
     return pinholes;
 }
 
-PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool cocScales,
+PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
                          const std::filesystem::path& shaderFolder)
     : color_(texture(width, height, layerTextureFormat(format))),
       depth_(texture(width, height, TextureFormat::depth32f)),
-      cocScale_(cocScales ? texture(width, height, TextureFormat::r32f) : GlTexture()),
-      target_(cocScales ? Target({&color_, &cocScale_}, &depth_) : Target({&color_}, &depth_)),
+      ownBlur_(ownBlur ? texture(width, height, TextureFormat::rg32f) : GlTexture()),
+      target_(ownBlur ? Target({&color_, &ownBlur_}, &depth_) : Target({&color_}, &depth_)),
       shadows_(scene, vertexShaderMayPickLayer(), shaderFolder),
       surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
                         .defines = definesOf(format),
@@ -69,7 +69,7 @@ PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat for
 
 void PinholePass::attachForBlur() const {
     depth_.attach(1);
-    if (cocScale_) cocScale_.attach(6);
+    if (ownBlur_) ownBlur_.attach(6);
 }
 
 void PinholePass::readAsCoverage(bool on) {
@@ -92,13 +92,13 @@ void PinholePass::draw(std::uint32_t index) {
     const float nothing[4] = {0, 0, 0, transparent_ ? 0.0f : 1.0f};
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
     glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, nothing);
-    constexpr float ones[4] = {1, 1, 1, 1};
-    if (cocScale_) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 1, ones);
+    constexpr float none[4] = {1, 0, 0, 1};
+    if (ownBlur_) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 1, none);
     surfaces_.drawOpaque(index, 1);
-    if (cocScale_) writeCocScales(false);
+    if (ownBlur_) writeOwnBlur(false);
     if (!transparent_) surfaces_.drawSky(index, 1);
     surfaces_.drawTranslucent(index, 1, color_);
-    if (cocScale_) writeCocScales(true);
+    if (ownBlur_) writeOwnBlur(true);
     surfaces_.drawTranslucentDepth(index, 1);
 }
 

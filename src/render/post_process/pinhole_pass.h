@@ -18,9 +18,9 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
 
 class PinholePass {
 public:
-    // `format` holds alpha (rgba16f, rgba32f). `cocScales`: the surfaces' scale of the blur is kept too. Needs a
+    // `format` holds alpha (rgba16f, rgba32f). `ownBlur`: what the surfaces make of the blur is kept too. Needs a
     // current GL context.
-    PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool cocScales,
+    PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
                 const std::filesystem::path& shaderFolder);
 
     // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing.
@@ -37,17 +37,17 @@ public:
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
     // What shaders/include/pinhole.glsl reads: depth and scales of the blur.
     void attachForBlur() const;
-    [[nodiscard]] bool hasCocScales() const { return static_cast<bool>(cocScale_); }
+    [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(ownBlur_); }
     [[nodiscard]] int width() const { return color_.info().width; }
     [[nodiscard]] int height() const { return color_.info().height; }
     [[nodiscard]] std::size_t bytes() const {
-        return color_.bytes() + depth_.bytes() + cocScale_.bytes() + shadows_.bytes() + surfaces_.bytes();
+        return color_.bytes() + depth_.bytes() + ownBlur_.bytes() + shadows_.bytes() + surfaces_.bytes();
     }
 
 private:
     GlTexture color_;
     GlTexture depth_;
-    GlTexture cocScale_;  // empty: 1 everywhere
+    GlTexture ownBlur_;  // the factor, and what is added; empty: nothing of their own
     Target target_;
     bool transparent_ = false;  // the background
     ShadowMaps shadows_;

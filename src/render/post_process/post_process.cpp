@@ -92,11 +92,11 @@ private:
             fail("layer format {}: post-process methods need rgba16f or rgba32f", layerFormatName(format));
         const View& view = plan_.view;
         const bool same = sum_ && sum_->info().width == view.width && sum_->info().height == view.height &&
-                          sum_->info().format == format && pinhole_->hasCocScales() == plan_.usesCocScales;
+                          sum_->info().format == format && pinhole_->hasOwnBlur() == plan_.usesOwnBlur;
         if (!same) {
             sum_.reset();  // before the new one is made: both may not fit
             sum_.emplace(LayerSumInfo{view.width, view.height, 1, format, options_.shaderFolder});
-            pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesCocScales, options_.shaderFolder);
+            pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur, options_.shaderFolder);
         }
         sum_->reset();
         if (plan_.needsAlpha) prepareCoverage(view, format);

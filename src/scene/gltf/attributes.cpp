@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/ext/vector_float1.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/bounds.h"
 #include "scene/gltf/accessor.h"
@@ -112,20 +113,43 @@ std::vector<glm::u16vec4> readJoints(Source& source, const AttributeReader& read
     return result;
 }
 
-// The factor on a vertex's blur, a scalar.
-std::vector<float> readCocScales(Source& source, const AttributeReader& reader, const std::string& what) {
-    if (!reader.has("_COC_SCALE")) return {};
-    if (reader.components("_COC_SCALE") != 1)
-        fault(source.document, "{}: _COC_SCALE must hold one number a vertex, not {}", what,
-              reader.components("_COC_SCALE"));
-    std::vector<float> scales;
-    for (const glm::vec1& scale : reader.read<glm::vec1>("_COC_SCALE")) {
-        if (!(scale.x >= 0) || !std::isfinite(scale.x))
-            fault(source.document, "{}: _COC_SCALE of vertex {} is {}; it must be a number of 0 or more", what,
-                  scales.size(), scale.x);
-        scales.push_back(scale.x);
+// A scalar of each vertex that is finite and at least `least`; empty where the primitive doesn't have it.
+std::vector<float> readScalars(Source& source, const AttributeReader& reader, const char* name, float least,
+                               const std::string& what) {
+    if (!reader.has(name)) return {};
+    if (reader.components(name) != 1)
+        fault(source.document, "{}: {} must hold one number a vertex, not {}", what, name, reader.components(name));
+    std::vector<float> values;
+    for (const glm::vec1& value : reader.read<glm::vec1>(name)) {
+        if (!(value.x >= least) || !std::isfinite(value.x))
+            fault(source.document, "{}: {} of vertex {} is {}; it must be a {}", what, name, values.size(), value.x,
+                  least == 0 ? "number of 0 or more" : "finite number");
+        values.push_back(value.x);
     }
-    return scales;
+    return values;
+}
+
+// _COC_SCALE times the lens's blur, or times _COC, or times what goes from _COC_0 to _COC_1; plus _COC_OFFSET.
+std::vector<VertexBlur> readBlurs(Source& source, const AttributeReader& reader, const std::string& what) {
+    constexpr float lowest = std::numeric_limits<float>::lowest();
+    const std::vector<float> scales = readScalars(source, reader, "_COC_SCALE", 0, what);
+    const std::vector<float> offsets = readScalars(source, reader, "_COC_OFFSET", lowest, what);
+    if (reader.has("_COC_0") != reader.has("_COC_1"))
+        fault(source.document, "{}: _COC_0 and _COC_1 are a pair, at the opening and the closing of the shutter", what);
+    const bool pair = reader.has("_COC_0");
+    if (pair && reader.has("_COC"))
+        fault(source.document, "{}: it has both _COC and the pair _COC_0 and _COC_1, which stand for the same", what);
+    const std::vector<float> opening = readScalars(source, reader, pair ? "_COC_0" : "_COC", lowest, what);
+    const std::vector<float> closing = pair ? readScalars(source, reader, "_COC_1", lowest, what) : opening;
+    if (scales.empty() && offsets.empty() && opening.empty()) return {};
+    std::vector<VertexBlur> blurs(reader.count());
+    for (std::size_t i = 0; i < blurs.size(); ++i) {
+        const float scale = scales.empty() ? 1 : scales[i];
+        const float offset = offsets.empty() ? 0 : offsets[i];
+        blurs[i] = opening.empty() ? VertexBlur{scale, offset, offset}
+                                   : VertexBlur{0, scale * opening[i] + offset, scale * closing[i] + offset};
+    }
+    return blurs;
 }
 
 std::vector<glm::vec2> readTextureCoordinates(const AttributeReader& reader, const std::string& name) {
@@ -218,7 +242,7 @@ VertexBlock readAttributes(Source& source, const tinygltf::Primitive& primitive,
         block.vertices.weights1 = reader.read<glm::vec4>("WEIGHTS_1");
     }
     if (block.vertices.joints1.empty()) block.vertices.weights1.clear();
-    block.vertices.cocScales = readCocScales(source, reader, what);
+    block.vertices.blurs = readBlurs(source, reader, what);
     block.morphTargets = reader.readTargets();
     return block;
 }

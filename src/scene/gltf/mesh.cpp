@@ -216,11 +216,7 @@ std::vector<Mesh> readMeshes(Source& source, const std::vector<Material>& materi
     for (std::size_t i = 0; i < source.model.meshes.size(); ++i) {
         report(progress, "reading meshes", i, source.model.meshes.size());
         meshes.push_back(reader.read(i));
-        const std::vector<float>& scales = meshes.back().vertices.cocScales;
-        if (scales.empty()) continue;
-        const auto [least, most] = std::minmax_element(scales.begin(), scales.end());
-        meshes.back().cocScaleLeast = *least;
-        meshes.back().cocScaleMost = *most;
+        meshes.back().blurBounds = boundsOf(meshes.back().vertices.blurs);
     }
     return meshes;
 }

@@ -496,9 +496,8 @@ GltfBuilder scaledBlur(const std::vector<float>& scales, const nlohmann::json& n
 
 TEST(GltfMesh, scalesOfTheBlurAreThoseOfTheFile) {
     const Scene scene = scaledBlur({0, 0.5f, 2}, 0.25).load();
-    EXPECT_EQ(scene.meshes.at(0).vertices.cocScales, (std::vector<float>{0, 0.5f, 2}));
-    EXPECT_EQ(scene.meshes[0].cocScaleLeast, 0);
-    EXPECT_EQ(scene.meshes[0].cocScaleMost, 2);
+    EXPECT_EQ(scene.meshes.at(0).vertices.blurs, (std::vector<VertexBlur>{{0, 0, 0}, {0.5f, 0, 0}, {2, 0, 0}}));
+    EXPECT_EQ(scene.meshes[0].blurBounds, (VertexBlurBounds{0, 2, 0, 0, false}));
     EXPECT_EQ(scene.nodes.at(0).cocScale, 0.25);
 }
 
@@ -515,6 +514,48 @@ TEST(GltfMesh, scalesOfTheBlurThatAreNoneAreFaults) {
     EXPECT_NE(fault({1, 1, -2}, 1).find("_COC_SCALE of vertex 2 is -2"), std::string::npos);
     EXPECT_NE(fault({1, 1, 1}, -1).find("cocScale must be a number of 0 or more"), std::string::npos);
     EXPECT_NE(fault({1, 1, 1}, "none").find("cocScale must be a number of 0 or more"), std::string::npos);
+}
+
+// A triangle with further attributes, one number a vertex.
+GltfBuilder ownBlurs(const std::vector<std::pair<std::string, std::vector<float>>>& attributes) {
+    GltfBuilder builder;
+    nlohmann::json all = {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}};
+    for (const auto& [name, values] : attributes) all[name] = builder.floats(values, "SCALAR", 1);
+    builder.mesh({{{"attributes", all}}});
+    return builder;
+}
+
+TEST(GltfMesh, blursOfVerticesReplaceAddAndChange) {
+    const auto blurs = [](const std::vector<std::pair<std::string, std::vector<float>>>& attributes) {
+        return ownBlurs(attributes).load().meshes.at(0).vertices.blurs;
+    };
+    using Blurs = std::vector<VertexBlur>;
+    EXPECT_EQ(blurs({{"_COC", {0, -1, 2}}}), (Blurs{{0, 0, 0}, {0, -1, -1}, {0, 2, 2}}));
+    EXPECT_EQ(blurs({{"_COC_OFFSET", {0, -1, 2}}}), (Blurs{{1, 0, 0}, {1, -1, -1}, {1, 2, 2}}));
+    EXPECT_EQ(blurs({{"_COC_0", {0, -1, 2}}, {"_COC_1", {1, 1, 1}}}), (Blurs{{0, 0, 1}, {0, -1, 1}, {0, 2, 1}}));
+    EXPECT_EQ(blurs({{"_COC", {1, 2, 3}}, {"_COC_SCALE", {0, 1, 2}}, {"_COC_OFFSET", {5, 6, 7}}}),
+              (Blurs{{0, 5, 5}, {0, 8, 8}, {0, 13, 13}}));
+    EXPECT_EQ(blurs({}), Blurs{});
+    const Scene pair = ownBlurs({{"_COC_0", {0, -1, 2}}, {"_COC_1", {1, 1, 1}}}).load();
+    EXPECT_EQ(pair.meshes[0].blurBounds, (VertexBlurBounds{0, 0, -1, 2, true}));
+}
+
+TEST(GltfMesh, blursOfVerticesThatAreNoneAreFaults) {
+    const auto fault = [](const std::vector<std::pair<std::string, std::vector<float>>>& attributes) -> std::string {
+        try {
+            (void)ownBlurs(attributes).load();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(fault({{"_COC", {1, 2, INFINITY}}}).find("_COC of vertex 2 is inf; it must be a finite"),
+              std::string::npos);
+    EXPECT_NE(fault({{"_COC_OFFSET", {std::nanf(""), 2, 0}}}).find("_COC_OFFSET of vertex 0 is nan"),
+              std::string::npos);
+    EXPECT_NE(fault({{"_COC_0", {1, 2, 3}}}).find("_COC_0 and _COC_1 are a pair"), std::string::npos);
+    EXPECT_NE(fault({{"_COC_0", {1, 2, 3}}, {"_COC_1", {1, 2, 3}}, {"_COC", {1, 2, 3}}}).find("stand for the same"),
+              std::string::npos);
 }
 
 TEST(GltfScene, lightsShineAlongTheirNodesMinusZ) {
