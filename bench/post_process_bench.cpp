@@ -79,7 +79,7 @@ void costOverRadius() {
     info.direct = true;
     ComplexBlur direct(info);
     std::vector<double> radii, separableTimes, directTimes;
-    for (const float r : {8.0f, 16.0f, 32.0f, 64.0f}) {
+    for (const float r : {0.0f, 8.0f, 16.0f, 32.0f, 64.0f}) {
         const GlTexture radius = textureOf(filled(width, height, 1, r), TextureFormat::r32f);
         std::vector<double> a, b;
         for (int i = 0; i <= runs; ++i) {
@@ -91,10 +91,13 @@ void costOverRadius() {
         }
         const Difference difference = compareImages(readBack(separable.result(), 4), readBack(direct.result(), 4));
         if (!(difference.maxError < 2e-3)) fail("radius {}: the two blurs differ by {}", r, difference.maxError);
+        const double ofSeparable = spreadOf(a).median;
+        const double ofDirect = spreadOf(b).median;
+        fmt::print("{:>10} {:>12.2f} {:>12.2f}\n", r, ofSeparable, ofDirect);
+        if (r == 0) continue;  // what the passes cost without taps
         radii.push_back(r);
-        separableTimes.push_back(spreadOf(a).median);
-        directTimes.push_back(spreadOf(b).median);
-        fmt::print("{:>10} {:>12.2f} {:>12.2f}\n", r, separableTimes.back(), directTimes.back());
+        separableTimes.push_back(ofSeparable);
+        directTimes.push_back(ofDirect);
     }
     fmt::print("{:>10} {:>12.2f} {:>12.2f}\n\n", "exponent", exponent(radii, separableTimes),
                exponent(radii, directTimes));

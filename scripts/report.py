@@ -55,11 +55,11 @@ MODES = {"off": ("full detail", 6), "nearest": ("nearest level", 0), "fractional
 # ---- data -----------------------------------------------------------------------------------------------------------
 
 
-def label_of(method, setting):
+def label_of(method, setting, form=""):
     """'accumulation', 'lod=fractional metric=size thresholds=2' -> 'accumulation, fractional levels ×2'."""
     parts = [part.partition("=") for part in setting.split()]
     values = {name: value for name, _, value in parts if value}
-    words = [method]
+    words = [f"{method} ({form})" if form in ("published", "best") else method]
     if values.get("lod") == "off":
         words.append("full detail")
     elif "lod" in values:
@@ -75,7 +75,7 @@ def series_of(rows):
     for row in rows:
         if not row["fault"]:
             key = (row["method"], row["setting"])
-            series.setdefault(key, {"label": label_of(*key), "method": row["method"], "rows": []})["rows"].append(row)
+            series.setdefault(key, {"label": label_of(*key, row.get("form", "")), "method": row["method"], "rows": []})["rows"].append(row)
     methods = list(dict.fromkeys(one["method"] for one in series.values()))
     for index, one in enumerate(series.values()):
         one["rows"].sort(key=lambda row: row["samples"])
@@ -563,7 +563,7 @@ def rows_table(rows):
     for row in sorted(rows, key=lambda row: (row["method"], row["setting"], row["samples"])):
         time = row["milliseconds"]
         lines.append([
-            html.escape(label_of(row["method"], row["setting"])), row["samples"], f"{time['median']:.1f}",
+            html.escape(label_of(row["method"], row["setting"], row.get("form", ""))), row["samples"], f"{time['median']:.1f}",
             f"{time['low']:.1f}–{time['high']:.1f}", row["runs"], f"{row['setupMilliseconds']['median']:.0f}",
             f"{row['pyramidMilliseconds']:.0f}", f"{rmse(row):.5f}", seeds_text(row), number(row["psnr"], 2),
             f"{row['ssim']:.4f}", f"{row['flip']:.4f}", number(row["bias"]["psnr"], 2) if row["bias"] else "", f"{row['triangles'] / 1e6:.2f}",

@@ -24,11 +24,17 @@ def lines_of(name):
 # What these runs' commands need since levels are chosen by measured error: the runs had levels by size without being told.
 BY_SIZE = {"demo": " --lod-metric size", "methods-fish": " --metrics size", "popping": " --lod-metric size",
            "speedup-fish": " --lod-metric size", "speedup-helmets": " --lod-metric size"}
+# These runs had one near component and a near field of coverage where nothing was said of them.
+CIRCULAR_BY_COVERAGE = ("methods-fish", "methods-lens-space")
 
 
 def command_of(name, results):
     """As it was called, but for where it wrote, and with what it needs today to measure the same."""
-    return re.sub(r" (-o \S+|--report \S+|--quiet)", "", results["commands"][0]) + BY_SIZE.get(name, "")
+    command = re.sub(r" (-o \S+|--report \S+|--quiet)", "", results["commands"][0]) + BY_SIZE.get(name, "")
+    if name not in CIRCULAR_BY_COVERAGE:
+        return command
+    return re.sub(r"(?<=[ ,])circular(:?)",
+                  lambda found: "circular:near-components=1,near-field=coverage" + ("," if found[1] else ""), command)
 
 
 def warning(results):

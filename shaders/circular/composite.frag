@@ -8,6 +8,10 @@ layout(binding = 2) uniform sampler2D farBlurred;    // COMBINED: both fields
 #ifndef COMBINED
 layout(binding = 3) uniform sampler2D nearBlurred;
 #endif
+#ifdef NEAR_PREMULTIPLIED
+layout(binding = 4) uniform sampler2D nearRadii;     // that the near field was gathered at, in its pixels
+layout(location = 2) uniform float perNearDiameter;  // as in split.frag
+#endif
 layout(location = 0) uniform float blendBias;        // ≥ 1: the near field covers what it overlaps sooner; 0: there is none
 layout(location = 1) uniform float perFarDiameter;   // as in split.frag
 
@@ -20,6 +24,30 @@ vec3 radianceOf(vec4 field, float own, vec3 sharp) {
     return max(field.rgb + missing * sharp, vec3(0.0)) / max(field.a + missing, 1e-12);
 }
 
+#ifndef COMBINED
+// How much of a pixel the near field covers.
+float coverageOf(float weight, vec2 place) {
+#ifdef NEAR_PREMULTIPLIED
+    // Over the weight of what has the blur that was gathered: a wide blur covers fully, what is blurred less in part.
+    float diameter = 2.0 * float(REDUCTION) * textureLod(nearRadii, place, 0.0).r;
+    weight /= max(clamp(diameter, 0.0, 1.0) * min(diameter * perNearDiameter, 1.0), 1e-6);
+#endif
+    return clamp(weight, 0.0, 1.0);
+}
+
+// The bias for a near field of some radiance over another's.
+float biasOf(float coverage, vec3 before, vec3 behind) {
+#ifdef BIAS_BY_LUMINANCE
+    // In full only where most of the disk is near field, and that is brighter: there its sharp image would show.
+    const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+    float near = dot(before, luminance);
+    return 1.0 + (blendBias - 1.0) * coverage * near / max(near + dot(behind, luminance), 1e-12);
+#else
+    return blendBias;
+#endif
+}
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float diameter = pinholeCircleOfConfusion(pixel);
@@ -27,7 +55,7 @@ void main() {
     vec2 place = gl_FragCoord.xy / (float(REDUCTION) * vec2(textureSize(farBlurred, 0)));
     vec4 behind = textureLod(farBlurred, place, 0.0);
     float own = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
-    float farShare = clamp(diameter - 1.0, 0.0, 1.0);   // below 2 px the disk is the pixel
+    float farShare = clamp(diameter / float(REDUCTION) - 1.0, 0.0, 1.0);   // below two of its pixels a field holds no disk
 #ifdef COMBINED
     own += clamp(-diameter, 0.0, 1.0);
     float share = max(farShare, clamp(behind.a * blendBias, 0.0, 1.0));
@@ -35,8 +63,11 @@ void main() {
 #else
     vec3 color = mix(sharp, radianceOf(behind, own, sharp), farShare);
     vec4 before = textureLod(nearBlurred, place, 0.0);
-    float nearShare = clamp(before.a * blendBias, 0.0, 1.0);
-    if (nearShare > 0.0) color = (1.0 - nearShare) * color + nearShare / before.a * max(before.rgb, vec3(0.0));
+    float coverage = coverageOf(before.a, place);
+    if (blendBias > 0.0 && coverage > 0.0) {
+        vec3 near = max(before.rgb, vec3(0.0)) / max(before.a, 1e-12);
+        color = mix(color, near, clamp(coverage * biasOf(coverage, near, color), 0.0, 1.0));
+    }
 #endif
     image = vec4(color, 1.0);
 }

@@ -5,7 +5,7 @@
 layout(binding = 0) uniform sampler2D field;
 layout(binding = 1) uniform sampler2D radii;
 #if BRACKETED
-layout(binding = 2) uniform sampler2D brightest;       // one pixel: the largest value of the field
+layout(binding = 2) uniform sampler2D brightest;       // one pixel: the field's largest radiance and largest weight
 layout(location = 16) uniform vec4 brackets[COMPONENTS];   // offset and scale of the real, then of the imaginary part
 #endif
 layout(location = 15) uniform int firstComponent;
@@ -64,7 +64,7 @@ void main() {
     }
     float perTap = 1.0 / tapCount(taps);
 #if BRACKETED
-    vec4 exposure = vec4(vec3(1.0 / max(texelFetch(brightest, ivec2(0), 0).r, 1e-30)), 1.0);
+    vec4 exposure = 1.0 / max(texelFetch(brightest, ivec2(0), 0).rrrg, 1e-30);
     vec4 mean = plain * exposure * perTap;
     sums[3 * COMPONENTS] = vec4(mean.rgb, 0.0);
     for (int c = 0; c < COMPONENTS; ++c) {

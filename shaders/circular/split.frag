@@ -7,6 +7,9 @@
 layout(binding = 0) uniform sampler2D pinholeColor;
 layout(location = 0) uniform float largestRadius;   // px
 layout(location = 1) uniform float perFarDiameter;  // 1 / the largest diameter behind the focus plane, px
+#ifdef NEAR_PREMULTIPLIED
+layout(location = 2) uniform float perNearDiameter; // the same in front of it
+#endif
 
 layout(location = 0) out vec4 farField;             // COMBINED: both
 layout(location = 1) out float farRadius;
@@ -30,6 +33,9 @@ void main() {
             // premultiplied far field): what is nearly sharp leaks little into the wide disks of what lies behind it.
             float behind = clamp(diameter, 0.0, 1.0) * min(diameter * perFarDiameter, 1.0);
             float before = clamp(-diameter, 0.0, 1.0);
+#ifdef NEAR_PREMULTIPLIED
+            before *= min(-diameter * perNearDiameter, 1.0);
+#endif
             farSum += behind * color;
             nearSum += before * color;
             farBlur += vec2(behind * min(0.5 * diameter, largestRadius), behind);

@@ -1,19 +1,20 @@
-// The largest value of each tile of TILE × TILE pixels.
+// The largest value of each tile of TILE × TILE pixels. LARGEST_CHANNEL: of a field, the largest of its radiance, and the largest
+// weight.
 layout(binding = 0) uniform sampler2D values;
 
-layout(location = 0) out float largest;
+layout(location = 0) out vec2 largest;
 
 void main() {
     ivec2 first = TILE * ivec2(gl_FragCoord.xy);
     ivec2 last = min(first + TILE, textureSize(values, 0)) - 1;
-    largest = 0.0;
+    largest = vec2(0.0);
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
 #ifdef LARGEST_CHANNEL
             vec4 value = texelFetch(values, ivec2(x, y), 0);
-            largest = max(largest, max(value.r, max(value.g, value.b)));
+            largest = max(largest, vec2(max(value.r, max(value.g, value.b)), value.a));
 #else
-            largest = max(largest, texelFetch(values, ivec2(x, y), 0).r);
+            largest = max(largest, texelFetch(values, ivec2(x, y), 0).rg);
 #endif
         }
 }

@@ -78,6 +78,6 @@ void main() {
 #endif
     blurred = sum * (tapCount(taps) / kernelSum);   // the rows were divided by their number of taps
 #if BRACKETED
-    blurred.rgb *= texelFetch(brightest, ivec2(0), 0).r;
+    blurred *= texelFetch(brightest, ivec2(0), 0).rrrg;
 #endif
 }

@@ -190,6 +190,8 @@ SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try
     result.lights = movedLights(base.lights, result.pose);
     result.view = movedView(shot, base, result.pose, frame + middle * shot.frameRate);
     result.view.lens = lensAt(shot, base, result);
+    for (const auto& [name, track] : shot.methodKeys)
+        result.view.methodValues[name] = valueAt(track.keys, track.easing, frame);
     result.settings = base.settings;
     if (shot.animateSeed) result.settings.seed = frameSeed(base.settings.seed, frame);
 

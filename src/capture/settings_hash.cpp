@@ -97,6 +97,7 @@ std::string settingsHash(const FilmSettings& film, const SequenceFrame& frame) {
     hashed.add(frame.view.worldFromCamera);
     hashed.add(frame.view.nearPlane, frame.view.width, frame.view.height);
     addLens(hashed, frame.view.lens);
+    for (const auto& [name, value] : frame.view.methodValues) hashed.add(name, value);
     Request request = film.request;
     request.settings = frame.settings;
     if (isAutomatic(film.request)) request.settings.sampleCount = automaticSamples;

@@ -95,8 +95,9 @@ struct Shot {
     std::optional<double> shutterAngle;  // degrees, in place of the shutter's seconds; 360: from frame to frame
     ShotMovement movement;
     std::optional<FocusTrack> focus;
-    std::map<std::string, LensTrack, std::less<>> lens;  // by field
-    bool animateSeed = false;                            // other sample positions in each frame: the noise moves
+    std::map<std::string, LensTrack, std::less<>> lens;        // by field
+    std::map<std::string, LensTrack, std::less<>> methodKeys;  // of settings of its method (MethodSetting::keyed)
+    bool animateSeed = false;                                  // other sample positions in each frame: the noise moves
 
     std::vector<std::string> outputs = {"frames/####.exr"};
     std::filesystem::path video;  // none: empty

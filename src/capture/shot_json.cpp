@@ -202,6 +202,38 @@ std::map<std::string, LensTrack, std::less<>> lensOf(const JsonReader& reader) {
     return lens;
 }
 
+// ---- the method
+
+// By name, of all methods.
+std::map<std::string, const MethodSetting*, std::less<>> keyedSettings() {
+    std::map<std::string, const MethodSetting*, std::less<>> keyed;
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings)
+            if (setting.keyed) keyed.emplace(setting.name, &setting);
+    return keyed;
+}
+
+// Zero means none, so that nothing lies between it and a value.
+LensTrack methodTrackOf(const JsonReader& reader, const MethodSetting& setting) {
+    constexpr double least = 1e-6;
+    LensTrack track;
+    reader.requireObject({"keys", "interpolation"});
+    for (const auto& [frame, key] : keysOf(reader.at("keys"), {"frame", "value"}))
+        track.keys.push_back({frame, key.at("value").number(least, setting.most)});
+    track.easing = easingOf(reader);
+    return track;
+}
+
+std::map<std::string, LensTrack, std::less<>> methodKeysOf(const JsonReader& reader) {
+    const auto known = keyedSettings();
+    std::vector<std::string> names;
+    for (const auto& [name, setting] : known) names.push_back(name);
+    reader.requireObject(names);
+    std::map<std::string, LensTrack, std::less<>> tracks;
+    for (const auto& [name, member] : reader.members()) tracks[name] = methodTrackOf(member, *known.at(name));
+    return tracks;
+}
+
 // ---- the rest
 
 // The member at a JSON pointer, as far as it is there.
@@ -290,8 +322,8 @@ void collectNames(const JsonReader& reader, Shot& shot) {
 
 Shot shotOf(const json& document, const fs::path& file) {
     const JsonReader reader(document, file.string());
-    reader.requireObject(
-        keysAt("", {"$schema", "frameRate", "range", "camera", "focus", "lens", "animateSeed", "output", "video"}));
+    reader.requireObject(keysAt("", {"$schema", "frameRate", "range", "camera", "focus", "lens", "methodKeys",
+                                     "animateSeed", "output", "video"}));
     Shot shot;
     shot.file = file;
     if (const auto schema = reader.find("$schema")) static_cast<void>(schema->text());
@@ -302,6 +334,7 @@ Shot shotOf(const json& document, const fs::path& file) {
     if (const auto animate = reader.find("animateSeed")) shot.animateSeed = animate->truth();
     if (const auto focus = reader.find("focus")) shot.focus = focusOf(*focus);
     if (const auto lens = reader.find("lens")) shot.lens = lensOf(*lens);
+    if (const auto keys = reader.find("methodKeys")) shot.methodKeys = methodKeysOf(*keys);
     if (shot.focus && shot.lens.contains("focusDistance"))
         reader.at("lens").at("focusDistance").failWith("the shot has a 'focus' too; give one of them");
     if (reader.has("exposure") && shot.lens.contains("exposureTime"))

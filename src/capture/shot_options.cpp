@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/error.h"
 #include "frame/settings.h"
 #include "lens/lens_fields.h"
 
@@ -44,6 +45,16 @@ bool saysLength(const Shot& shot) {
                                              [](const auto& key) { return std::holds_alternative<double>(key.value); });
 }
 
+// Throws Error for keys of a setting that the method doesn't have.
+void checkMethodKeys(const Shot& shot) {
+    const Method& method = *chosenMethod(shot.request).method;
+    for (const auto& [name, track] : shot.methodKeys)
+        if (std::ranges::none_of(method.settings,
+                                 [&](const MethodSetting& setting) { return setting.keyed && setting.name == name; }))
+            fail("{}: /methodKeys/{}: the method {} has no such setting that may change from frame to frame",
+                 shot.file.string(), name, method.name);
+}
+
 }  // namespace
 
 void applyShot(const Shot& shot, Request& request) {
@@ -75,6 +86,7 @@ void settleShot(Shot& shot, Request& request, const GivenOptions& given) {
     for (const auto& [name, track] : shot.lens)
         giveLensValue(request.lens, *lensFieldNamed(name), track.keys.front().value);
     shot.request = request;
+    checkMethodKeys(shot);
 }
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -24,6 +25,7 @@
 #include "eval/convergence/text.h"
 #include "eval/convergence/unlit_scene.h"
 #include "frame/prepared_frame.h"
+#include "frame/presets.h"
 #include "frame/settings.h"
 #include "gl/context.h"
 #include "image/colour_map.h"
@@ -157,6 +159,37 @@ private:
     std::vector<ConvergenceRun> runs_;
 };
 
+// Is a preset the form of a method that is measured with standard settings?
+bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
+    if (std::ranges::find(options.forms, MethodForm::published) == options.forms.end()) return false;
+    return options.methods.empty() || std::ranges::any_of(options.methods, [&](const MethodUse& use) {
+               return use.method == published.method && use.text() == use.method->name;
+           });
+}
+
+// The presets' forms of the methods. Those that draw levels get pyramids of their own, which `frames` keeps; `frame`
+// has none yet.
+std::vector<PublishedForm> publishedForms(const PreparedFrame& frame, const ConvergenceOptions& options,
+                                          std::deque<PreparedFrame>& frames, Progress& progress) {
+    std::vector<PublishedForm> forms;
+    for (const Preset& preset : presets()) {
+        Request request;
+        request.settings = frame.settings;
+        applyPreset(preset, request);
+        PublishedForm form{.preset = preset.name, .use = chosenMethod(request), .plan = request.settings};
+        if (!isAsked(options, form.use)) continue;
+        if (form.use.method->usesLensSamples && form.plan.lod != LodMode::off) {
+            PreparedFrame& own = frames.emplace_back(frame);
+            own.settings = form.plan;
+            addPyramids(own, progress);
+            form.world = &own.world;
+            form.pyramidMilliseconds = own.pyramidMilliseconds;
+        }
+        forms.push_back(std::move(form));
+    }
+    return forms;
+}
+
 void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& global) {
     // Faults first: scene, lens, device, folders.
     Progress progress = terminalProgress(global);
@@ -186,6 +219,8 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     const std::vector<ConvergenceRun> done = earlierRuns(arguments, referenced, hash);
     const fs::path folder = resultsFolder(arguments);
     if (arguments.overwrite) writeFile(folder / "runs.csv", runsCsv({}, hash));
+    std::deque<PreparedFrame> publishedFrames;
+    options.published = publishedForms(frame, options, publishedFrames, progress);
     addPyramids(frame, progress);
 
     // The reference, and where to look.
@@ -231,6 +266,15 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
         "Methods, each with its settings, as in accumulation,circular:far-components=2; without it, all that this "
         "program has. Accumulation at full detail is always there",
         [&options](const std::string& text) { options.methods = parseMethods(text); })
+        ->group(group);
+    addList(command, "--rows", "published,best,standard", options.forms,
+            "Forms of the methods that are named without settings: as a paper has it (its preset), with the settings "
+            "that come closest to the reference, with standard settings",
+            [](const std::string& part) {
+                constexpr std::array forms = {MethodForm::published, MethodForm::best, MethodForm::standard};
+                return forms[parseChoice(part, {"published", "best", "standard"})];
+            })
+        ->default_str("published,best,standard")
         ->group(group);
     addWholes(command, "--counts", options.sampleCounts, 1, mostSamples, "Numbers of lens samples")->group(group);
     addList(command, "--lod", "off,nearest,fractional,continuous", options.lods,

@@ -33,6 +33,24 @@ std::span<const Preset> presets() {
           {"lodMetric", "score"},
           {"lodCoc", "smallest"},
           {"levelVertices", "quarters"}}},
+        {"scheuermann2004",
+         "Scheuermann 2004 as published: eight taps of a blur of at most 10 px, linear in depth, over one pinhole "
+         "image in bytes",
+         {{"method", "scheuermann:bits=8,pinholes=1"}, {"lod", "off"}}},
+        {"garcia2018",
+         "Garcia 2018 as published: fields of quarter size, kernels of his slides with eight taps on each side, "
+         "sums in ten bits, near pixels weighed by their blur, one pinhole image",
+         {{"method",
+           "circular:near-components=1,resolution=quarter,kernel=published,kernel-taps=eight,storage=r10g10b10a2,"
+           "pinholes=1"},
+          {"lod", "off"}}},
+        {"lee2010",
+         "Lee, Eisemann and Seidel 2010 as published: lens rays through the depth layers of one pinhole image",
+         {{"method", "layered:pinholes=1"}, {"lod", "off"}}},
+        {"munkberg2012",
+         "Munkberg, Toth and Akenine-Möller 2012 as published: each pixel has its own points on the lens and in time, "
+         "and sees full detail",
+         {{"method", "stochastic"}, {"lod", "off"}}},
     };
     return all;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct View {
     int height = 768;         // px
     // worldFromCamera at each moment of World::shutter; empty if the camera doesn't move.
     std::vector<glm::dmat4> shutterCameras;
+    std::map<std::string, double> methodValues;  // of the method's settings, by name, where a shot gives them keys
 };
 
 // The poses of the scene while the shutter is open.

@@ -124,6 +124,11 @@ double numberOf(const MethodSettings& settings, const std::string& name) {
     return number;
 }
 
+double valueAt(const View& view, const MethodSettings& settings, const std::string& name) {
+    const auto keyed = view.methodValues.find(name);
+    return keyed == view.methodValues.end() ? numberOf(settings, name) : keyed->second;
+}
+
 std::string settingsText(const std::vector<MethodSetting>& known, const MethodSettings& settings) {
     std::string text;
     for (const MethodSetting& setting : known) {

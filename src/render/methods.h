@@ -26,6 +26,7 @@ struct MethodSetting {
     double most = 0;
     bool whole = true;        // a whole number
     bool ofTheScene = false;  // no value suits all scenes: benches over all settings leave it out
+    bool keyed = false;       // a number that a shot may give keys: see valueAt
 };
 
 // Values by name, as text.
@@ -56,6 +57,7 @@ struct Method {
     bool drawsMotion = true;      // false: everything stands still while the shutter is open
     ApertureShown aperture = ApertureShown::all;
     std::vector<MethodSetting> settings;
+    MethodSettings best = {};  // that come closest to the reference, at whatever cost; what isn't said is standard
     // Throws Error for settings that the method doesn't take.
     std::function<std::unique_ptr<Renderer>(const World&, const RendererOptions&)> make;
 };
@@ -81,6 +83,9 @@ MethodSettings completeSettings(std::string_view method, const std::vector<Metho
 
 // The value of a setting that is a number; `settings` must be complete.
 double numberOf(const MethodSettings& settings, const std::string& name);
+
+// The same of a setting that may have keys: View::methodValues goes before what is set.
+double valueAt(const View& view, const MethodSettings& settings, const std::string& name);
 
 // "taps=16,coc=thin-lens": what differs from the standard values, in the table's order; empty when nothing does.
 std::string settingsText(const std::vector<MethodSetting>& known, const MethodSettings& settings);

@@ -9,6 +9,7 @@
 
 #include "capture/capture.h"
 #include "capture/shot_json.h"
+#include "capture/shot_options.h"
 #include "core/error.h"
 
 namespace defocus {
@@ -213,6 +214,31 @@ TEST_F(FrameSequence, lensValuesGoTheirOwnWay) {
 }
 
 // As KHR_animation_pointer animates them; what is fixed stays.
+TEST_F(FrameSequence, settingsOfAMethodHaveKeys) {
+    const char* shot = R"({"method": "scheuermann", "methodKeys": {
+        "near-blur-depth": {"keys": [{"frame": 0, "value": 1}, {"frame": 10, "value": 2}], "interpolation": "linear"},
+        "blurriness-cutoff": {"keys": [{"frame": 3, "value": 0.5}]}}})";
+    EXPECT_DOUBLE_EQ(frame(shot, 4).view.methodValues.at("near-blur-depth"), 1.4);
+    EXPECT_DOUBLE_EQ(frame(shot, 40).view.methodValues.at("near-blur-depth"), 2);
+    EXPECT_EQ(frame(shot, 0).view.methodValues.at("blurriness-cutoff"), 0.5);
+    EXPECT_TRUE(frame("{}", 0).view.methodValues.empty());
+
+    // Of the method that is taken in the end.
+    Shot other = parseShot(shot, "x.json");
+    Request request;
+    applyShot(other, request);
+    EXPECT_NO_THROW(settleShot(other, request, {}));
+    request.method = "circular";
+    try {
+        settleShot(other, request, {});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("/methodKeys/blurriness-cutoff: the method circular"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 TEST_F(FrameSequence, lensFollowsTheCamerasOwnValues) {
     scene_.cameras[0].yfov = 2 * std::atan(0.375);  // 4:3: tan(θx/2) = 0.5
     scene_.cameras[0].lens = {{"fStop", 8}, {"focusDistance", 7}};

@@ -128,6 +128,8 @@ TEST(ShotJson, faultsNameTheirPlaceAndWhatWasExpected) {
          "shots/x.json: /lens/focusDistance: the shot has a 'focus' too; give one of them"},
         {R"({"camera": {"dolly": {"distance": 1}, "turntable": {}}})",
          "shots/x.json: /camera: give one of keys, turntable and dolly"},
+        {R"({"methodKeys": {"far-blur-depth": {"keys": [{"frame": 0, "value": 0}]}}})",
+         "shots/x.json: /methodKeys/far-blur-depth/keys/0/value: expected a number from 1e-06 to 1000000000, not 0"},
         {R"([1])", "shots/x.json: /: expected an object, not [1]"},
         {"{\"samples\": 4,\n  oops}",
          "shots/x.json: line 2, column 3: not JSON: something is missing or too much here"},

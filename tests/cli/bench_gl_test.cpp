@@ -51,8 +51,8 @@ TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
     const Outcome outcome = bench({"-o", "out"});
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("bias floor of accumulation"), std::string::npos) << outcome.out;
-    EXPECT_EQ(rowsOf("out/results.csv", 0, 3).size(), 4u);  // two settings, two numbers of samples
-    EXPECT_EQ(rowsOf("out/runs.csv", 1, 4).size(), 8u);     // two runs of each
+    EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);  // two settings and a preset, two numbers of samples
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);    // two runs of each
     const json results = json::parse(textOf(folder() / "out/results.json"));
     EXPECT_TRUE(results.at("commands").at(0).get<std::string>().starts_with("defocus --quiet bench convergence"));
     EXPECT_FALSE(results.at("machine").at("system").get<std::string>().empty());
@@ -70,20 +70,20 @@ TEST_F(BenchConvergence, writesResultsJournalReferenceAndImages) {
 
 TEST_F(BenchConvergence, aRunCutOffAnywhereIsTakenUp) {
     ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
-    const auto whole = rowsOf("out/runs.csv", 1, 4);
+    const auto whole = rowsOf("out/runs.csv", 1, 5);
     const std::string journal = textOf(folder() / "out/runs.csv");
     for (const double share : {0.1, 0.43, 0.77, 0.999, 1.0}) {
         const auto length = static_cast<std::size_t>(share * static_cast<double>(journal.size()));
         std::ofstream(folder() / "out/runs.csv") << journal.substr(0, length);
         const Outcome outcome = bench({"-o", "out", "--resume"});
         ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-        const auto rows = rowsOf("out/runs.csv", 1, 4);
+        const auto rows = rowsOf("out/runs.csv", 1, 5);
         ASSERT_EQ(rows.size(), whole.size()) << share;
         for (const auto& [key, cells] : whole) {
             ASSERT_TRUE(rows.contains(key)) << key;
-            EXPECT_EQ(rows.at(key).at(13), cells.at(13)) << key;  // mse
+            EXPECT_EQ(rows.at(key).at(14), cells.at(14)) << key;  // mse
         }
-        EXPECT_EQ(rowsOf("out/results.csv", 0, 3).size(), 4u);
+        EXPECT_EQ(rowsOf("out/results.csv", 0, 4).size(), 6u);
     }
     EXPECT_EQ(json::parse(textOf(folder() / "out/results.json")).at("commands").size(), 6u);
 }
@@ -116,7 +116,7 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
         EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
         EXPECT_TRUE(contents() == before) << outcome.err;
     };
-    expectRefused("holds 8 frames of an earlier run: --resume goes on from them, --overwrite begins anew", {});
+    expectRefused("holds 12 frames of an earlier run: --resume goes on from them, --overwrite begins anew", {});
     expectRefused("holds another scene", {"--focus-distance", "3"});
     expectRefused("holds another scene", {"--resume", "--focus-distance", "3"});
     expectRefused("holds another scene", {"--resume", "--seed", "7"});  // whose reference is the same
@@ -131,7 +131,7 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
 
     ASSERT_EQ(bench({"-o", "out", "--focus-distance", "3", "--overwrite"}).exitCode, 0);
     EXPECT_FALSE(textOf(folder() / "out/reference.exr") == reference);
-    EXPECT_EQ(rowsOf("out/runs.csv", 1, 4).size(), 8u);
+    EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);
     EXPECT_EQ(json::parse(textOf(folder() / "out/results.json")).at("commands").size(), 1u);
     expectOneLine(bench({"-o", "out", "--resume", "--overwrite"}), 2);
 }
@@ -142,7 +142,7 @@ TEST_F(BenchConvergence, diffOfARunWithItselfIsNothing) {
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("unknown: 2 runs"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("errors: 0 closer, 0 farther, "), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("4 rows: 0 faster, 0 slower, 0 within noise, 4 unknown"), std::string::npos)
+    EXPECT_NE(outcome.out.find("6 rows: 0 faster, 0 slower, 0 within noise, 6 unknown"), std::string::npos)
         << outcome.out;
 }
 
@@ -165,6 +165,7 @@ TEST_F(BenchConvergence, reportIsOneFileThatNeedsNothingElse) {
     const std::string page = textOf(folder() / "page/index.html");
     expectWholePage(page);
     EXPECT_NE(page.find("accumulation, full detail"), std::string::npos);
+    EXPECT_NE(page.find("accumulation (published), jeong2011"), std::string::npos);
     for (const char* part : {"<nav ", "href=\"results.csv\"", "href=\"results.json\"", "@software{defocus", "aria-sort",
                              "data-value=\"accumulation, full detail, "})
         EXPECT_NE(page.find(part), std::string::npos) << part;

@@ -160,6 +160,7 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"bench popping --report", {.words = {"--report", "page"}, .without = {"-o"}}},
 
         {"bench convergence --methods", {.words = {"--methods", "circular"}}},
+        {"bench convergence --rows", {.words = {"--rows", "best"}}},
         {"bench convergence --counts", {.words = {"--counts", "3"}}},
         {"bench convergence --lod", {.words = {"--lod", "nearest"}}},
         {"bench convergence --metrics", {.words = {"--metrics", "error"}}},

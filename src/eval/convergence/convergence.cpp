@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "core/error.h"
 #include "core/hash.h"
@@ -49,8 +50,24 @@ std::string settingOf(const MethodUse& use, const std::string& levels) {
     return text.empty() ? "standard" : text;
 }
 
+MethodUse bestUse(const Method& method) {
+    return {&method, completeSettings(method.name, method.settings, method.best)};
+}
+
+std::string formOf(const MethodUse& use) {
+    if (use.settings == standardUse(*use.method).settings) return methodFormName(MethodForm::standard);
+    if (use.settings == bestUse(*use.method).settings) return methodFormName(MethodForm::best);
+    return {};
+}
+
 ConvergenceCase fullDetailCase(const MethodUse& use, std::uint32_t samples, const RenderSettings& plan) {
-    ConvergenceCase result{use, settingOf(use, drawsLevels(*use.method) ? "lod=off" : ""), samples, plan};
+    ConvergenceCase result{
+        .use = use,
+        .form = formOf(use),
+        .setting = settingOf(use, drawsLevels(*use.method) ? "lod=off" : ""),
+        .samples = samples,
+        .plan = plan,
+    };
     result.plan.lod = LodMode::off;
     if (samples > 0) result.plan.sampleCount = samples;
     return result;
@@ -75,6 +92,39 @@ std::vector<ConvergenceCase> casesOf(const MethodUse& use, std::uint32_t samples
                 fixThresholds(levels.plan, samples, factor);
                 cases.push_back(std::move(levels));
             }
+    }
+    return cases;
+}
+
+std::vector<ConvergenceCase> publishedCases(const Method& method, std::uint32_t samples,
+                                            const ConvergenceOptions& options) {
+    std::vector<ConvergenceCase> cases;
+    for (const PublishedForm& form : options.published) {
+        if (form.use.method != &method) continue;
+        cases.push_back({.use = form.use,
+                         .form = methodFormName(MethodForm::published),
+                         .setting = form.preset,
+                         .samples = samples,
+                         .plan = form.plan,
+                         .world = form.world,
+                         .pyramidMilliseconds = form.pyramidMilliseconds});
+        if (samples > 0) cases.back().plan.sampleCount = samples;
+        if (!drawsLevels(method)) cases.back().plan.lod = LodMode::off;
+    }
+    return cases;
+}
+
+// A method with settings of its own as it is, else in each of the forms.
+std::vector<ConvergenceCase> casesOfForms(const MethodUse& use, std::uint32_t samples,
+                                          const ConvergenceOptions& options) {
+    const Method& method = *use.method;
+    if (use.settings != standardUse(method).settings) return casesOf(use, samples, options);
+    std::vector<ConvergenceCase> cases;
+    for (const MethodForm form : options.forms) {
+        std::vector<ConvergenceCase> more = form == MethodForm::published ? publishedCases(method, samples, options)
+                                            : form == MethodForm::best    ? casesOf(bestUse(method), samples, options)
+                                                                          : casesOf(use, samples, options);
+        std::ranges::move(more, std::back_inserter(cases));
     }
     return cases;
 }
@@ -149,6 +199,7 @@ Frame frameOf(const World& world, const View& view, const ConvergenceCase& wante
     frame.image = renderer->image();
     const RenderStats stats = renderer->stats();
     frame.run.method = wanted.use.method->name;
+    frame.run.form = wanted.form;
     frame.run.setting = wanted.setting;
     frame.run.asked = wanted.samples;
     frame.run.samples = stats.samples;
@@ -186,10 +237,11 @@ public:
     // Throws Error where the method can't draw it. `flipMap` stays empty unless this is the first frame of the case.
     Frame measure(ConvergenceCase wanted, int number, Image& flipMap) {
         wanted.plan.seed += static_cast<std::uint32_t>(number % seeds_);
-        Frame frame = frameOf(world_, view_, wanted, renderer_);
+        Frame frame = frameOf(wanted.world != nullptr ? *wanted.world : world_, view_, wanted, renderer_);
         ConvergenceRun& run = frame.run;
         run.run = number;
-        run.pyramidMilliseconds = wanted.usesLevels() ? pyramidMilliseconds_ : 0;
+        if (wanted.usesLevels())
+            run.pyramidMilliseconds = wanted.world != nullptr ? wanted.pyramidMilliseconds : pyramidMilliseconds_;
         if (wanted.use.method->name == baselineMethod && !wanted.usesLevels()) keepFullDetail(wanted, frame.image);
         measureError(frame, wanted, flipMap);
         runs_.push_back(run);
@@ -197,6 +249,12 @@ public:
     }
 
 private:
+    // What says where the lens samples lie: their number, sequence and seed.
+    using SamplePoints = std::tuple<std::uint32_t, Sequence, std::uint32_t>;
+    static SamplePoints pointsOf(const ConvergenceCase& wanted) {
+        return {wanted.samples, wanted.plan.sequence, wanted.plan.seed};
+    }
+
     // The same image has the same error.
     void measureError(Frame& frame, const ConvergenceCase& wanted, Image& flipMap) {
         ConvergenceRun& run = frame.run;
@@ -216,14 +274,13 @@ private:
     }
 
     void keepFullDetail(const ConvergenceCase& wanted, const Image& image) {
-        fullDetailSamples_ = wanted.samples;
-        fullDetailSeed_ = wanted.plan.seed;
+        fullDetailPoints_ = pointsOf(wanted);
         fullDetail_ = image;
     }
 
-    // At the same lens samples and seed; usually what was drawn just before.
+    // At the same lens samples; usually what was drawn just before.
     const Image& fullDetailFor(const ConvergenceCase& wanted) {
-        if (fullDetailSamples_ != wanted.samples || fullDetailSeed_ != wanted.plan.seed) {
+        if (fullDetailPoints_ != pointsOf(wanted)) {
             const ConvergenceCase full =
                 fullDetailCase(standardUse(methodNamed(baselineMethod)), wanted.samples, wanted.plan);
             keepFullDetail(full, frameOf(world_, view_, full, renderer_).image);
@@ -238,12 +295,23 @@ private:
     double pyramidMilliseconds_;
     int seeds_;
     std::vector<ConvergenceRun> runs_;
-    std::uint32_t fullDetailSamples_ = 0;
-    std::uint32_t fullDetailSeed_ = 0;
+    SamplePoints fullDetailPoints_;
     Image fullDetail_;
 };
 
 }  // namespace
+
+const char* methodFormName(MethodForm form) {
+    switch (form) {
+        case MethodForm::published:
+            return "published";
+        case MethodForm::best:
+            return "best";
+        case MethodForm::standard:
+            return "standard";
+    }
+    return "";
+}
 
 double ImageError::psnr() const {
     return -10 * std::log10(mse);
@@ -265,7 +333,7 @@ std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options)
     for (const std::uint32_t count : counts) {
         add(fullDetailCase(standardUse(methodNamed(baselineMethod)), count, options.plan));
         for (const MethodUse& use : uses)
-            for (ConvergenceCase& wanted : casesOf(use, use.method->usesLensSamples ? count : 0, options))
+            for (ConvergenceCase& wanted : casesOfForms(use, use.method->usesLensSamples ? count : 0, options))
                 add(std::move(wanted));
     }
     return cases;

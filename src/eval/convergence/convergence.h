@@ -24,9 +24,29 @@
 
 namespace defocus {
 
+// Which rows a method has that is named without settings of its own.
+enum class MethodForm {
+    published,  // as its paper has it, where there is one
+    best,       // Method::best; where that is the standard, it is called so
+    standard,
+};
+const char* methodFormName(MethodForm form);
+
+// A method as its paper has it (frame/presets.h).
+struct PublishedForm {
+    std::string preset;
+    MethodUse use;
+    RenderSettings plan = {};        // except samples
+    const World* world = nullptr;    // the measured one, with pyramids of these settings; null: just the measured one
+    double pyramidMilliseconds = 0;  // time that building the world's pyramids took
+};
+
 struct ConvergenceOptions {
     std::vector<MethodUse> methods;  // empty: all methods of the table, with standard settings
-    RenderSettings plan;             // of every case, except for what the lists below choose
+    std::vector<MethodForm> forms = {MethodForm::published, MethodForm::best,
+                                     MethodForm::standard};  // of methods with standard settings
+    std::vector<PublishedForm> published;                    // for MethodForm::published
+    RenderSettings plan;                                     // of every case, except for what the lists below choose
     std::vector<std::uint32_t> sampleCounts = {8, 16, 32, 64, 128, 256};  // for methods that use lens samples
     // For methods that draw levels of detail. Accumulation at full detail is always measured, in this list or not.
     std::vector<LodMode> lods = {LodMode::off, LodMode::fractional};
@@ -40,16 +60,20 @@ struct ConvergenceOptions {
 // A case to measure: a method with one setting and one number of lens samples.
 struct ConvergenceCase {
     MethodUse use;
-    std::string setting;  // "lod=fractional metric=size thresholds=2", "components=5"; "standard" for the defaults
+    std::string form;  // "published", "best", "standard"; empty for other settings
+    std::string
+        setting;  // "lod=fractional metric=size thresholds=2", "components=5"; "standard" for the defaults; a preset
     std::uint32_t samples = 0;  // lens samples asked for; 0 if the method takes none
     RenderSettings plan;
+    const World* world = nullptr;    // null: the measured one
+    double pyramidMilliseconds = 0;  // of `world`, if it has one
     [[nodiscard]] bool usesLevels() const { return plan.lod != LodMode::off; }
 };
 
 // Returns the cases in the order of their number of samples; within each number, accumulation at full detail comes
-// first. A method that takes no lens samples has one case, among the first. Accumulation at full detail is always
+// first. A method that takes no lens samples has its cases among the first. Accumulation at full detail is always
 // included, and so are the ray tracers "embree" and "embree-shared" if the table has them. Post-process methods and ray
-// tracers have full detail only.
+// tracers have full detail only. What the lists say of levels isn't for published forms, which have their own.
 std::vector<ConvergenceCase> convergenceCases(const ConvergenceOptions& options);
 
 // The error of an image on display-encoded values; see metrics.h.
@@ -63,6 +87,7 @@ struct ImageError {
 // One frame.
 struct ConvergenceRun {
     std::string method;
+    std::string form;
     std::string setting;
     std::uint32_t asked = 0;         // lens samples asked for; 0 if the method takes none
     int run = 0;                     // counted from 0

@@ -15,6 +15,7 @@ struct Step {
 };
 
 std::string competitorOf(const ConvergenceRow& row) {
+    if (row.form == "published") return fmt::format("{} as published ({})", row.method, row.setting);
     if (row.setting == "lod=off") return row.method + " at full detail";
     return row.bias ? row.method + " with levels" : row.method;
 }

@@ -12,9 +12,9 @@ namespace defocus {
 namespace {
 
 constexpr std::string_view header =
-    "subject,method,setting,asked,run,samples,pyramidMilliseconds,setupMilliseconds,milliseconds,gpuMilliseconds,"
+    "subject,method,form,setting,asked,run,samples,pyramidMilliseconds,setupMilliseconds,milliseconds,gpuMilliseconds,"
     "triangles,peakBytes,imageHash,mse,ssim,flip,biasMse,biasSsim,biasFlip,fault\n";
-constexpr std::size_t fieldCount = 20;
+constexpr std::size_t fieldCount = 21;
 
 std::string errorText(const ImageError& error) {
     return fmt::format("{},{},{}", error.mse, error.ssim, error.flip);
@@ -74,10 +74,10 @@ private:
 std::string runsCsv(std::span<const ConvergenceRun> runs, std::uint64_t subject) {
     std::string text(header);
     for (const ConvergenceRun& r : runs)
-        text += fmt::format("{:016x},{},{},{},{},{},{},{},{},{},{},{},{:016x},{},{},{}\n", subject, r.method, r.setting,
-                            r.asked, r.run, r.samples, r.pyramidMilliseconds, r.setupMilliseconds, r.milliseconds,
-                            r.gpuMilliseconds, r.triangles, r.peakBytes, r.imageHash, errorText(r.error),
-                            r.bias ? errorText(*r.bias) : ",,", r.fault);
+        text += fmt::format("{:016x},{},{},{},{},{},{},{},{},{},{},{},{},{:016x},{},{},{}\n", subject, r.method, r.form,
+                            r.setting, r.asked, r.run, r.samples, r.pyramidMilliseconds, r.setupMilliseconds,
+                            r.milliseconds, r.gpuMilliseconds, r.triangles, r.peakBytes, r.imageHash,
+                            errorText(r.error), r.bias ? errorText(*r.bias) : ",,", r.fault);
     return text;
 }
 
@@ -93,6 +93,7 @@ std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t sub
         std::uint64_t measured = 0;
         fields.hash(measured);
         run.method = fields.text();
+        run.form = fields.text();
         run.setting = fields.text();
         fields.number(run.asked);
         fields.number(run.run);

@@ -123,6 +123,7 @@ std::vector<ConvergenceRow> convergenceRows(std::span<const ConvergenceRun> runs
         if (std::ranges::any_of(rows, [&](const ConvergenceRow& row) { return sameRow(row, run); })) continue;
         rows.emplace_back();
         rows.back().method = run.method;
+        rows.back().form = run.form;
         rows.back().setting = run.setting;
         rows.back().asked = run.asked;
     }

@@ -14,6 +14,7 @@ namespace defocus {
 
 struct ConvergenceRow {
     std::string method;
+    std::string form;  // as in ConvergenceCase
     std::string setting;
     std::uint32_t asked = 0;    // lens samples asked for; 0 if the method takes none
     std::uint32_t samples = 0;  // lens samples drawn

@@ -21,7 +21,8 @@ using nlohmann::ordered_json;
 // ---- for people -----------------------------------------------------------------------------------------------------
 
 std::string nameOf(const ConvergenceRow& row) {
-    return row.method + ", " + row.setting;
+    const bool isStandard = row.form.empty() || row.form == "standard";
+    return isStandard ? row.method + ", " + row.setting : fmt::format("{} ({}), {}", row.method, row.form, row.setting);
 }
 
 // Which fronts a row is on, in three letters' room.
@@ -43,6 +44,7 @@ std::vector<SeedError> seedErrors(const ConvergenceRow& row) {
 
 ordered_json rowJson(const ConvergenceRow& row) {
     ordered_json json = {{"method", row.method},
+                         {"form", row.form},
                          {"setting", row.setting},
                          {"samples", row.samples},
                          {"takesLensSamples", row.asked > 0},
@@ -146,16 +148,17 @@ std::string errorMapName(std::string_view method, std::string_view setting, std:
 
 std::string convergenceCsv(std::span<const ConvergenceRow> rows) {
     std::string text =
-        "method,setting,samples,runs,milliseconds,low,high,setupMilliseconds,pyramidMilliseconds,gpuMilliseconds,mse,"
+        "method,form,setting,samples,runs,milliseconds,low,high,setupMilliseconds,pyramidMilliseconds,gpuMilliseconds,"
+        "mse,"
         "psnr,ssim,flip,biasMse,biasFlip,triangles,peakBytes,front,frontOfMethod,frontByFlip,mseBelowReference,"
         "flipBelowReference,fault,";
     text += std::string(seedErrorsColumns) + "\n";
     for (const ConvergenceRow& row : rows) {
         const std::string bias = row.bias ? fmt::format("{:.6g},{:.6g}", row.bias->mse, row.bias->flip) : ",";
         text += fmt::format(
-            "{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{:d},{:d},"
+            "{},{},{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{},{:d},{:d},"
             "{:d},{:d},{:d},{},{}\n",
-            row.method, row.setting, row.samples, row.runs, row.milliseconds.median, row.milliseconds.low,
+            row.method, row.form, row.setting, row.samples, row.runs, row.milliseconds.median, row.milliseconds.low,
             row.milliseconds.high, row.setupMilliseconds.median, row.pyramidMilliseconds, row.gpuMilliseconds,
             row.error.mse, row.error.psnr(), row.error.ssim, row.error.flip, bias, row.triangles, row.peakBytes,
             row.front, row.frontOfMethod, row.frontByFlip, row.mseBelowReference, row.flipBelowReference, row.fault,

@@ -18,12 +18,14 @@ namespace {
 constexpr int tileSize = 16;  // px of the field
 
 struct CircularOptions {
-    int nearComponents = 1;
+    int nearComponents = 2;
     int farComponents = 2;
     int reduction = 1;  // pixels a side to one of the fields
     bool combined = false;
     bool direct = false;
     double blendBias = 1;
+    bool biasByLuminance = false;
+    bool nearPremultiplied = true;
     ComplexStorage storage = ComplexStorage::half;
     ComplexTaps taps = ComplexTaps::exact;
     KernelConstants constants = KernelConstants::fitted;
@@ -40,6 +42,8 @@ CircularOptions parsed(const MethodSettings& settings) {
     options.combined = settings.at("fields") == "combined";
     options.direct = settings.at("convolution") == "direct";
     options.blendBias = numberOf(settings, "blend-bias");
+    options.biasByLuminance = settings.at("bias-by") == "luminance";
+    options.nearPremultiplied = settings.at("near-field") == "premultiplied";
     options.storage = storage == "float"  ? ComplexStorage::float32
                       : storage == "half" ? ComplexStorage::half
                                           : ComplexStorage::rgb10A2;
@@ -49,6 +53,8 @@ CircularOptions parsed(const MethodSettings& settings) {
         std::max(options.nearComponents, options.farComponents) > publishedKernelLimit)
         fail("method circular: kernel=published has constants for up to {} components; the others are kernel=fitted",
              publishedKernelLimit);
+    if (options.combined && (!options.nearPremultiplied || options.biasByLuminance))
+        fail("method circular: fields=combined has no near field of its own; leave out near-field and bias-by");
     if (options.direct && options.storage == ComplexStorage::rgb10A2)
         fail(
             "method circular: convolution=direct stores no sums between its passes, so storage has no effect; leave it "
@@ -90,6 +96,11 @@ public:
         for (const Program* program : {&split_, &composite_})
             glProgramUniform1f(program->name(), 1, static_cast<float>(1 / farDiameter));
         hasNear_ = nearRadius > 0;
+        if (options_.nearPremultiplied && !options_.combined) {
+            const double nearDiameter = std::max(2 * nearRadius * options_.reduction, 1.0);
+            for (const Program* program : {&split_, &composite_})
+                glProgramUniform1f(program->name(), 2, static_cast<float>(1 / nearDiameter));
+        }
         glProgramUniform1f(composite_.name(), 0, hasNear_ ? static_cast<float>(options_.blendBias) : 0.0f);
     }
 
@@ -112,6 +123,7 @@ public:
         pinhole.attachForBlur();
         far_->result().attach(2);
         if (!options_.combined) near_->result().attach(3);
+        nearRadius_.attach(4);
         fullscreen_.draw(composite_);
     }
 
@@ -131,6 +143,8 @@ private:
             defines.emplace_back("REDUCTION", std::to_string(options_.reduction));
             defines.emplace_back("TILE", std::to_string(tileSize));
             if (options_.combined) defines.emplace_back("COMBINED", "1");
+            if (options_.nearPremultiplied && !options_.combined) defines.emplace_back("NEAR_PREMULTIPLIED", "1");
+            if (options_.biasByLuminance) defines.emplace_back("BIAS_BY_LUMINANCE", "1");
             return Program({{fullscreenShader, shader}, std::move(defines), shaderFolder_});
         };
         split_ = pass("circular/split.frag");
@@ -213,7 +227,7 @@ private:
 std::vector<MethodSetting> circularSettings() {
     return {
         {.name = "near-components",
-         .standard = "1",
+         .standard = "2",
          .description = "Components of the kernel in front of the focus plane",
          .choices = {},
          .least = 1,
@@ -231,8 +245,8 @@ std::vector<MethodSetting> circularSettings() {
         {.name = "kernel",
          .standard = "fitted",
          .description =
-             "Constants of the kernel: those that come closest to the disk, or those of Garcia's slides (one or "
-             "two components)",
+             "Constants of the kernel: those that come closest to the disk, or Niemitalo's (up to five components), of "
+             "which Garcia's slides print two",
          .choices = {"fitted", "published"}},
         {.name = "kernel-taps",
          .standard = "exact",
@@ -246,6 +260,12 @@ std::vector<MethodSetting> circularSettings() {
          .standard = "separate",
          .description = "Near and far field blurred apart, or together in one pass with the far kernel",
          .choices = {"separate", "combined"}},
+        {.name = "near-field",
+         .standard = "premultiplied",
+         .description =
+             "What a near pixel weighs in its field: what it covers times its blur, as published, so that what is "
+             "hardly blurred stays out of the wide blur of its neighbours; or what it covers alone",
+         .choices = {"premultiplied", "coverage"}},
         {.name = "blend-bias",
          .standard = "1",
          .description = "Above 1, the blurred near field hides its sharp image sooner: less ghosting, wider edges",
@@ -253,6 +273,12 @@ std::vector<MethodSetting> circularSettings() {
          .least = 1,
          .most = 4,
          .whole = false},
+        {.name = "bias-by",
+         .standard = "constant",
+         .description =
+             "The bias everywhere, or by how much of its disk the near field fills and how bright it is over what it "
+             "covers: less ghosting, and edges that stay",
+         .choices = {"constant", "luminance"}},
         {.name = "convolution",
          .standard = "separable",
          .description = "Direct gathers the same kernel over its whole square, for checks",
@@ -271,6 +297,7 @@ Method circularMethod() {
             .drawsMotion = false,
             .aperture = ApertureShown::disk,
             .settings = settings,
+            .best = {{"pinholes", "16"}},
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;
                 complete.settings = completeSettings("circular", settings, options.settings);

@@ -75,22 +75,42 @@ constexpr std::array<CircularComponent, 45> components = {{
     {-0.140223, 49.595900, -0.018297, -0.025707},
 }};
 
-// Niemitalo 2010, as Garcia's slides print them: one component, then two. The disks have these radii.
-constexpr std::array<CircularComponent, 3> published = {{
+// Niemitalo 2010; kernel n begins at n·(n − 1)/2. Garcia's slides print those of one and two components, his generator
+// of filters all, with another sign of the second sine of four, which is no disk.
+constexpr std::array<CircularComponent, 15> published = {{
+    // 1
     {0.862325, 1.624835, 0.767583, 1.862321},
+    // 2
     {0.886528, 5.268909, 0.411259, -0.548794},
     {1.960518, 1.558213, 0.513282, 4.561110},
+    // 3
+    {2.176490, 5.043495, 1.621035, -2.105439},
+    {1.019306, 9.027613, -0.280860, -0.162882},
+    {2.815110, 1.597273, -0.366471, 10.300301},
+    // 4
+    {4.338459, 1.553635, -5.767909, 46.164397},
+    {3.839993, 4.693183, 9.795391, -15.227561},
+    {2.791880, 8.178137, -3.048324, 0.302959},
+    {1.342190, 12.328289, 0.010001, 0.244650},
+    // 5
+    {4.892608, 1.685979, -22.356787, 85.912460},
+    {4.711870, 4.998496, 35.918936, -28.875618},
+    {4.052795, 8.244168, -13.212253, -1.578428},
+    {2.929212, 11.900859, 0.507991, 1.816328},
+    {1.512961, 16.116382, 0.138051, -0.010000},
 }};
-constexpr std::array<double, 3> publishedDiskRadius = {1.068, 1.097, 1.097};
+constexpr std::array<double, publishedKernelLimit> publishedDiskRadius = {1.068, 1.097, 1.101, 1.101, 1.101};
 
 // With u = r² in squared radii of the disk, e^((−a + ib)·u·ρ²) is the component whose disk has the radius ρ.
-std::array<CircularComponent, 3> publishedInRadii() {
-    std::array<CircularComponent, 3> kernels = published;
-    for (std::size_t i = 0; i < kernels.size(); ++i) {
-        const double square = publishedDiskRadius[i] * publishedDiskRadius[i];
-        kernels[i].decay *= square;
-        kernels[i].frequency *= square;
-    }
+std::array<CircularComponent, 15> publishedInRadii() {
+    std::array<CircularComponent, 15> kernels = published;
+    auto component = kernels.begin();
+    for (std::size_t n = 1; n <= publishedDiskRadius.size(); ++n)
+        for (std::size_t i = 0; i < n; ++i, ++component) {
+            const double square = publishedDiskRadius[n - 1] * publishedDiskRadius[n - 1];
+            component->decay *= square;
+            component->frequency *= square;
+        }
     return kernels;
 }
 
@@ -147,9 +167,10 @@ std::span<const CircularComponent> circularKernel(int count) {
 
 std::span<const CircularComponent> publishedCircularKernel(int count) {
     if (count < 1 || count > publishedKernelLimit)
-        fail("a published circular kernel of {} components: there are those of 1 and {}", count, publishedKernelLimit);
-    static const std::array<CircularComponent, 3> kernels = publishedInRadii();
-    return std::span(kernels).subspan(count == 1 ? 0 : 1, static_cast<std::size_t>(count));
+        fail("a published circular kernel of {} components: there are those of 1 to {}", count, publishedKernelLimit);
+    static const std::array<CircularComponent, 15> kernels = publishedInRadii();
+    const auto n = static_cast<std::size_t>(count);
+    return std::span(kernels).subspan(n * (n - 1) / 2, n);
 }
 
 std::complex<double> circularFactor(const CircularComponent& component, double offset) {

@@ -33,12 +33,12 @@ inline constexpr double circularCornerGuard = 0.2;   // see circularKernel
 // long as the program.
 std::span<const CircularComponent> circularKernel(int count);
 
-inline constexpr int publishedKernelLimit = 2;  // components of the largest published kernel
+inline constexpr int publishedKernelLimit = 5;  // components of the largest published kernel
 
-// The kernel of one or two components with the constants that Garcia's slides print, which are Niemitalo's (2010). They
-// are given there for a disk of another radius; here that radius is 1, the one for which they come closest to a disk
-// (defocus_circular_fit prints both radii). ∫K = ∫D holds once the passes have divided by the sum of their taps. Throws
-// Error for other numbers of components. The data live as long as the program.
+// The kernel of 1 to publishedKernelLimit components with Niemitalo's constants (2010), of which Garcia's slides print
+// the first two. They are given there for a disk of another radius; here that radius is 1, the one for which they come
+// closest to a disk (defocus_circular_fit prints both radii). ∫K = ∫D holds once the passes have divided by the sum of
+// their taps. Throws Error for other numbers of components. The data live as long as the program.
 std::span<const CircularComponent> publishedCircularKernel(int count);
 
 // F(x): the complex weight of the tap at `offset` radii.

@@ -19,8 +19,9 @@ constexpr int mostTargets = 8;
 constexpr int reduction = 8;  // of the search for the largest value, a side
 constexpr GLint firstComponentLocation = 15;
 constexpr GLint bracketLocation = 16;
-constexpr int mostComponentsInHalf = 5;
-constexpr double outermostTap = 2;  // in radii: taps within radius + 1/2 of radii above 1/2
+constexpr int mostFittedInHalf = 5;     // components
+constexpr int mostPublishedInHalf = 3;  // whose weights are larger, and cancel
+constexpr double outermostTap = 2;      // in radii: taps within radius + 1/2 of radii above 1/2
 constexpr int bracketSteps = 4096;
 constexpr int publishedTaps = 8;  // on each side
 
@@ -113,8 +114,8 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     : info_(info), result_(linearTexture(TextureFormat::rgba32f, info.width, info.height)), resultTarget_({&result_}) {
     constexpr float black[4] = {};
     glClearNamedFramebufferfv(resultTarget_.name(), GL_COLOR, 0, black);
-    if (info_.storage == ComplexStorage::half && info_.components > mostComponentsInHalf)
-        info_.storage = ComplexStorage::float32;
+    const int mostInHalf = info_.constants == KernelConstants::published ? mostPublishedInHalf : mostFittedInHalf;
+    if (info_.storage == ComplexStorage::half && info_.components > mostInHalf) info_.storage = ComplexStorage::float32;
     if (info_.direct) {
         direct_ = Program(
             {{fullscreenShader, "circular/direct.frag"}, definesOf(info_, info_.components), info_.shaderFolder});
@@ -130,7 +131,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     sumTarget_ = Target(targets);
     if (!bracketed()) return;
 
-    // The largest value of a field: tiles of tiles, down to one pixel.
+    // The largest radiance and weight of a field: tiles of tiles, down to one pixel.
     const auto pass = [&](const ShaderDefines& defines) {
         return Program({{fullscreenShader, "circular/tile.frag"}, defines, info_.shaderFolder});
     };
@@ -141,7 +142,7 @@ ComplexBlur::ComplexBlur(const ComplexBlurInfo& info)
     do {
         width = (width + reduction - 1) / reduction;
         height = (height + reduction - 1) / reduction;
-        brightest_.push_back(GlTexture({.format = TextureFormat::r32f, .width = width, .height = height}));
+        brightest_.push_back(GlTexture({.format = TextureFormat::rg32f, .width = width, .height = height}));
     } while (width > 1 || height > 1);
 }
 

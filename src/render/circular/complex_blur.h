@@ -17,8 +17,8 @@ namespace defocus {
 // How the rows' complex sums are stored.
 enum class ComplexStorage {
     float32,
-    half,     // kernels of more than five components take float32 all the same: rounding grows with their number
-    rgb10A2,  // Garcia's brackets, see Bracket; the field is divided by its largest value
+    half,     // kernels of more than five components (published ones of more than three) take float32: rounding grows
+    rgb10A2,  // Garcia's brackets, see Bracket; radiance and weight are divided by their largest
 };
 
 enum class ComplexTaps {
@@ -71,7 +71,7 @@ private:
     std::vector<Group> groups_;
     Program direct_;
     Program reduce_, reduceColor_;
-    std::vector<GlTexture> brightest_;  // each a tile's largest value, down to one pixel
+    std::vector<GlTexture> brightest_;  // each a tile's largest radiance and weight, down to one pixel
     std::vector<GlTexture> sums_;
     Target sumTarget_;
     GlTexture result_;

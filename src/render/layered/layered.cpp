@@ -228,6 +228,7 @@ Method layeredMethod() {
             .showsThrough = false,
             .drawsMotion = false,
             .settings = settings,
+            .best = {{"layers", "16"}, {"pinholes", "16"}},
             .make = [settings](const World& world, const RendererOptions& options) -> std::unique_ptr<Renderer> {
                 RendererOptions complete = options;
                 complete.settings = completeSettings("layered", settings, options.settings);

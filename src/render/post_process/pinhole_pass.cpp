@@ -72,7 +72,14 @@ void PinholePass::attachForBlur() const {
     if (ownBlur_) ownBlur_.attach(6);
 }
 
+void PinholePass::readAsCoverage(bool on) {
+    constexpr GLint radiance[4] = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
+    constexpr GLint coverage[4] = {GL_ALPHA, GL_ALPHA, GL_ALPHA, GL_ALPHA};
+    glTextureParameteriv(color_.name(), GL_TEXTURE_SWIZZLE_RGBA, on ? coverage : radiance);
+}
+
 void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame) {
+    transparent_ = pinholes.needsAlpha;
     shadows_.prepare(pinholes, frame);
     surfaces_.prepare(pinholes, frame, &shadows_);
 }
@@ -82,14 +89,14 @@ void PinholePass::draw(std::uint32_t index) {
     target_.bind();
     glDepthMask(GL_TRUE);
     constexpr float farthest = 0;  // reversed depth
-    constexpr float black[4] = {0, 0, 0, 1};
+    const float nothing[4] = {0, 0, 0, transparent_ ? 0.0f : 1.0f};
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
-    glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, black);
+    glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, nothing);
     constexpr float none[4] = {1, 0, 0, 1};
     if (ownBlur_) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 1, none);
     surfaces_.drawOpaque(index, 1);
     if (ownBlur_) writeOwnBlur(false);
-    surfaces_.drawSky(index, 1);
+    if (!transparent_) surfaces_.drawSky(index, 1);
     surfaces_.drawTranslucent(index, 1, color_);
     if (ownBlur_) writeOwnBlur(true);
     surfaces_.drawTranslucentDepth(index, 1);

@@ -29,9 +29,11 @@ public:
     // is blurred as they are (Scheuermann 2004).
     void draw(std::uint32_t index);
 
-    // Of the sample drawn last: linear radiance with alpha 1, and reversed depth (near plane over distance; 0 is
-    // infinity).
+    // Of the sample drawn last: linear radiance with coverage as alpha (premultiplied; 1 but over a transparent
+    // background), and reversed depth (near plane over distance; 0 is infinity).
     [[nodiscard]] const GlTexture& color() const { return color_; }
+    // From here on, color() reads as the coverage, in red, green and blue; or as the radiance again.
+    void readAsCoverage(bool on);
     [[nodiscard]] const GlTexture& depth() const { return depth_; }
     // What shaders/include/pinhole.glsl reads: depth and scales of the blur.
     void attachForBlur() const;
@@ -47,6 +49,7 @@ private:
     GlTexture depth_;
     GlTexture ownBlur_;  // the factor, and what is added; empty: nothing of their own
     Target target_;
+    bool transparent_ = false;  // the background
     ShadowMaps shadows_;
     SurfacePass surfaces_;
 };

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "gl/fullscreen.h"
 #include "render/accumulation/layer_sum.h"
 #include "render/frame_clock.h"
 
@@ -18,8 +19,6 @@ public:
 
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
-        if (plan.needsAlpha)
-            fail("post-process methods blur opaque images; give the scene a background or choose accumulation");
         plan_ = pinholePlan(scene_.world(), plan, static_cast<std::uint32_t>(numberOf(options_.settings, "pinholes")));
         prepareTargets();
         scene_.prepare(plan_);
@@ -27,8 +26,9 @@ public:
         pinhole_->prepare(plan_, frame_);
         process_->start(plan_, frame_);
         stats_.trianglesDrawn = 0;
-        stats_.peakBytes = std::max<std::uint64_t>(
-            stats_.peakBytes, scene_.bytes() + frame_.bytes() + pinhole_->bytes() + process_->bytes() + sum_->bytes());
+        stats_.peakBytes =
+            std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + frame_.bytes() + pinhole_->bytes() +
+                                                          process_->bytes() + sum_->bytes() + coverage_.bytes());
         clock_.beginFrame();
     }
 
@@ -40,6 +40,7 @@ public:
         pinhole_->draw(index);
         sum_->beginWave();
         process_->draw(*pinhole_, frame_, sum_->layers());
+        if (plan_.needsAlpha) drawCoverage();
         sum_->endWave(frame_, index, 1);
         clock_.endWave();
         stats_.trianglesDrawn += plan_.trianglesDrawn / total;
@@ -64,6 +65,27 @@ public:
     }
 
 private:
+    // Into the alpha of what is drawn.
+    void drawCoverage() {
+        pinhole_->readAsCoverage(true);
+        process_->draw(*pinhole_, frame_, coverageTarget_);
+        pinhole_->readAsCoverage(false);
+        sum_->layers().bind();
+        coverage_.attach(0);
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+        fullscreen_.draw(coverageToAlpha_);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    }
+
+    void prepareCoverage(const View& view, LayerFormat format) {
+        if (!coverageToAlpha_)
+            coverageToAlpha_ =
+                Program({{fullscreenShader, "post_process/coverage_to_alpha.frag"}, {}, options_.shaderFolder});
+        if (coverage_ && coverage_.info().width == view.width && coverage_.info().height == view.height) return;
+        coverage_ = GlTexture({.format = layerTextureFormat(format), .width = view.width, .height = view.height});
+        coverageTarget_ = Target({&coverage_});
+    }
+
     void prepareTargets() {
         const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
         if (format != LayerFormat::rgba16f && format != LayerFormat::rgba32f)
@@ -77,6 +99,7 @@ private:
             pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur, options_.shaderFolder);
         }
         sum_->reset();
+        if (plan_.needsAlpha) prepareCoverage(view, format);
     }
 
     RendererOptions options_;
@@ -86,6 +109,10 @@ private:
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
+    GlTexture coverage_;  // of a transparent background; empty where there was none yet
+    Target coverageTarget_;
+    Program coverageToAlpha_;
+    Fullscreen fullscreen_;
     mutable FrameClock clock_;
     RenderStats stats_;
 };

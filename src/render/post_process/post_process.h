@@ -15,7 +15,8 @@ public:
     virtual ~PostProcess() = default;
     // Makes what images of this plan need. Called before draw, and again for each frame.
     virtual void start(const FramePlan& plan, const FrameUniforms& frame) = 0;
-    // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1.
+    // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1. Linear in the radiance, so that
+    // coverage is blurred by the same.
     virtual void draw(const PinholePass& pinhole, const FrameUniforms& frame, const Target& output) = 0;
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
@@ -23,8 +24,8 @@ public:
 // The setting that all these methods share.
 MethodSetting pinholesSetting();
 
-// `options.settings` must be complete. Starting a frame throws Error for a transparent background, which these methods
-// don't blur.
+// `options.settings` must be complete. Over a transparent background each pinhole is blurred twice: its premultiplied
+// radiance, and its coverage.
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,
                                                   std::unique_ptr<PostProcess> process);
 

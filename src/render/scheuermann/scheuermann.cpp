@@ -46,19 +46,15 @@ public:
           thinLens_(options.settings.at("coc") == "thin-lens"),
           unlimited_(options.settings.at("max-coc") == "unlimited"),
           bytes_(options.settings.at("bits") == "8"),
-          byHand_{numberOf(options.settings, "near-blur-depth"), numberOf(options.settings, "focal-plane-depth"),
-                  numberOf(options.settings, "far-blur-depth"), numberOf(options.settings, "blurriness-cutoff")},
-          points_(poissonDisk(taps_)) {
-        const bool any = byHand_.near > 0 || byHand_.focus > 0 || byHand_.far > 0 || byHand_.cutoff > 0;
-        if (any && thinLens_)
-            fail("method scheuermann: with coc=thin-lens the lens says where things are blurred, not planes");
-    }
+          settings_(options.settings),
+          points_(poissonDisk(taps_)) {}
 
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
         if (plan.usesCocControls && !thinLens_)
             fail(
                 "method scheuermann: with coc=published the blur follows the depth alone; coc=thin-lens takes the "
                 "lens's and the objects' controls of the blur");
+        const PlanesByHand byHand = planesByHand(plan.view);
         makeTextures(plan.view.width, plan.view.height);
         if (!blurriness_ || defines_ != frame.defines()) makePrograms(frame);
         placeTaps(plan.view.lens);
@@ -67,7 +63,7 @@ public:
         glProgramUniform1f(blurriness_.name(), 0, static_cast<float>(1 / largest));
         if (!thinLens_) {
             const BlurrinessPlanes planes = withPlanesByHand(
-                blurrinessPlanes(plan.coc, plan.view.lens.focusDistance, largest, plan.view.width), byHand_);
+                blurrinessPlanes(plan.coc, plan.view.lens.focusDistance, largest, plan.view.width), byHand);
             // A line in depth each: blurriness = slope · z + offset.
             const auto focus = static_cast<float>(planes.focus);
             glProgramUniform4f(blurriness_.name(), 1, focus, static_cast<float>(1 / (planes.focus - planes.near)),
@@ -101,6 +97,15 @@ public:
     [[nodiscard]] std::size_t bytes() const override { return sharp_.bytes() + reduced_.bytes() + small_.bytes(); }
 
 private:
+    [[nodiscard]] PlanesByHand planesByHand(const View& view) const {
+        const PlanesByHand planes = {
+            valueAt(view, settings_, "near-blur-depth"), valueAt(view, settings_, "focal-plane-depth"),
+            valueAt(view, settings_, "far-blur-depth"), valueAt(view, settings_, "blurriness-cutoff")};
+        if (thinLens_ && (planes.near > 0 || planes.focus > 0 || planes.far > 0 || planes.cutoff > 0))
+            fail("method scheuermann: with coc=thin-lens the lens says where things are blurred, not planes");
+        return planes;
+    }
+
     void makeTextures(int width, int height) {
         if (sharp_ && sharp_.info().width == width && sharp_.info().height == height) return;
         const auto linear = [&](int w, int h) {
@@ -160,7 +165,7 @@ private:
     bool thinLens_;
     bool unlimited_;
     bool bytes_;  // of encoded colours, as published; else half floats
-    PlanesByHand byHand_;
+    MethodSettings settings_;
     std::vector<glm::vec2> points_;  // of the disk
     bool shaped_ = false;            // the aperture isn't a disk
     float largestRadius_ = 0;        // px
@@ -242,7 +247,8 @@ Method scheuermannMethod() {
                              .least = 0,
                              .most = most,
                              .whole = false,
-                             .ofTheScene = true};
+                             .ofTheScene = true,
+                             .keyed = true};
     };
     const std::vector<MethodSetting> settings = {
         {.name = "coc",
@@ -276,6 +282,7 @@ Method scheuermannMethod() {
             .drawsMotion = false,
             .aperture = ApertureShown::shape,
             .settings = settings,
+            .best = {{"coc", "thin-lens"}, {"taps", "64"}, {"max-coc", "unlimited"}, {"pinholes", "16"}},
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;
                 complete.settings = completeSettings("scheuermann", settings, options.settings);

@@ -201,6 +201,7 @@ std::vector<ConvergenceRun> threeRuns() {
                                         runOf("circular", "standard", 0, 1, 12345.678, 1e-9)};
     runs[0].imageHash = ~0ull;
     runs[0].triangles = 1ull << 40;
+    runs[0].form = "best";
     runs[1].bias = ImageError{1.0 / 7, 0.5, 1e-17};
     runs[2].samples = 4;
     runs[2].fault = "3 lens samples instead of 4";
@@ -211,7 +212,7 @@ bool same(const ConvergenceRun& a, const ConvergenceRun& b) {
     const auto equal = [](const ImageError& x, const ImageError& y) {
         return x.mse == y.mse && x.ssim == y.ssim && x.flip == y.flip;
     };
-    return a.method == b.method && a.setting == b.setting && a.asked == b.asked && a.run == b.run &&
+    return a.method == b.method && a.form == b.form && a.setting == b.setting && a.asked == b.asked && a.run == b.run &&
            a.samples == b.samples && a.milliseconds == b.milliseconds && a.setupMilliseconds == b.setupMilliseconds &&
            a.triangles == b.triangles && a.imageHash == b.imageHash && equal(a.error, b.error) &&
            a.bias.has_value() == b.bias.has_value() && (!a.bias || equal(*a.bias, *b.bias)) && a.fault == b.fault;
@@ -234,7 +235,7 @@ TEST(ConvergenceJournal, ofAnotherSubjectOrNoneIsAnError) {
     EXPECT_NE(messageOf<Error>([&] { readRunsCsv(text, 8, "runs.csv"); }).find("another scene"), std::string::npos);
     EXPECT_NE(messageOf<Error>([&] { readRunsCsv("a,b\n1,2\n", 7, "runs.csv"); }).find("runs.csv"), std::string::npos);
     const std::string header = runsCsv({}, 7);
-    for (const char* line : {"\n", "7,a\n", "7,a,b,1,0,1,0,0,x,0,0,0,0,0,0,0,,,,\n", ",,,,,,,,,,,,,,,,,,,\n"})
+    for (const char* line : {"\n", "7,a\n", "7,a,c,b,1,0,1,0,0,x,0,0,0,0,0,0,0,,,,\n", ",,,,,,,,,,,,,,,,,,,,\n"})
         EXPECT_NE(messageOf<Error>([&] { readRunsCsv(header + line, 7, "runs.csv"); }).find("line 2"),
                   std::string::npos)
             << line;
@@ -243,7 +244,7 @@ TEST(ConvergenceJournal, ofAnotherSubjectOrNoneIsAnError) {
 TEST(ConvergenceFiles, csvAndJsonHoldEveryRow) {
     const std::vector<ConvergenceRow> rows = convergenceRows(threeRuns());
     const std::string csv = convergenceCsv(rows);
-    EXPECT_TRUE(csv.starts_with("method,setting,samples,runs,milliseconds,low,high,setupMilliseconds,"));
+    EXPECT_TRUE(csv.starts_with("method,form,setting,samples,runs,milliseconds,low,high,setupMilliseconds,"));
     ASSERT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
     const auto commas = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
     EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 4 * commas);
@@ -298,6 +299,53 @@ TEST(ConvergenceCases, followTheTableAndTheLists) {
     std::set<std::string> names;
     for (const ConvergenceCase& one : convergenceCases(options)) names.insert(one.use.method->name);
     EXPECT_EQ(names.size(), methods().size());
+}
+
+// A method with standard settings has a row for each form, one with its own is as it is.
+TEST(ConvergenceCases, formsArePublishedBestAndStandard) {
+    registerMethod({.name = "formed",
+                    .description = "",
+                    .usesLensSamples = false,
+                    .settings = {{.name = "taps", .standard = "8", .description = "", .choices = {}, .most = 64}},
+                    .best = {{"taps", "64"}},
+                    .make = {}});
+    const World world;
+    ConvergenceOptions options;
+    options.sampleCounts = {16};
+    options.lods = {LodMode::off};
+    options.methods = {parseMethodUse("formed"), parseMethodUse("formed:taps=9"), parseMethodUse("accumulation")};
+    options.published = {{.preset = "old2004", .use = parseMethodUse("formed:taps=2")},
+                         {.preset = "jeong2011",
+                          .use = parseMethodUse("accumulation"),
+                          .plan = {.lod = LodMode::nearest},
+                          .world = &world},
+                         {.preset = "other1999", .use = parseMethodUse("multirate")}};
+    const auto texts = [&] {
+        std::set<std::string> found;
+        for (const ConvergenceCase& one : convergenceCases(options))
+            found.insert(fmt::format("{}|{}|{}", one.use.text(), one.form, one.setting));
+        return found;
+    };
+    using Texts = std::set<std::string>;
+    Texts expected = {"accumulation|standard|lod=off",   "accumulation|published|jeong2011",
+                      "formed:taps=2|published|old2004", "formed:taps=64|best|taps=64",
+                      "formed|standard|standard",        "formed:taps=9||taps=9"};
+    for (const ConvergenceCase& one : convergenceCases(options))
+        if (one.use.method->name == "embree") expected.insert("embree|standard|standard");
+    EXPECT_EQ(texts(), expected);
+    for (const ConvergenceCase& one : convergenceCases(options)) {
+        const bool levels = one.setting == "jeong2011";
+        EXPECT_EQ(one.world, levels ? &world : nullptr) << one.setting;
+        EXPECT_EQ(one.usesLevels(), levels) << one.setting;
+    }
+
+    options.forms = {MethodForm::published};
+    std::erase_if(expected, [](const std::string& text) {
+        const bool given = text.find("=9") != text.npos;
+        const bool published = text.find("published") != text.npos;
+        return text.starts_with("embree") || (text.starts_with("formed") && !published && !given);
+    });
+    EXPECT_EQ(texts(), expected);
 }
 
 TEST(ConvergenceCases, thresholdsAreTimesTheStandardOnes) {

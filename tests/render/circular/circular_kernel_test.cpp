@@ -120,6 +120,8 @@ TEST(CircularKernel, halfFloatsSuffice) {
     for (int n = 1; n <= circularKernelLimit; ++n) {
         EXPECT_LT(roundingAmplification(circularKernel(n), circularKernelExtent, 1), 5) << n;
     }
+    for (int n = 1; n <= 3; ++n)  // the published ones beyond take 32-bit floats
+        EXPECT_LT(roundingAmplification(publishedCircularKernel(n), circularKernelExtent, 1), 5) << n;
 }
 
 TEST(CircularKernel, moreComponentsComeCloserToTheDisk) {
@@ -169,7 +171,20 @@ TEST(CircularKernel, publishedKernelsAreInRadiiOfTheirDisk) {
             }
             EXPECT_GT(diskProfileError(other, circularKernelExtent, 1), error) << n << ", " << factor;
         }
+        // Of a mistyped constant: neither a disk, nor closer to it than with a component less.
+        EXPECT_LT(error, n == 1 ? 0.25 : diskProfileError(publishedCircularKernel(n - 1), circularKernelExtent, 1));
     }
+}
+
+// Their dips, which darken what lies around a highlight, are shallower than the fitted kernels'.
+TEST(CircularKernel, publishedKernelsDipLess) {
+    const auto lowest = [](std::span<const CircularComponent> kernel) {
+        double value = 0;
+        for (double u = 0; u <= 2; u += 1e-3) value = std::min(value, circularProfile(kernel, u));
+        return value * energyGain(kernel, circularKernelExtent, 1);
+    };
+    for (int n = 2; n <= publishedKernelLimit; ++n)
+        EXPECT_GT(lowest(publishedCircularKernel(n)), 0.4 * lowest(circularKernel(n))) << n;
 }
 
 // What the kernels are the least of (see the header).

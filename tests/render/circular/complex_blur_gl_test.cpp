@@ -155,6 +155,15 @@ TEST_F(ComplexBlurs, bracketsLoseLittleMoreThanTheirTenBits) {
     }
 }
 
+// Weights are divided by the largest of them, as radiance is: small ones lose no more of it.
+TEST_F(ComplexBlurs, bracketsKeepSmallWeights) {
+    Image light = blocks();
+    for (float& value : light.pixels) value *= 0.01f;
+    const Image one = blurred(infoOf(2, ComplexStorage::rgb10A2), blocks(), filled(1, 9));
+    const Image small = blurred(infoOf(2, ComplexStorage::rgb10A2), light, filled(1, 9));
+    for (std::size_t i = 0; i < one.pixels.size(); ++i) ASSERT_NEAR(small.pixels[i] / 0.01f, one.pixels[i], 5e-3) << i;
+}
+
 // As published, the eight taps' scale is their sum: what is stored of a white field is 1, of a black one 0, and of a
 // field with any samples lies between.
 TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
@@ -171,6 +180,23 @@ TEST(Brackets, ofEightTapsStoreAWhiteFieldAsOne) {
             EXPECT_NEAR((sum.real() - bracket.real.offset) / bracket.real.scale, 1, 1e-12);
             EXPECT_NEAR((sum.imag() - bracket.imaginary.offset) / bracket.imaginary.scale, 1, 1e-12);
         }
+}
+
+// The brackets that Garcia's generator of filters prints for two components and a radius of eight taps. It divides the
+// taps so that the whole kernel sums to one: the one in the middle, whose factor is 1, is 0.064754.
+TEST(Brackets, ofEightTapsAreGarcias) {
+    constexpr double middle = 0.064754;
+    constexpr int taps = 17;
+    const auto expectBracket = [&](const Bracket& bracket, double offset, double scale) {
+        EXPECT_NEAR(bracket.offset * middle, offset, 2e-6);
+        EXPECT_NEAR(bracket.scale * middle * taps, scale, 2e-5);
+    };
+    const ComplexBracket first = bracketOf({0.886528, 5.268909, 0.411259, -0.548794}, ComplexTaps::eight);
+    expectBracket(first.real, -0.038708, 0.943062);
+    expectBracket(first.imaginary, -0.025574, 0.660892);
+    const ComplexBracket second = bracketOf({1.960518, 1.558213, 0.513282, 4.561110}, ComplexTaps::eight);
+    expectBracket(second.real, 0.000115, 0.559524);
+    expectBracket(second.imaginary, 0, 0.178226);
 }
 
 TEST(Brackets, boundTheTapsOfEveryRadius) {

@@ -1,0 +1,6 @@
+// What a method made of the coverage, as the alpha of what it made of the radiance.
+layout(binding = 0) uniform sampler2D coverage;
+
+layout(location = 0) out vec4 alpha;
+
+void main() { alpha = vec4(clamp(texelFetch(coverage, ivec2(gl_FragCoord.xy), 0).r, 0.0, 1.0)); }
