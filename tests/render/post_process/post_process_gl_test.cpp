@@ -178,6 +178,7 @@ TEST_P(PostProcesses, whatLiesBehindABlendedSurfaceIsBlurredAsThatSurface) {
     std::vector<Board> list = {{2, {-0.4, 0}, {0.4, 1}, {0.2f, 0.6f, 0.3f, 0.5f}}};
     for (int i = -8; i < 8; ++i) list.push_back({9, {0.8 * i, 0}, {0.2, 9}, {0.9f, 0.2f, 0.1f, 1}});
     const auto small = boards(list, glm::vec3(0.5f));
+    small->view.lens.blurScale = 4;  // 10 px: a field of a quarter of the size holds that
     const Image image = rendered(*small, GetParam());
     small->view.lens.dofEnabled = false;
     const Image sharp = rendered(*small, GetParam());
