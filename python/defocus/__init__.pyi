@@ -66,13 +66,14 @@ class Keywords(TypedDict, total=False):
     background_limit: Optional[float]  # px
     focus_range_front: Optional[float]  # m
     focus_range_behind: Optional[float]  # m
+    focus_range_refocuses: Optional[bool]
     focus_tilt: Optional[float]  # degrees
     focus_swing: Optional[float]  # degrees
     field_curvature: Optional[float]
     radial_blur_gain: Optional[float]
     aperture_image: Optional[Path]
     node_blur: Optional[Union[Mapping[str, float], str]]
-    preset: Optional[Literal["jeong2011", "tzeng2012"]]
+    preset: Optional[Literal["jeong2011", "tzeng2012", "scheuermann2004", "garcia2018", "lee2010", "munkberg2012"]]
     samples: Optional[Union[int, Literal["auto"]]]
     target_error: Optional[float]
     time_limit: Optional[Union[float, str]]  # s
@@ -111,7 +112,9 @@ class Keywords(TypedDict, total=False):
     kernel_taps: Optional[Literal["exact", "eight", "sets"]]
     storage: Optional[Literal["float", "half", "r10g10b10a2"]]
     fields: Optional[Literal["separate", "combined"]]
+    near_field: Optional[Literal["premultiplied", "coverage"]]
     blend_bias: Optional[float]
+    bias_by: Optional[Literal["constant", "luminance"]]
     convolution: Optional[Literal["separable", "direct"]]
     layers: Optional[int]
     shading: Optional[Literal["surfaces", "vertices"]]
