@@ -98,7 +98,6 @@ TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "block by block, which a time limit needs", {"--method", "scheuermann", "--time-limit", "1"});
     expectFault(2, "exact motion", {"--target-error", "0.01", "--shutter", "1", "--motion-segments", "exact"});
     expectFault(2, "--sample-range", {"--target-error", "0.01", "--sample-range", "0:64", "-o", "a.exr"});
-    expectFault(1, "accumulation", {"--method", "circular", "--background", "none"});
     expectFault(1, "levels by measured error take a light threshold",
                 {"--lod-metric", "measured", "--blur-threshold", "0.1"});
     expectFault(1, "levels by size take a blur and a size threshold",
