@@ -69,8 +69,7 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         "object for a lens sample), out.work.exr with out.work.png (triangles that touch each pixel, "
         "summed over the lens samples of the accumulation, hidden ones too) and out.swept-work.exr with "
         "out.swept-work.png (triangles whose bounds over all of the lens cover each pixel: what a stochastic "
-        "rasteriser "
-        "tests there)",
+        "rasteriser tests there)",
         [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
         ->group(group);
     addParsed(command, "--sample-range", "FIRST:END",

@@ -3,11 +3,11 @@
 #include "plan/frame_plan.h"
 
 #include <algorithm>
-#include <utility>
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "lod/pyramid/blurred_error.h"

@@ -10,42 +10,48 @@ namespace defocus {
 
 namespace {
 
-void addInfluences(const Object& object, const glm::u16vec4& joints, const glm::vec4& weights, glm::dmat4& sum,
-                   double& weightSum) {
+void addInfluences(std::span<const glm::dmat4> matrices, const glm::u16vec4& joints, const glm::vec4& weights,
+                   glm::dmat4& sum, double& weightSum) {
     for (int i = 0; i < 4; ++i) {
         if (!(weights[i] > 0) || !std::isfinite(weights[i])) continue;
-        const std::size_t joint = joints[i] < object.worldFromJoint.size() ? joints[i] : 0;
-        sum += static_cast<double>(weights[i]) * object.worldFromJoint[joint];
+        const std::size_t joint = joints[i] < matrices.size() ? joints[i] : 0;
+        sum += static_cast<double>(weights[i]) * matrices[joint];
         weightSum += static_cast<double>(weights[i]);
     }
 }
 
-// Σ w_j · M_j / Σ w_j of a vertex.
 glm::dmat4 worldFromVertex(const Vertices& vertices, const Object& object, std::size_t vertex) {
     if (!object.skinned() || vertices.joints.empty()) return object.worldFromObject;
-    glm::dmat4 sum(0.0);
-    double weightSum = 0;
-    addInfluences(object, vertices.joints[vertex], vertices.weights[vertex], sum, weightSum);
-    if (!vertices.joints1.empty())
-        addInfluences(object, vertices.joints1[vertex], vertices.weights1[vertex], sum, weightSum);
-    return weightSum > 0 ? sum / weightSum : object.worldFromJoint.front();
+    return skinMatrix(vertices, object.worldFromJoint, vertex);
 }
 
-// The displacements of one kind (positions or normals), by the weights of the moment.
 std::vector<glm::dvec3> morphed(const std::vector<glm::vec3>& values, const Mesh& mesh, const Object& object,
                                 std::vector<glm::vec3> MorphTarget::*kind) {
     std::vector<glm::dvec3> result(values.begin(), values.end());
-    const std::size_t targets = std::min(mesh.morphTargets.size(), object.morphWeights.size());
-    for (std::size_t t = 0; t < targets; ++t) {
-        const double weight = object.morphWeights[t];
-        const std::vector<glm::vec3>& displacements = mesh.morphTargets[t].*kind;
-        if (weight == 0 || !std::isfinite(weight) || displacements.empty()) continue;
-        for (std::size_t v = 0; v < result.size(); ++v) result[v] += weight * glm::dvec3(displacements[v]);
-    }
+    addMorphs(mesh, object.morphWeights, kind, {}, result);
     return result;
 }
 
 }  // namespace
+
+glm::dmat4 skinMatrix(const Vertices& vertices, std::span<const glm::dmat4> joints, std::size_t vertex) {
+    glm::dmat4 sum(0.0);
+    double weightSum = 0;
+    addInfluences(joints, vertices.joints[vertex], vertices.weights[vertex], sum, weightSum);
+    if (!vertices.joints1.empty())
+        addInfluences(joints, vertices.joints1[vertex], vertices.weights1[vertex], sum, weightSum);
+    return weightSum > 0 ? sum / weightSum : joints.front();
+}
+
+void addMorphs(const Mesh& mesh, std::span<const double> weights, std::vector<glm::vec3> MorphTarget::*kind,
+               std::span<const std::uint32_t> source, std::vector<glm::dvec3>& values) {
+    for (std::size_t t = 0; t < std::min(mesh.morphTargets.size(), weights.size()); ++t) {
+        const std::vector<glm::vec3>& displacements = mesh.morphTargets[t].*kind;
+        if (weights[t] == 0 || !std::isfinite(weights[t]) || displacements.empty()) continue;
+        for (std::size_t v = 0; v < values.size(); ++v)
+            values[v] += weights[t] * glm::dvec3(displacements[source.empty() ? v : source[v]]);
+    }
+}
 
 std::vector<glm::dvec3> posedPositions(const Mesh& mesh, const Object& object) {
     std::vector<glm::dvec3> result = morphed(mesh.vertices.positions, mesh, object, &MorphTarget::positions);

@@ -32,12 +32,7 @@ Image rendered(const SmallWorld& small, std::uint32_t samples, double tolerance 
     settings.lod = LodMode::off;
     settings.cocTolerance = tolerance;
     settings.keepAll = true;  // pinhole images keep all their samples
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const MethodUse use = parseMethodUse(method);
-    options.settings = completeSettings(use.method->name, use.method->settings, use.settings);
-    const auto renderer = use.method->make(small.world, options);
-    return imageOf(*renderer, planFrame(small.world, small.view, settings));
+    return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 
 double rootMeanSquare(const Image& a, const Image& b) {

@@ -13,6 +13,15 @@ inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
     return renderer.image();
 }
 
+// That of a method as the command line has it, without rounding of its layers to half floats.
+inline Image imageByMethod(const char* method, const World& world, const FramePlan& plan) {
+    const MethodUse use = parseMethodUse(method);
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    options.settings = completeSettings(use.method->name, use.method->settings, use.settings);
+    return imageOf(*use.method->make(world, options), plan);
+}
+
 // The accumulation's, without rounding of its layers to half floats.
 inline Image imageInFloats(const World& world, const FramePlan& plan) {
     RendererOptions options;

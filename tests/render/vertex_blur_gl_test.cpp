@@ -52,12 +52,7 @@ Image renderedBlur(const SmallWorld& small, const char* method = "accumulation",
     RenderSettings settings;
     settings.sampleCount = count;
     settings.lod = LodMode::off;
-    RendererOptions options;
-    options.layerFormat = LayerFormat::rgba32f;
-    const MethodUse use = parseMethodUse(method);
-    options.settings = completeSettings(use.method->name, use.method->settings, use.settings);
-    const auto renderer = use.method->make(small.world, options);
-    return imageOf(*renderer, planFrame(small.world, small.view, settings));
+    return imageByMethod(method, small.world, planFrame(small.world, small.view, settings));
 }
 
 // px a millimetre on the sensor.

@@ -61,8 +61,8 @@ struct ConvergenceOptions {
 struct ConvergenceCase {
     MethodUse use;
     std::string form;  // "published", "best", "standard"; empty for other settings
-    std::string
-        setting;  // "lod=fractional metric=size thresholds=2", "components=5"; "standard" for the defaults; a preset
+    // "lod=fractional metric=size thresholds=2", "components=5"; "standard" for the defaults; a preset's name.
+    std::string setting;
     std::uint32_t samples = 0;  // lens samples asked for; 0 if the method takes none
     RenderSettings plan;
     const World* world = nullptr;    // null: the measured one

@@ -549,8 +549,7 @@ TEST(GltfMesh, blursOfVerticesThatAreNoneAreFaults) {
         }
         return "";
     };
-    EXPECT_NE(fault({{"_COC", {1, 2, INFINITY}}}).find("_COC of vertex 2 is inf; it must be from"),
-              std::string::npos);
+    EXPECT_NE(fault({{"_COC", {1, 2, INFINITY}}}).find("_COC of vertex 2 is inf; it must be from"), std::string::npos);
     EXPECT_NE(fault({{"_COC_OFFSET", {std::nanf(""), 2, 0}}}).find("_COC_OFFSET of vertex 0 is nan"),
               std::string::npos);
     EXPECT_NE(fault({{"_COC_0", {1, 2, 3}}}).find("_COC_0 and _COC_1 are a pair"), std::string::npos);
