@@ -248,6 +248,22 @@ def ghosting():
     return document.gltf()
 
 
+def panes():
+    """Panes of coloured glass, alpha-blended: a sharp one before blurred ones and a wall, a near one before a sharp chart."""
+    document = Document()
+    white = unlit(document, "Paper", [1.0, 1.0, 1.0])
+    glass = {"alphaMode": "BLEND", "doubleSided": True, "extensions": {"KHR_materials_unlit": {}},
+             "pbrMetallicRoughness": {"baseColorFactor": [1.0, 1.0, 1.0, 0.5]}}
+    glass = document.material("Glass", **glass)
+    add_board(document, "Wall", white, 12.0, -0.7, 0.7, -0.7, 0.7, 28, 20, (linear(244, 236, 214), linear(58, 70, 96)))
+    add_board(document, "Far pane", glass, 6.0, -0.05, 0.28, -0.02, 0.44, 1, 1, (linear(230, 70, 60), linear(230, 70, 60)))
+    add_board(document, "Chart", white, 2.0, -0.42, -0.08, -0.36, 0.12, 17, 16, (linear(250, 246, 236), linear(36, 60, 120)))
+    add_board(document, "Sharp pane", glass, 2.0, 0.1, 0.42, -0.38, 0.3, 6, 9, (linear(120, 220, 150), linear(40, 150, 110)))
+    add_board(document, "Near pane", glass, 0.8, -0.3, 0.02, -0.22, 0.4, 1, 1, (linear(255, 170, 40), linear(255, 170, 40)))
+    artefact_camera(document, 1.0, 2.0)
+    return document.gltf()
+
+
 def resolution_loss():
     """A fine chart that slants away from the focus: blurs of a few pixels, where small images show their pixels."""
     document = Document()
@@ -457,8 +473,8 @@ def main():
                        ("fish.glb", fish), ("chess.glb", chess),
                        ("artefact-leaking.gltf", leaking), ("artefact-lost-background.gltf", lost_background),
                        ("artefact-half-discs.gltf", half_discs), ("artefact-ghosting.gltf", ghosting),
-                       ("artefact-resolution-loss.gltf", resolution_loss), ("swimmers.glb", swimmers),
-                       ("reed.glb", reed), ("painted-blur.glb", painted_blur)):
+                       ("artefact-resolution-loss.gltf", resolution_loss), ("artefact-panes.gltf", panes),
+                       ("swimmers.glb", swimmers), ("reed.glb", reed), ("painted-blur.glb", painted_blur)):
         path, data = HERE / name, make()
         if not check:
             path.write_bytes(data)

@@ -42,7 +42,7 @@ std::span<const Preset> presets() {
          "sums in ten bits, near pixels weighed by their blur, one pinhole image",
          {{"method",
            "circular:near-components=1,resolution=quarter,kernel=published,kernel-taps=eight,storage=r10g10b10a2,"
-           "pinholes=1"},
+           "transparency-buckets=0,pinholes=1"},
           {"lod", "off"}}},
         {"lee2010",
          "Lee, Eisemann and Seidel 2010 as published: lens rays through the depth layers of one pinhole image",

@@ -12,10 +12,18 @@ void Fullscreen::draw(const Program& program) const {
 }
 
 void Fullscreen::drawAdding(const Program& program) const {
+    drawBlended(program, GL_ONE);
+}
+
+void Fullscreen::drawOver(const Program& program) const {
+    drawBlended(program, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void Fullscreen::drawBlended(const Program& program, GLenum kept) const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE);
+    glBlendFunc(GL_ONE, kept);
     program.use();
     glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);

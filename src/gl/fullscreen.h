@@ -15,8 +15,12 @@ public:
     void draw(const Program& program) const;
     // The same, adding to what the target holds.
     void drawAdding(const Program& program) const;
+    // The same, laid over what the target holds: premultiplied by its alpha.
+    void drawOver(const Program& program) const;
 
 private:
+    void drawBlended(const Program& program, GLenum kept) const;
+
     VertexArray noVertices_;
 };
 

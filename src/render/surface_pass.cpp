@@ -222,17 +222,19 @@ void SurfacePass::drawRuns(const Draw& item, GLenum mode, std::uint32_t first, s
     glMultiDrawElementsIndirect(mode, GL_UNSIGNED_INT, offset, static_cast<GLsizei>(commands.size()), 0);
 }
 
-void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
-                            GLenum depthTest) {
+void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count, GLenum depthTest,
+                            const ObjectSet& objects) {
     bindFrame();
     glDisable(GL_BLEND);
     glDepthFunc(depthTest);
     glDepthMask(GL_TRUE);
-    drawFronts(items, first, count);
+    drawFronts(items, first, count, objects);
 }
 
-void SurfacePass::drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count) {
-    for (const Draw& item : items) drawFront(item, first, count);
+void SurfacePass::drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
+                             const ObjectSet& objects) {
+    for (const Draw& item : items)
+        if (contains(objects, item.object)) drawFront(item, first, count);
 }
 
 // Both sides of what is double-sided.
@@ -269,13 +271,15 @@ void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {
     glDisable(GL_BLEND);
 }
 
-void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors) {
+void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors,
+                                  const ObjectSet& objects) {
     if (translucent_.empty()) return;
     bindFrame();
     glDepthFunc(GL_GREATER);
     std::size_t left = transmittingObjects_;
     std::optional<std::uint32_t> shown;  // the transmitting object that the backdrop is for
     for (const Draw& item : translucent_) {
+        if (!contains(objects, item.object)) continue;
         if (!scene_->material(item.material).transmits()) {
             drawBlended(item, first, count);
             continue;
@@ -306,10 +310,10 @@ void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32
     draw(item, first, count);
 }
 
-void SurfacePass::drawTranslucentDepth(std::uint32_t first, std::uint32_t count) {
+void SurfacePass::drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects) {
     if (translucent_.empty()) return;
     glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    drawSolid(translucent_, first, count, GL_GEQUAL);  // what transmits has left its depth already
+    drawSolid(translucent_, first, count, GL_GEQUAL, objects);  // what transmits has left its depth already
     glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 

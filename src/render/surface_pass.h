@@ -11,6 +11,7 @@
 #include "gl/pacer.h"
 #include "gl/program.h"
 #include "render/backdrop.h"
+#include "render/object_set.h"
 #include "render/surface_draws.h"
 
 namespace defocus {
@@ -36,11 +37,12 @@ public:
     void drawOpaque(std::uint32_t first, std::uint32_t count);
     // The same for alpha-blended and transmitting surfaces, object by object and back to front. `colors` is what is
     // drawn into, the environment included: a transmitting surface shows a copy of what it holds before its object is
-    // drawn. Of many such objects, only the nearest see each other.
-    void drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors);
+    // drawn. Of many such objects, only the nearest see each other. `objects` has all that transmit, or none.
+    void drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors,
+                         const ObjectSet& objects = {});
     [[nodiscard]] bool hasTranslucent() const { return !translucent_.empty(); }
     // Only the depth of the alpha-blended and transmitting surfaces, and what the shader writes beside the colour.
-    void drawTranslucentDepth(std::uint32_t first, std::uint32_t count);
+    void drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects = {});
     // All surfaces, translucent ones too, as if they were opaque.
     void drawSurfaces(std::uint32_t first, std::uint32_t count);
     // The same into the shadow map `slot` of each sample, both sides of each surface.
@@ -97,8 +99,9 @@ private:
     void bindFrame();
     void bindSamples(GpuMesh& mesh);
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
-                   GLenum depthTest = GL_GREATER);
-    void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count);
+                   GLenum depthTest = GL_GREATER, const ObjectSet& objects = {});
+    void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
+                    const ObjectSet& objects = {});
     void drawFront(const Draw& item, std::uint32_t first, std::uint32_t count);
     void drawBlended(const Draw& item, std::uint32_t first, std::uint32_t count);
     void draw(const Draw& item, std::uint32_t first, std::uint32_t count);

@@ -36,8 +36,8 @@ namespace option_cases {
 
 // A ball of 700 triangles that goes away from the camera within 2 s, and turns to its right half-way, before a board. A
 // second clip holds it still. A second camera stands closer and has a focus distance of its own. With a lamp above it,
-// or under the lights of a scene without lights.
-inline std::string movingBall(bool lamp) {
+// or under the lights of a scene without lights; the board may be a pane.
+inline std::string movingBall(bool lamp, bool pane = false) {
     const Mesh ball = bumpySphere(24, 16, 0);
     GltfBuilder builder;
     std::vector<float> corners;
@@ -48,8 +48,13 @@ inline std::string movingBall(bool lamp) {
     builder.mesh({{{"attributes", {{"POSITION", ballPositions}}}, {"indices", ballIndices}}}, {{"name", "Ball"}});
     const int positions = builder.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
     const int indices = builder.indices({0, 1, 2, 0, 2, 3});
-    builder.mesh({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}},
-                 {{"name", "Board"}, {"translation", {-1.5, 0.5, -9}}, {"scale", {2, 2, 1}}});
+    nlohmann::json board = {{"attributes", {{"POSITION", positions}}}, {"indices", indices}};
+    if (pane) {
+        builder.add("materials",
+                    {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 0.5}}}}});
+        board["material"] = 0;
+    }
+    builder.mesh({board}, {{"name", "Board"}, {"translation", {-1.5, 0.5, -9}}, {"scale", {2, 2, 1}}});
     builder.json["cameras"] = {
         {{"name", "Far"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"znear", 0.1}}}},
         {{"name", "Near"},
@@ -90,10 +95,12 @@ inline Words only(const char* method) {
 
 }  // namespace option_cases
 
-// Writes ball.glb, lamp.glb (the ball with a lamp), sky.hdr and half.png, which the cases name.
+// Writes ball.glb, lamp.glb (the ball with a lamp), pane.glb (before a pane), sky.hdr and half.png, which the cases
+// name.
 inline void writeOptionScene(const std::filesystem::path& folder) {
     GltfBuilder::save(folder / "ball.glb", option_cases::movingBall(false));
     GltfBuilder::save(folder / "lamp.glb", option_cases::movingBall(true));
+    GltfBuilder::save(folder / "pane.glb", option_cases::movingBall(false, true));
     Image sky(8, 4, 3);
     for (std::size_t i = 0; i < sky.pixels.size(); ++i) sky.pixels[i] = static_cast<float>(i % 7) * 0.3f;
     writeImage(folder / "sky.exr", sky);
@@ -211,6 +218,8 @@ inline const std::map<std::string, OptionCase>& methodSettingCases() {
         {"bias-by",
          {{"--bias-by", "luminance"}, joined(only("circular"), {"--focus-distance", "8", "--blend-bias", "3"})}},
         {"convolution", {{"--convolution", "direct"}, only("circular")}},
+        {"transparency-buckets",
+         {{"--transparency-buckets", "0"}, joined(only("circular"), {"--focus-distance", "1"})}},
         {"pinholes", {{"--pinholes", "1"}, only("circular")}},
         {"layers", {{"--layers", "1"}, {"--method", "layered", "--fstop", "0.1", "--focus-distance", "9"}}},
         {"resolve", {{"--resolve", "published"}, joined(only("line"), {"--focus-distance", "1"})}},
@@ -343,10 +352,10 @@ inline Words lineOfCase(const CommandLine& given, const std::string& name, const
             ++i;
         else
             line.push_back(given.rest[i]);
-    // Only a lamp has a radius.
-    if (name == "lightRadius")
-        for (std::string& word : line)
-            if (word.starts_with("ball.")) word.replace(0, 4, "lamp");
+    // Only a lamp has a radius, and only what is seen through is put into buckets.
+    const std::string scene = name == "lightRadius" ? "lamp" : name == "transparency-buckets" ? "pane" : "ball";
+    for (std::string& word : line)
+        if (word.starts_with("ball.")) word.replace(0, 4, scene);
     // The school has no camera of that name.
     if (std::ranges::find(line, "ball.glb") == line.end())
         std::ranges::replace(line, std::string("--camera=Near"), std::string("--camera=auto"));

@@ -39,7 +39,8 @@ inline nlohmann::json jsonIn(const std::filesystem::path& path) {
     return nlohmann::json::parse(file);
 }
 
-// Runs lines in a folder with ball.glb, lamp.glb, sky.hdr, half.png, three shots of one frame and one of three.
+// Runs lines in a folder with ball.glb, lamp.glb, pane.glb, sky.hdr, half.png, four shots of one frame and two of
+// three.
 class OptionTest : public GlProgramTest {
 protected:
     void SetUp() override {
@@ -48,6 +49,7 @@ protected:
         using nlohmann::json;
         write("ball.json", {{"scene", "ball.glb"}, {"range", {0, 0}}, {"size", {48, 36}}});
         write("lamp.json", {{"scene", "lamp.glb"}, {"range", {0, 0}}, {"size", {48, 36}}});
+        write("pane.json", {{"scene", "pane.glb"}, {"range", {0, 0}}, {"size", {48, 36}}});
         write("fish.json", {{"fish", {{"count", 1}, {"triangles", 900}}}, {"range", {0, 0}}, {"size", {48, 36}}});
         json shot = {{"scene", "ball.glb"}, {"range", {0, 2}}, {"size", {16, 12}}, {"samples", 2}, {"frameRate", 8}};
         shot["focus"] = {{"distance", 1}};

@@ -104,10 +104,10 @@ public:
         glProgramUniform1f(composite_.name(), 0, hasNear_ ? static_cast<float>(options_.blendBias) : 0.0f);
     }
 
-    void draw(const PinholePass& pinhole, const FrameUniforms& frame, const Target& output) override {
+    void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) override {
         frame.bind(0);
         splitTarget_.bind();
-        pinhole.color().attach(0);
+        pinhole.color.attach(0);
         pinhole.attachForBlur();
         fullscreen_.draw(split_);
         if (hasNear_ || options_.combined) spreadNearRadius();
@@ -119,7 +119,7 @@ public:
         }
 
         output.bind();
-        pinhole.color().attach(0);
+        pinhole.color.attach(0);
         pinhole.attachForBlur();
         far_->result().attach(2);
         if (!options_.combined) near_->result().attach(3);
@@ -283,6 +283,7 @@ std::vector<MethodSetting> circularSettings() {
          .standard = "separable",
          .description = "Direct gathers the same kernel over its whole square, for checks",
          .choices = {"separable", "direct"}},
+        transparencyBucketsSetting("4"),
         pinholesSetting(),
     };
 }
@@ -297,7 +298,7 @@ Method circularMethod() {
             .drawsMotion = false,
             .aperture = ApertureShown::disk,
             .settings = settings,
-            .best = {{"pinholes", "16"}},
+            .best = {{"transparency-buckets", "8"}, {"pinholes", "16"}},
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;
                 complete.settings = completeSettings("circular", settings, options.settings);

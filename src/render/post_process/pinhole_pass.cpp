@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::uint32_t lightPoints = 16;  // of a pinhole's shadows, on each light
 
-GlTexture texture(int width, int height, TextureFormat format) {
-    return GlTexture({.format = format, .width = width, .height = height});
-}
-
 ShaderDefines definesOf(LayerFormat format) {
     ShaderDefines defines = layerFormatDefines(format);
     defines.emplace_back("READS_OWN_BLUR", "1");
@@ -55,33 +51,31 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
 
 PinholePass::PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
                          const std::filesystem::path& shaderFolder)
-    : color_(texture(width, height, layerTextureFormat(format))),
-      depth_(texture(width, height, TextureFormat::depth32f)),
-      ownBlur_(ownBlur ? texture(width, height, TextureFormat::rg32f) : GlTexture()),
-      target_(ownBlur ? Target({&color_, &ownBlur_}, &depth_) : Target({&color_}, &depth_)),
+    : format_(format),
+      shaderFolder_(shaderFolder),
+      image_(width, height, format, TextureFormat::depth32f, ownBlur),
+      target_(ownBlur ? Target({&image_.color, &image_.ownBlur}, &image_.depth)
+                      : Target({&image_.color}, &image_.depth)),
       shadows_(scene, vertexShaderMayPickLayer(), shaderFolder),
       surfaces_(scene, {.fragmentShader = "accumulation/object.frag",
                         .defines = definesOf(format),
                         .vertexShaderLayers = vertexShaderMayPickLayer(),
-                        .shaderFolder = shaderFolder}) {
-    color_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
-}
+                        .shaderFolder = shaderFolder}) {}
 
-void PinholePass::attachForBlur() const {
-    depth_.attach(1);
-    if (ownBlur_) ownBlur_.attach(6);
-}
-
-void PinholePass::readAsCoverage(bool on) {
-    constexpr GLint radiance[4] = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
-    constexpr GLint coverage[4] = {GL_ALPHA, GL_ALPHA, GL_ALPHA, GL_ALPHA};
-    glTextureParameteriv(color_.name(), GL_TEXTURE_SWIZZLE_RGBA, on ? coverage : radiance);
-}
-
-void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame) {
+void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame,
+                          const std::vector<TransparencyBucket>& buckets) {
     transparent_ = pinholes.needsAlpha;
     shadows_.prepare(pinholes, frame);
     surfaces_.prepare(pinholes, frame, &shadows_);
+    const std::size_t objects = pinholes.objects.size();
+    buckets_.assign(buckets.size(), ObjectSet(objects, false));
+    inNoBucket_ = ObjectSet(objects, true);
+    for (std::size_t i = 0; i < buckets.size(); ++i)
+        for (const std::size_t object : buckets[i]) {
+            buckets_[i][object] = true;
+            inNoBucket_[object] = false;
+        }
+    if (!buckets_.empty() && !bucketPass_) bucketPass_.emplace(image_, format_, shaderFolder_);
 }
 
 void PinholePass::draw(std::uint32_t index) {
@@ -93,13 +87,19 @@ void PinholePass::draw(std::uint32_t index) {
     glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &farthest);
     glClearNamedFramebufferfv(target_.name(), GL_COLOR, 0, nothing);
     constexpr float none[4] = {1, 0, 0, 1};
-    if (ownBlur_) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 1, none);
+    const bool ownBlur = hasOwnBlur();
+    if (ownBlur) glClearNamedFramebufferfv(target_.name(), GL_COLOR, 1, none);
     surfaces_.drawOpaque(index, 1);
-    if (ownBlur_) writeOwnBlur(false);
+    if (ownBlur) writeOwnBlur(false);
     if (!transparent_) surfaces_.drawSky(index, 1);
-    surfaces_.drawTranslucent(index, 1, color_);
-    if (ownBlur_) writeOwnBlur(true);
-    surfaces_.drawTranslucentDepth(index, 1);
+    surfaces_.drawTranslucent(index, 1, image_.color, inNoBucket_);
+    if (ownBlur) writeOwnBlur(true);
+    surfaces_.drawTranslucentDepth(index, 1, inNoBucket_);
+}
+
+PinholeImage& PinholePass::drawBucket(std::uint32_t index, std::size_t bucket) {
+    bucketPass_->draw(surfaces_, index, buckets_.at(bucket));
+    return bucketPass_->image();
 }
 
 }  // namespace defocus

@@ -3,9 +3,13 @@
 // each pixel.
 
 #include <optional>
+#include <vector>
 
 #include "gl/target.h"
 #include "render/layer_format.h"
+#include "render/post_process/bucket_pass.h"
+#include "render/post_process/pinhole_image.h"
+#include "render/post_process/transparency_buckets.h"
 #include "render/shadow_maps.h"
 #include "render/surface_pass.h"
 
@@ -23,35 +27,37 @@ public:
     PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
                 const std::filesystem::path& shaderFolder);
 
-    // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing.
-    void prepare(const FramePlan& pinholes, const FrameUniforms& frame);
-    // Draws sample `index`. Alpha-blended surfaces leave their depth too, in a pass of its own: what lies behind them
-    // is blurred as they are (Scheuermann 2004).
+    // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing. `buckets` are
+    // drawn apart, each by drawBucket.
+    void prepare(const FramePlan& pinholes, const FrameUniforms& frame, const std::vector<TransparencyBucket>& buckets);
+    // Draws sample `index`. Alpha-blended surfaces that are in no bucket leave their depth too, in a pass of its own:
+    // what lies behind them is blurred as they are (Scheuermann 2004).
     void draw(std::uint32_t index);
+    // Of the sample drawn last: linear radiance with coverage as alpha (1 but over a transparent background), and
+    // depth.
+    [[nodiscard]] PinholeImage& image() { return image_; }
 
-    // Of the sample drawn last: linear radiance with coverage as alpha (premultiplied; 1 but over a transparent
-    // background), and reversed depth (near plane over distance; 0 is infinity).
-    [[nodiscard]] const GlTexture& color() const { return color_; }
-    // From here on, color() reads as the coverage, in red, green and blue; or as the radiance again.
-    void readAsCoverage(bool on);
-    [[nodiscard]] const GlTexture& depth() const { return depth_; }
-    // What shaders/include/pinhole.glsl reads: depth and scales of the blur.
-    void attachForBlur() const;
-    [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(ownBlur_); }
-    [[nodiscard]] int width() const { return color_.info().width; }
-    [[nodiscard]] int height() const { return color_.info().height; }
+    [[nodiscard]] std::size_t buckets() const { return buckets_.size(); }
+    // The image of a bucket of the sample drawn last, the farthest first: what image() doesn't hide of it, over
+    // nothing.
+    [[nodiscard]] PinholeImage& drawBucket(std::uint32_t index, std::size_t bucket);
+
+    [[nodiscard]] bool hasOwnBlur() const { return static_cast<bool>(image_.ownBlur); }
     [[nodiscard]] std::size_t bytes() const {
-        return color_.bytes() + depth_.bytes() + ownBlur_.bytes() + shadows_.bytes() + surfaces_.bytes();
+        return image_.bytes() + shadows_.bytes() + surfaces_.bytes() + (bucketPass_ ? bucketPass_->bytes() : 0);
     }
 
 private:
-    GlTexture color_;
-    GlTexture depth_;
-    GlTexture ownBlur_;  // the factor, and what is added; empty: nothing of their own
+    LayerFormat format_;
+    std::filesystem::path shaderFolder_;
+    PinholeImage image_;
     Target target_;
     bool transparent_ = false;  // the background
     ShadowMaps shadows_;
     SurfacePass surfaces_;
+    std::vector<ObjectSet> buckets_;
+    ObjectSet inNoBucket_;
+    std::optional<BucketPass> bucketPass_;
 };
 
 }  // namespace defocus

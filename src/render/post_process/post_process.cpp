@@ -7,6 +7,7 @@
 #include "gl/fullscreen.h"
 #include "render/accumulation/layer_sum.h"
 #include "render/frame_clock.h"
+#include "render/post_process/pinhole_pass.h"
 
 namespace defocus {
 
@@ -20,15 +21,17 @@ public:
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
         plan_ = pinholePlan(scene_.world(), plan, static_cast<std::uint32_t>(numberOf(options_.settings, "pinholes")));
-        prepareTargets();
+        const auto most = static_cast<std::uint32_t>(numberOf(options_.settings, "transparency-buckets"));
+        const std::vector<TransparencyBucket> buckets = transparencyBuckets(plan_, most);
+        prepareTargets(!buckets.empty());
         scene_.prepare(plan_);
         frame_.upload(scene_.world(), plan_, 1);
-        pinhole_->prepare(plan_, frame_);
+        pinhole_->prepare(plan_, frame_, buckets);
         process_->start(plan_, frame_);
         stats_.trianglesDrawn = 0;
-        stats_.peakBytes =
-            std::max<std::uint64_t>(stats_.peakBytes, scene_.bytes() + frame_.bytes() + pinhole_->bytes() +
-                                                          process_->bytes() + sum_->bytes() + coverage_.bytes());
+        stats_.peakBytes = std::max<std::uint64_t>(
+            stats_.peakBytes, scene_.bytes() + frame_.bytes() + pinhole_->bytes() + process_->bytes() + sum_->bytes() +
+                                  coverage_.bytes() + radiance_.bytes());
         clock_.beginFrame();
     }
 
@@ -39,8 +42,10 @@ public:
         clock_.beginWave();
         pinhole_->draw(index);
         sum_->beginWave();
-        process_->draw(*pinhole_, frame_, sum_->layers());
+        process_->draw(pinhole_->image(), frame_, sum_->layers());
         if (plan_.needsAlpha) drawCoverage();
+        for (std::size_t bucket = 0; bucket < pinhole_->buckets(); ++bucket)
+            layOver(pinhole_->drawBucket(index, bucket));
         sum_->endWave(frame_, index, 1);
         clock_.endWave();
         stats_.trianglesDrawn += plan_.trianglesDrawn / total;
@@ -65,11 +70,15 @@ public:
     }
 
 private:
+    void blurCoverage(PinholeImage& pinhole) {
+        pinhole.readAsCoverage(true);
+        process_->draw(pinhole, frame_, coverageTarget_);
+        pinhole.readAsCoverage(false);
+    }
+
     // Into the alpha of what is drawn.
     void drawCoverage() {
-        pinhole_->readAsCoverage(true);
-        process_->draw(*pinhole_, frame_, coverageTarget_);
-        pinhole_->readAsCoverage(false);
+        blurCoverage(pinhole_->image());
         sum_->layers().bind();
         coverage_.attach(0);
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
@@ -77,16 +86,33 @@ private:
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 
-    void prepareCoverage(const View& view, LayerFormat format) {
-        if (!coverageToAlpha_)
-            coverageToAlpha_ =
-                Program({{fullscreenShader, "post_process/coverage_to_alpha.frag"}, {}, options_.shaderFolder});
-        if (coverage_ && coverage_.info().width == view.width && coverage_.info().height == view.height) return;
-        coverage_ = GlTexture({.format = layerTextureFormat(format), .width = view.width, .height = view.height});
-        coverageTarget_ = Target({&coverage_});
+    // A bucket over what is drawn.
+    void layOver(PinholeImage& bucket) {
+        process_->draw(bucket, frame_, radianceTarget_);
+        blurCoverage(bucket);
+        sum_->layers().bind();
+        radiance_.attach(0);
+        coverage_.attach(1);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, plan_.needsAlpha ? GL_TRUE : GL_FALSE);
+        fullscreen_.drawOver(bucketOver_);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 
-    void prepareTargets() {
+    // Makes an image that the process draws into, of the frame's size and format.
+    void prepareImage(GlTexture& image, Target& target) const {
+        const LayerSumInfo& frame = sum_->info();
+        const TextureFormat format = layerTextureFormat(frame.format);
+        const TextureInfo& now = image.info();
+        if (image && now.width == frame.width && now.height == frame.height && now.format == format) return;
+        image = GlTexture({.format = format, .width = frame.width, .height = frame.height});
+        target = Target({&image});
+    }
+
+    void prepareProgram(Program& program, const char* shader) const {
+        if (!program) program = Program({{fullscreenShader, shader}, {}, options_.shaderFolder});
+    }
+
+    void prepareTargets(bool hasBuckets) {
         const LayerFormat format = chosenLayerFormat(scene_.world(), plan_, options_.layerFormat);
         if (format != LayerFormat::rgba16f && format != LayerFormat::rgba32f)
             fail("layer format {}: post-process methods need rgba16f or rgba32f", layerFormatName(format));
@@ -99,7 +125,11 @@ private:
             pinhole_.emplace(scene_, view.width, view.height, format, plan_.usesOwnBlur, options_.shaderFolder);
         }
         sum_->reset();
-        if (plan_.needsAlpha) prepareCoverage(view, format);
+        if (plan_.needsAlpha) prepareProgram(coverageToAlpha_, "post_process/coverage_to_alpha.frag");
+        if (plan_.needsAlpha || hasBuckets) prepareImage(coverage_, coverageTarget_);
+        if (!hasBuckets) return;
+        prepareProgram(bucketOver_, "post_process/bucket_over.frag");
+        prepareImage(radiance_, radianceTarget_);
     }
 
     RendererOptions options_;
@@ -109,9 +139,10 @@ private:
     FrameUniforms frame_;
     std::optional<LayerSum> sum_;
     std::optional<PinholePass> pinhole_;
-    GlTexture coverage_;  // of a transparent background; empty where there was none yet
-    Target coverageTarget_;
-    Program coverageToAlpha_;
+    GlTexture coverage_;  // blurred; empty where neither the background was transparent yet nor there was a bucket
+    GlTexture radiance_;  // of a bucket, blurred; likewise
+    Target coverageTarget_, radianceTarget_;
+    Program coverageToAlpha_, bucketOver_;
     Fullscreen fullscreen_;
     mutable FrameClock clock_;
     RenderStats stats_;
@@ -126,6 +157,17 @@ MethodSetting pinholesSetting() {
             .choices = {},
             .least = 1,
             .most = 64};
+}
+
+MethodSetting transparencyBucketsSetting(const char* standard) {
+    return {.name = "transparency-buckets",
+            .standard = standard,
+            .description =
+                "Alpha-blended surfaces are blurred apart from what lies behind them, in as many groups by depth at "
+                "most; 0: with it, by their own blur",
+            .choices = {},
+            .least = 0,
+            .most = 8};
 }
 
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,

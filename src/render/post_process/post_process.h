@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "render/methods.h"
-#include "render/post_process/pinhole_pass.h"
+#include "render/post_process/pinhole_image.h"
 
 namespace defocus {
 
@@ -17,15 +17,16 @@ public:
     virtual void start(const FramePlan& plan, const FrameUniforms& frame) = 0;
     // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1. Linear in the radiance, so that
     // coverage is blurred by the same.
-    virtual void draw(const PinholePass& pinhole, const FrameUniforms& frame, const Target& output) = 0;
+    virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-// The setting that all these methods share.
+// The settings that all these methods share.
 MethodSetting pinholesSetting();
+MethodSetting transparencyBucketsSetting(const char* standard);
 
 // `options.settings` must be complete. Over a transparent background each pinhole is blurred twice: its premultiplied
-// radiance, and its coverage.
+// radiance, and its coverage. So is each bucket of alpha-blended surfaces (transparency_buckets.h).
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,
                                                   std::unique_ptr<PostProcess> process);
 

@@ -72,11 +72,11 @@ public:
         glProgramUniform1f(gather_.name(), 0, largestRadius_);
     }
 
-    void draw(const PinholePass& pinhole, const FrameUniforms& frame, const Target& output) override {
+    void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) override {
         frame.bind(0);
         // Colour with blurriness, and its small pre-blurred copy.
         sharpTarget_.bind();
-        pinhole.color().attach(0);
+        pinhole.color.attach(0);
         pinhole.attachForBlur();
         fullscreen_.draw(blurriness_);
         reducedTarget_.bind();
@@ -274,6 +274,7 @@ Method scheuermannMethod() {
         byHand("far-blur-depth", "m behind which all has the largest blur; 0: where the lens reaches it", 1e9),
         byHand("blurriness-cutoff",
                "Largest blur behind the focus, as a share of the largest; 0: the lens's at infinity", 1),
+        transparencyBucketsSetting("0"),
         pinholesSetting(),
     };
     return {.name = "scheuermann",
@@ -282,7 +283,11 @@ Method scheuermannMethod() {
             .drawsMotion = false,
             .aperture = ApertureShown::shape,
             .settings = settings,
-            .best = {{"coc", "thin-lens"}, {"taps", "64"}, {"max-coc", "unlimited"}, {"pinholes", "16"}},
+            .best = {{"coc", "thin-lens"},
+                     {"taps", "64"},
+                     {"max-coc", "unlimited"},
+                     {"transparency-buckets", "8"},
+                     {"pinholes", "16"}},
             .make = [settings](const World& world, const RendererOptions& options) {
                 RendererOptions complete = options;
                 complete.settings = completeSettings("scheuermann", settings, options.settings);

@@ -1,0 +1,26 @@
+#include "render/post_process/pinhole_image.h"
+
+namespace defocus {
+
+PinholeImage::PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur) {
+    const auto textureOf = [&](TextureFormat of) {
+        return GlTexture({.format = of, .width = width, .height = height});
+    };
+    color = textureOf(layerTextureFormat(format));
+    color.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    depth = textureOf(depthFormat);
+    if (keepsOwnBlur) ownBlur = textureOf(TextureFormat::rg32f);
+}
+
+void PinholeImage::attachForBlur() const {
+    depth.attach(1);
+    if (ownBlur) ownBlur.attach(6);
+}
+
+void PinholeImage::readAsCoverage(bool on) {
+    constexpr GLint radiance[4] = {GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA};
+    constexpr GLint coverage[4] = {GL_ALPHA, GL_ALPHA, GL_ALPHA, GL_ALPHA};
+    glTextureParameteriv(color.name(), GL_TEXTURE_SWIZZLE_RGBA, on ? coverage : radiance);
+}
+
+}  // namespace defocus

@@ -1,0 +1,98 @@
+#include "render/post_process/transparency_buckets.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace defocus {
+namespace {
+
+// Objects front to back, of a blur in px each.
+struct Flat {
+    double blur = 0;
+    bool blended = true;
+    bool transmits = false;
+};
+
+FramePlan planOf(const std::vector<Flat>& objects) {
+    FramePlan plan;
+    plan.view.width = 100;
+    plan.view.height = 100;
+    plan.view.nearPlane = 0.1;
+    plan.tanHalfHorizontal = 1;
+    plan.usesBlending = true;
+    for (const Flat& flat : objects) {
+        ObjectPlan& object = plan.objects.emplace_back();
+        object.coc.nearest = flat.blur - 3;
+        object.coc.farthest = flat.blur + 3;
+        object.blended = flat.blended;
+        object.transmits = flat.transmits;
+        object.nearestDepth = 1 + static_cast<double>(plan.objects.size());
+        object.viewBox.extend(glm::dvec3(-1, -1, -object.nearestDepth));
+        object.viewBox.extend(glm::dvec3(1, 1, -object.nearestDepth));
+    }
+    return plan;
+}
+
+void moveRight(ObjectPlan& object) {
+    object.viewBox.minimum.x += 4;
+    object.viewBox.maximum.x += 4;
+}
+
+using Buckets = std::vector<TransparencyBucket>;
+
+TEST(TransparencyBuckets, partWhereTheBlurDiffersMost) {
+    const FramePlan plan = planOf({{-40}, {-38}, {-20}, {-12}, {9}});
+    EXPECT_EQ(transparencyBuckets(plan, 1), (Buckets{{0, 1, 2, 3, 4}}));
+    EXPECT_EQ(transparencyBuckets(plan, 2), (Buckets{{4}, {0, 1, 2, 3}}));
+    EXPECT_EQ(transparencyBuckets(plan, 3), (Buckets{{4}, {2, 3}, {0, 1}}));
+    EXPECT_EQ(transparencyBuckets(plan, 4), (Buckets{{4}, {3}, {2}, {0, 1}}));
+    EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{4}, {3}, {2}, {1}, {0}}));
+}
+
+TEST(TransparencyBuckets, holdWhatIsBlurredAlikeTogether) {
+    EXPECT_EQ(transparencyBuckets(planOf({{5}, {5.4}, {5.9}, {8}}), 8), (Buckets{{3}, {0, 1, 2}}));
+}
+
+TEST(TransparencyBuckets, passOverOpaqueObjects) {
+    const FramePlan plan = planOf({{-9, false}, {-5}, {0, false}, {5}, {9, false}});
+    EXPECT_EQ(transparencyBuckets(plan, 1), (Buckets{{1, 3}}));
+    EXPECT_EQ(transparencyBuckets(plan, 2), (Buckets{{3}, {1}}));
+}
+
+TEST(TransparencyBuckets, leaveOutWhatMayBeSeenThroughAnother) {
+    FramePlan plan = planOf({{-9}, {0, false, true}, {5}, {9}});
+    EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
+    moveRight(plan.objects[2]);  // beside what transmits
+    EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{2}, {0}}));
+    plan.objects[2].transmits = true;
+    EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{0}}));
+}
+
+// Beside what transmits, but behind a blended object that isn't: in a bucket it would be laid over that.
+TEST(TransparencyBuckets, keepTheOrderOfWhatTheyLeaveOut) {
+    FramePlan plan = planOf({{0, false, true}, {3}, {6}});
+    moveRight(plan.objects[2]);
+    EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{2}}));
+    plan.objects[1].viewBox.maximum.x = 9;
+    EXPECT_EQ(transparencyBuckets(plan, 8), Buckets{});
+}
+
+TEST(TransparencyBuckets, areNoneWithoutNeed) {
+    FramePlan plan = planOf({{-9}, {9}});
+    EXPECT_EQ(transparencyBuckets(plan, 0), Buckets{});
+    plan.usesLens = false;
+    EXPECT_EQ(transparencyBuckets(plan, 8), Buckets{});
+    EXPECT_EQ(transparencyBuckets(planOf({{-9, false}, {9, false}}), 8), Buckets{});
+    EXPECT_EQ(transparencyBuckets(planOf({}), 8), Buckets{});
+}
+
+// What reaches the camera has a blur without bound in front.
+TEST(TransparencyBuckets, partWhatReachesTheCamera) {
+    FramePlan plan = planOf({{-9}, {9}});
+    plan.objects[0].coc.nearest = -std::numeric_limits<double>::infinity();
+    EXPECT_EQ(transparencyBuckets(plan, 8), (Buckets{{1}, {0}}));
+}
+
+}  // namespace
+}  // namespace defocus
