@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "gl/scissor.h"
 #include "render/circular/circular_kernel.h"
 #include "render/circular/complex_blur.h"
 #include "render/post_process/post_process.h"
@@ -111,11 +112,12 @@ public:
         pinhole.attachForBlur();
         fullscreen_.draw(split_);
         if (hasNear_ || options_.combined) spreadNearRadius();
+        const std::optional<TexelRectangle> part = inField(pinhole.part);
         if (options_.combined) {
-            far_->blur(farField_, nearRadius_);
+            far_->blur(farField_, nearRadius_, part);
         } else {
-            far_->blur(farField_, farRadius_);
-            if (hasNear_) near_->blur(nearField_, nearRadius_);
+            far_->blur(farField_, farRadius_, part);
+            if (hasNear_) near_->blur(nearField_, nearRadius_, part);
         }
 
         output.bind();
@@ -124,6 +126,7 @@ public:
         far_->result().attach(2);
         if (!options_.combined) near_->result().attach(3);
         nearRadius_.attach(4);
+        const Scissor scissor(pinhole.part);
         fullscreen_.draw(composite_);
     }
 
@@ -194,6 +197,17 @@ private:
         tileTarget_ = Target({&tiles_});
         reachTarget_ = Target({&reaching_});
         nearRadiusTarget_ = Target({&nearRadius_});
+    }
+
+    // The pixels of the fields that a part of the image is interpolated from.
+    [[nodiscard]] std::optional<TexelRectangle> inField(const std::optional<TexelRectangle>& part) const {
+        if (!part) return {};
+        const TextureInfo& field = farField_.info();
+        const int left = std::max(part->x / options_.reduction - 1, 0);
+        const int bottom = std::max(part->y / options_.reduction - 1, 0);
+        const int right = std::min((part->x + part->width) / options_.reduction + 2, field.width);
+        const int top = std::min((part->y + part->height) / options_.reduction + 2, field.height);
+        return TexelRectangle{left, bottom, std::max(right - left, 0), std::max(top - bottom, 0)};
     }
 
     // The near field is gathered wherever a near disk may reach.

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <vector>
 
+#include "gl/scissor.h"
 #include "render/circular/circular_kernel.h"
 
 namespace defocus {
@@ -185,26 +186,33 @@ void ComplexBlur::findBrightest(const GlTexture& field) {
     }
 }
 
-void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius) {
+void ComplexBlur::blur(const GlTexture& field, const GlTexture& radius, const std::optional<TexelRectangle>& part) {
     if (info_.direct) {
         resultTarget_.bind();
         field.attach(0);
         radius.attach(1);
+        const Scissor scissor(part);
         fullscreen_.draw(direct_);
         return;
     }
     if (bracketed()) findBrightest(field);
+    std::optional<TexelRectangle> columns = part;  // of the part, with all their rows
+    if (columns) *columns = {part->x, 0, part->width, info_.height};
     for (const Group& group : groups_) {
         // Rows …
         sumTarget_.bind();
         field.attach(0);
         radius.attach(1);
         if (bracketed()) brightest_.back().attach(2);
-        fullscreen_.draw(group.horizontal);
+        {
+            const Scissor scissor(columns);
+            fullscreen_.draw(group.horizontal);
+        }
         // … and columns, added to what other groups gave.
         resultTarget_.bind();
         for (GLuint i = 0; i < sums_.size(); ++i) sums_[i].attach(i);
         radius.attach(8);
+        const Scissor scissor(part);
         if (bracketed()) brightest_.back().attach(9);
         if (group.first == 0)
             fullscreen_.draw(group.vertical);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "gl/fullscreen.h"
@@ -48,8 +49,9 @@ public:
     // Needs a current GL context.
     explicit ComplexBlur(const ComplexBlurInfo& info);
 
-    // `field` (RGBA) with the blur radius of each pixel in px in `radius` (R); both of the size given.
-    void blur(const GlTexture& field, const GlTexture& radius);
+    // `field` (RGBA) with the blur radius of each pixel in px in `radius` (R); both of the size given. With `part`,
+    // only that of the result is drawn.
+    void blur(const GlTexture& field, const GlTexture& radius, const std::optional<TexelRectangle>& part = {});
     // The blurred field of the last call, 32-bit floats, sampled linearly.
     [[nodiscard]] const GlTexture& result() const { return result_; }
     [[nodiscard]] std::size_t bytes() const;

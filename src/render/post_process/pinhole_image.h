@@ -2,6 +2,7 @@
 // A pinhole image as post-process methods blur it: what is seen through the middle of the lens, and how far away.
 
 #include <cstddef>
+#include <optional>
 
 #include "gl/texture.h"
 #include "render/layer_format.h"
@@ -23,6 +24,8 @@ struct PinholeImage {
     GlTexture color;    // linear radiance, premultiplied, with coverage as alpha
     GlTexture depth;    // reversed: near plane over distance; 0 is infinity
     GlTexture ownBlur;  // the factor, and what is added; empty: nothing of their own
+    // Blurred, it is black and without coverage elsewhere, and needn't be drawn there; none: it may be seen anywhere.
+    std::optional<TexelRectangle> part;
 };
 
 }  // namespace defocus

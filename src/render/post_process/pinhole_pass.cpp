@@ -70,6 +70,8 @@ void PinholePass::prepare(const FramePlan& pinholes, const FrameUniforms& frame,
     const std::size_t objects = pinholes.objects.size();
     buckets_.assign(buckets.size(), ObjectSet(objects, false));
     inNoBucket_ = ObjectSet(objects, true);
+    reaches_.clear();
+    for (const TransparencyBucket& bucket : buckets) reaches_.push_back(reachOf(bucket, pinholes));
     for (std::size_t i = 0; i < buckets.size(); ++i)
         for (const std::size_t object : buckets[i]) {
             buckets_[i][object] = true;
@@ -99,6 +101,7 @@ void PinholePass::draw(std::uint32_t index) {
 
 PinholeImage& PinholePass::drawBucket(std::uint32_t index, std::size_t bucket) {
     bucketPass_->draw(surfaces_, index, buckets_.at(bucket));
+    bucketPass_->image().part = reaches_[bucket];
     return bucketPass_->image();
 }
 

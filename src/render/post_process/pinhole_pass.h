@@ -56,6 +56,7 @@ private:
     ShadowMaps shadows_;
     SurfacePass surfaces_;
     std::vector<ObjectSet> buckets_;
+    std::vector<TexelRectangle> reaches_;  // of the buckets
     ObjectSet inNoBucket_;
     std::optional<BucketPass> bucketPass_;
 };

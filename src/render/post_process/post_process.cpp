@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "gl/fullscreen.h"
+#include "gl/scissor.h"
 #include "render/accumulation/layer_sum.h"
 #include "render/frame_clock.h"
 #include "render/post_process/pinhole_pass.h"
@@ -94,7 +95,10 @@ private:
         radiance_.attach(0);
         coverage_.attach(1);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, plan_.needsAlpha ? GL_TRUE : GL_FALSE);
-        fullscreen_.drawOver(bucketOver_);
+        {
+            const Scissor scissor(bucket.part);
+            fullscreen_.drawOver(bucketOver_);
+        }
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     }
 

@@ -16,7 +16,7 @@ public:
     // Makes what images of this plan need. Called before draw, and again for each frame.
     virtual void start(const FramePlan& plan, const FrameUniforms& frame) = 0;
     // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1. Linear in the radiance, so that
-    // coverage is blurred by the same.
+    // coverage is blurred by the same. Only PinholeImage::part has to be drawn.
     virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };

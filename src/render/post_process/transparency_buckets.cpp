@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
+#include <limits>
 
 #include "plan/visibility.h"
 
@@ -14,6 +16,7 @@ namespace defocus {
 namespace {
 
 constexpr double leastStep = 1;  // px of diameter
+constexpr double margin = 24;    // px: small images and pre-blurred copies have wide pixels
 
 // Signed px; no more than a disk as wide as the image.
 double middleOf(const CocRange& coc, double width) {
@@ -71,6 +74,28 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
         end = first;
     }
     return buckets;
+}
+
+TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan) {
+    const glm::dvec2 size(plan.view.width, plan.view.height);
+    glm::dvec2 least(std::numeric_limits<double>::infinity());
+    glm::dvec2 most = -least;
+    double diameter = 0;
+    for (const std::size_t index : bucket) {
+        const ObjectPlan& object = plan.objects[index];
+        diameter = std::max(diameter, object.coc.largest);
+        const bool everywhere = object.nearestDepth <= plan.view.nearPlane;
+        const CocBox box = everywhere ? CocBox{} : cocBoxOf(object.viewBox, object.own, plan);
+        least = everywhere ? glm::dvec2(0) : glm::min(least, (box.ndcLeast + 1.0) * 0.5 * size);
+        most = everywhere ? size : glm::max(most, (box.ndcMost + 1.0) * 0.5 * size);
+    }
+    // What is blurred in front is gathered as widely as the widest blur in front.
+    for (const ObjectPlan& object : plan.objects) diameter = std::max(diameter, -object.coc.nearest);
+    const double reach = margin + 0.5 * std::min(diameter, std::max(size.x, size.y));
+    least = glm::clamp(glm::floor(least - reach), glm::dvec2(0), size);
+    most = glm::clamp(glm::ceil(most + reach), glm::dvec2(0), size);
+    const glm::ivec2 extent(glm::max(most - least, glm::dvec2(0)));
+    return {static_cast<int>(least.x), static_cast<int>(least.y), extent.x, extent.y};
 }
 
 }  // namespace defocus

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gl/texture.h"
 #include "plan/frame_plan.h"
 
 namespace defocus {
@@ -17,5 +18,9 @@ using TransparencyBucket = std::vector<std::size_t>;
 // through a transmitting surface is in none, as that surface shows what is drawn with it; nor is anything where the
 // lens blurs nothing.
 std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::uint32_t most);
+
+// The part of the image, in px from its lower left corner, where a blur may show something of a bucket; empty where
+// nothing is.
+TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan);
 
 }  // namespace defocus

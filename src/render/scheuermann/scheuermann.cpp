@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "gl/fullscreen.h"
+#include "gl/scissor.h"
 #include "lens/aperture.h"
 #include "render/post_process/post_process.h"
 
@@ -91,6 +92,7 @@ public:
         sharp_.attach(0);
         small_.attach(1);
         glBindBufferBase(GL_UNIFORM_BUFFER, 1, tapBuffer_.name());
+        const Scissor scissor(pinhole.part);
         fullscreen_.draw(gather_);
     }
 

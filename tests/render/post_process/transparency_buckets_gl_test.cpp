@@ -137,6 +137,21 @@ TEST_P(BlendedSurfaces, costNothingWhereThereAreNone) {
     EXPECT_EQ(inBuckets(*small, 8).pixels, inBuckets(*small, 0).pixels);
 }
 
+// Blurs are drawn where they may show something of a bucket alone. A board that nobody sees makes it as large as the
+// image.
+TEST_P(BlendedSurfaces, areBlurredAsInAWholeImage) {
+    const Board wall = boardOver(-90, 40, 9, {0.9f, 0.2f, 0.1f, 1});
+    for (const double depth : {1.2, 2.0, 6.0}) {
+        const Board small = {depth, {0, 0}, glm::dvec2(0.04 * depth), paneColor};
+        const Board unseen = boardOver(-90, 200, depth, {1, 1, 1, 0});
+        const auto part = boards({small, wall}, sky);
+        const auto whole = boards({small, unseen, wall}, sky);
+        blurAt(*part, 9, 16);
+        blurAt(*whole, 9, 16);
+        EXPECT_EQ(inBuckets(*part, 1).pixels, inBuckets(*whole, 1).pixels) << depth;
+    }
+}
+
 TEST_P(BlendedSurfaces, haveTheirOwnBlur) {
     const Board wall = boardOver(-90, 24, 9, {0.9f, 0.2f, 0.1f, 1});
     const auto with = boards({boardOver(-90, 48, 1, paneColor), wall}, sky);

@@ -87,6 +87,30 @@ TEST(TransparencyBuckets, areNoneWithoutNeed) {
     EXPECT_EQ(transparencyBuckets(planOf({}), 8), Buckets{});
 }
 
+TEST(TransparencyBuckets, reachAsFarAsTheirBlur) {
+    FramePlan plan = planOf({{0}, {40}});
+    plan.view.width = 1000;
+    plan.view.height = 500;
+    for (ObjectPlan& object : plan.objects) {
+        object.coc.nearest = object.coc.farthest = 20;
+        object.coc.largest = 20;
+    }
+    // At 2 m, [−1, 1] m of the [−2, 2] m that the image's width shows: the middle half of it, and its whole height. The
+    // margin is 24 px.
+    const TexelRectangle reach = reachOf({0}, plan);
+    EXPECT_EQ(reach.x, 250 - 10 - 24);
+    EXPECT_EQ(reach.width, 500 + 2 * (10 + 24));
+    EXPECT_EQ(reach.y, 0);
+    EXPECT_EQ(reach.height, 500);
+    plan.objects[1].coc.nearest = -60;  // another that is blurred more widely in front
+    EXPECT_EQ(reachOf({0}, plan).x, 250 - 30 - 24);
+    moveRight(plan.objects[0]);
+    moveRight(plan.objects[0]);
+    EXPECT_EQ(reachOf({0}, plan).width, 0);
+    plan.objects[0].nearestDepth = plan.view.nearPlane;  // seen anywhere
+    EXPECT_EQ(reachOf({0}, plan).width, 1000);
+}
+
 // What reaches the camera has a blur without bound in front.
 TEST(TransparencyBuckets, partWhatReachesTheCamera) {
     FramePlan plan = planOf({{-9}, {9}});

@@ -1,0 +1,27 @@
+#pragma once
+// While it lives, only a part of what is bound is drawn into, in px from the lower left corner; or all of it.
+
+#include <optional>
+
+#include "gl/texture.h"
+
+namespace defocus {
+
+class Scissor {
+public:
+    explicit Scissor(const std::optional<TexelRectangle>& part) : on_(part.has_value()) {
+        if (!on_) return;
+        glScissor(part->x, part->y, part->width, part->height);
+        glEnable(GL_SCISSOR_TEST);
+    }
+    ~Scissor() {
+        if (on_) glDisable(GL_SCISSOR_TEST);
+    }
+    Scissor(const Scissor&) = delete;
+    Scissor& operator=(const Scissor&) = delete;
+
+private:
+    bool on_;
+};
+
+}  // namespace defocus
