@@ -148,7 +148,7 @@ TEST_P(BlendedSurfaces, areBlurredAsInAWholeImage) {
         const auto whole = boards({small, unseen, wall}, sky);
         blurAt(*part, 9, 16);
         blurAt(*whole, 9, 16);
-        EXPECT_EQ(inBuckets(*part, 1).pixels, inBuckets(*whole, 1).pixels) << depth;
+        EXPECT_LT(largestDifferenceInColumns(inBuckets(*part, 1), inBuckets(*whole, 1)), 1e-3) << depth;
     }
 }
 
