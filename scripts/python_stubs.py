@@ -21,7 +21,7 @@ FORMS = {
     "X,Y,Z": "Union[Point, str]",
     "WxH": "Union[Tuple[int, int], str]",
     "X,Y": "Union[Pixel, str]",
-    "X,Y,X,Y,X,Y": "Union[Tuple[Pixel, Pixel, Pixel], str]",
+    "X,Y,X,Y,X,Y": "Union[Sequence[Pixel], str]",
     "NAME=SCALE": "Union[Mapping[str, float], str]",
     "NAME": "str",
     "NODE": "Union[List[str], str]",

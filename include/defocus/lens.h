@@ -28,6 +28,8 @@ struct LensSettings {
     std::optional<double> sphericalAberration;       // [−1, 1]; > 0 brightens the rim, < 0 the middle
     std::optional<double> catEye;                    // [0, 1]; how far the barrel hides the aperture in the corners
     std::optional<double> axialChromaticAberration;  // dioptres by which red focuses farther away than blue
+    std::optional<double> astigmatism;               // mm, length of a sharp point's image at the left and right edges
+    std::optional<double> coma;                      // mm, length of its tail there; > 0 points outwards
     std::filesystem::path apertureImage;             // of the aperture, in place of the shape above; empty: none
 
     // An artist's controls of the blur (Munkberg, Toth and Akenine-Möller 2012).

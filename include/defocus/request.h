@@ -56,10 +56,11 @@ struct Request {
     // Lens, and where it is focused: at most one of lens.focusDistance and these four. Without any, the camera's own
     // distance, else the median depth of what the middle of the image shows.
     LensSettings lens;
-    std::string focusNode;                            // the centre of this node
-    std::optional<Pixel> focusPixel;                  // what is seen there
-    std::optional<std::array<Pixel, 3>> focusPoints;  // the focus plane goes through what three pixels show
-    bool focusAuto = false;                           // the median depth of what the image's middle shows
+    std::string focusNode;            // the centre of this node
+    std::optional<Pixel> focusPixel;  // what is seen there
+    std::vector<Pixel>
+        focusPoints;         // 3 … 16: the focus plane goes through what three show, a curved surface along more
+    bool focusAuto = false;  // the median depth of what the image's middle shows
     std::map<std::string, double> nodeBlur;  // by node: scale of the blur of all below it, ≥ 0; 0 keeps it sharp
     std::vector<std::string> hidden;         // nodes, by name or number, that aren't drawn, with all below them
 

@@ -1,7 +1,7 @@
 # Types of the package `defocus`. The class Keywords is written by scripts/python_stubs.py from the settings table.
 
 import os
-from typing import Any, Callable, ContextManager, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union
+from typing import Any, Callable, ContextManager, Dict, Iterator, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy
 import numpy.typing
@@ -46,7 +46,7 @@ class Keywords(TypedDict, total=False):
     focus_distance: Optional[float]  # m
     focus_node: Optional[str]
     focus_pixel: Optional[Union[Pixel, str]]
-    focus_points: Optional[Union[Tuple[Pixel, Pixel, Pixel], str]]
+    focus_points: Optional[Union[Sequence[Pixel], str]]
     focus_auto: Optional[bool]
     horizontal_aperture: Optional[float]  # mm
     dof_enabled: Optional[bool]
@@ -62,6 +62,8 @@ class Keywords(TypedDict, total=False):
     spherical_aberration: Optional[float]
     cat_eye: Optional[float]
     axial_chromatic_aberration: Optional[float]  # dioptres
+    astigmatism: Optional[float]  # mm
+    coma: Optional[float]  # mm
     foreground_limit: Optional[float]  # px
     background_limit: Optional[float]  # px
     focus_range_front: Optional[float]  # m

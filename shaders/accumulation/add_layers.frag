@@ -36,8 +36,12 @@ vec3 behind(vec2 imagePlane, int layer) {
 #ifdef CHROMATIC
     bandShift = sampleBands[firstInBlock + layer].w;
 #endif
-    float blur = relativeCircleOfConfusion(0.0, imagePlane * frame.projection.xy, vec2(1.0, 0.0));
+    vec2 place = imagePlane * frame.projection.xy;
+    float blur = relativeCircleOfConfusion(0.0, place, vec2(1.0, 0.0));
     vec2 p = imagePlane + blur * sampleShifts[firstInBlock + layer].xy + sampleShifts[firstInBlock + layer].zw;
+#ifdef ABERRATIONS
+    p -= aberration(place, -sampleShifts[firstInBlock + layer].xy * frame.projection.xy) / frame.projection.xy;
+#endif
 #else
     vec2 p = imagePlane + sampleShifts[firstInBlock + layer].xy;
 #endif

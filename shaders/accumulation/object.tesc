@@ -31,6 +31,16 @@ vec2 smoothPieces(vec3 pinhole, vec2 own) {
     return pieces.factor * vec2(pieces.front, pieces.behind) + pieces.added;
 }
 
+#ifdef ABERRATIONS
+// What they add for two rays of the lens's rim, in halves of the image's width.
+vec4 aberrationPieces(vec3 pinhole) {
+    float w = max(pinhole.z, frame.projection.z);
+    vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
+    vec2 ndc = pinhole.xy / w;
+    return w * vec4(aberration(ndc, vec2(1.0, 0.0)) * perAspect, aberration(ndc, vec2(0.0, 1.0) / perAspect) * perAspect);
+}
+#endif
+
 bool comesFirst(vec3 p, vec3 q) {
     if (p.x != q.x) return p.x < q.x;
     return p.y != q.y ? p.y < q.y : p.z < q.z;
@@ -54,12 +64,20 @@ float partsOf(int first, int second) {
     float end = q.z < near ? (near - p.z) / (q.z - p.z) : 1.0;
     vec2 atBegin = smoothPieces(mix(p, q, begin), mix(ownP, ownQ, begin));
     vec2 atEnd = smoothPieces(mix(p, q, end), mix(ownP, ownQ, end));
+#ifdef ABERRATIONS
+    vec4 missedAtBegin = aberrationPieces(mix(p, q, begin));
+    vec4 missedAtEnd = aberrationPieces(mix(p, q, end));
+#endif
     float deviation = 0.0;   // px
     for (int i = 1; i < 8; ++i) {
         float part = float(i) / 8.0;
         float at = mix(begin, end, part);
         vec3 middle = mix(p, q, at);
         vec2 away = abs(smoothPieces(middle, mix(ownP, ownQ, at)) - mix(atBegin, atEnd, part));
+#ifdef ABERRATIONS
+        vec4 missed = abs(aberrationPieces(middle) - mix(missedAtBegin, missedAtEnd, part));
+        away = max(away, max(missed.xy, missed.zw));
+#endif
         deviation = max(deviation, max(away.x, away.y) / max(middle.z, near) * frame.coc.z);
     }
     return clamp(ceil(sqrt(1.5 * deviation / frame.cocLimits.w) / (end - begin)), 1.0, 64.0);

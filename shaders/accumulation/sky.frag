@@ -20,9 +20,9 @@ vec3 directionOfSky() {
     bandShift = skyBandShift;
 #endif
     vec2 unblurred = place - lensAndJitter.zw;
-    vec2 pinhole = unblurred - relativeCircleOfConfusion(0.0, unblurred, vec2(1.0, 0.0)) * lensAndJitter.xy;
+    vec2 pinhole = unblurred - shiftThroughLens(0.0, unblurred, vec2(1.0, 0.0), lensAndJitter.xy);
 #ifdef COC_CONTROLS
-    for (int i = 0; i < 3; ++i) pinhole = unblurred - relativeCircleOfConfusion(0.0, pinhole, vec2(1.0, 0.0)) * lensAndJitter.xy;
+    for (int i = 0; i < 3; ++i) pinhole = unblurred - shiftThroughLens(0.0, pinhole, vec2(1.0, 0.0), lensAndJitter.xy);
 #endif
     return vec3(pinhole / frame.projection.xy, -1.0);
 }

@@ -35,6 +35,26 @@ float relativeCircleOfConfusion(float inverseDepth, vec2 ndc, vec2 own) {
 #endif
 }
 
+#ifdef ABERRATIONS
+// What astigmatism and coma add for a lens point (u, k·v): src/lens/aberrations.h.
+vec2 aberration(vec2 ndc, vec2 lensPoint) {
+    vec2 perAspect = vec2(1.0, sqrt(frame.cocLimits.z));
+    vec2 field = ndc * perAspect;
+    vec2 lens = lensPoint * perAspect;
+    float along = dot(field, lens);
+    return (frame.cocOther.z * along * field + frame.cocOther.w * (2.0 * along * lens + dot(lens, lens) * field)) / perAspect;
+}
+#endif
+
+// How far the image of a place at 1/w moves for a lens point (u, k·v), in normalised device units.
+vec2 shiftThroughLens(float inverseDepth, vec2 ndc, vec2 own, vec2 lensPoint) {
+    vec2 shift = relativeCircleOfConfusion(inverseDepth, ndc, own) * lensPoint;
+#ifdef ABERRATIONS
+    shift += aberration(ndc, lensPoint);
+#endif
+    return shift;
+}
+
 // (x, y, w) of a view-space position in the pinhole image.
 vec3 pinholePosition(vec3 viewPosition) {
     return vec3(viewPosition.xy * frame.projection.xy, -viewPosition.z);
@@ -45,11 +65,11 @@ vec3 pinholePosition(vec3 viewPosition) {
 vec4 throughLens(vec3 pinhole, vec2 own, vec4 lensAndJitter) {
     float w = pinhole.z;
 #ifdef COC_CONTROLS
-    float c = w * relativeCircleOfConfusion(1.0 / w, pinhole.xy / w, own);
+    vec2 shift = w * shiftThroughLens(1.0 / w, pinhole.xy / w, own, lensAndJitter.xy);
 #else
-    float c = frame.coc.x + (frame.coc.y + bandShift) * w;
+    vec2 shift = (frame.coc.x + (frame.coc.y + bandShift) * w) * lensAndJitter.xy;
 #endif
-    return vec4(pinhole.xy + c * lensAndJitter.xy + w * lensAndJitter.zw, frame.projection.z, w);
+    return vec4(pinhole.xy + shift + w * lensAndJitter.zw, frame.projection.z, w);
 }
 
 // Signed diameter of the circle of confusion in px at a value of the depth buffer (1/w times the near plane; 0 is infinity).

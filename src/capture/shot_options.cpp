@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "frame/settings.h"
@@ -26,6 +27,14 @@ std::optional<FocusTarget> takeFocusTarget(Request& request) {
     request.focusPixel.reset();
     request.focusAuto = false;
     return target;
+}
+
+// What focus points set of the lens.
+std::vector<const char*> fieldsOfFocusPoints(const Request& request) {
+    std::vector<const char*> fields;
+    if (!request.focusPoints.empty()) fields = {"focusDistance", "focusTilt", "focusSwing"};
+    if (request.focusPoints.size() > 3) fields.push_back("fieldCurvature");
+    return fields;
 }
 
 // A shot names pixels of its own size; the same place of an image of another.
@@ -69,15 +78,12 @@ void settleShot(Shot& shot, Request& request, const GivenOptions& given) {
     if (shot.shutterAngle && !given.shutter) request.shutter.seconds = *shot.shutterAngle / 360 / shot.frameRate;
     scaleFocusPixels(shot, request);
     const bool focusGiven = request.lens.focusDistance || !request.focusNode.empty() || request.focusPixel ||
-                            request.focusPoints || request.focusAuto;
+                            !request.focusPoints.empty() || request.focusAuto;
     if (focusGiven) {
         shot.focus.reset();
         shot.lens.erase("focusDistance");
     }
-    if (request.focusPoints) {
-        shot.lens.erase("focusTilt");
-        shot.lens.erase("focusSwing");
-    }
+    for (const char* const name : fieldsOfFocusPoints(request)) shot.lens.erase(name);
     if (std::optional<FocusTarget> target = takeFocusTarget(request)) shot.focus = FocusTrack{.keys = {{0, *target}}};
     if (!request.metresPerUnit && saysLength(shot)) request.metresPerUnit = 1;
     if (request.lens.exposureTime && shot.given.contains("exposure")) request.exposure.reset();
@@ -100,7 +106,7 @@ SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request) {
     base.hidden = request.hidden;
     base.shutter = request.shutter;
     for (const auto& [name, value] : givenLensValues(request.lens)) base.fixedLens.insert(name);
-    if (request.focusPoints) base.fixedLens.insert({"focusDistance", "focusTilt", "focusSwing"});
+    for (const char* const name : fieldsOfFocusPoints(request)) base.fixedLens.insert(name);
     base.centre = frame.world.pose.bounds.centre();
     return base;
 }

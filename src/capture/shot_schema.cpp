@@ -97,6 +97,8 @@ const std::map<std::string_view, Json>& exampleValues() {
         {"sphericalAberration", 0.5},
         {"catEye", 0.5},
         {"axialChromaticAberration", 0.2},
+        {"astigmatism", 0.2},
+        {"coma", 0.2},
         {"foregroundLimit", 20},
         {"backgroundLimit", 40},
         {"focusRangeFront", 0.5},

@@ -339,11 +339,11 @@ void addCameraQuestion(CLI::App& command, InfoOptions& options) {
               "sensor of 36 x 27 mm)")
         ->group(group);
     // What is said follows from the lens's diameter, not from the shape or the faults of its blur.
-    addSettings(
-        command, options.seen,
-        settingsOf({SettingGroup::camera, SettingGroup::lens},
-                   {"camera", "nodeBlur", "bladeCount", "bladeRotation", "bladeCurvature", "anamorphicRatio",
-                    "obstruction", "sphericalAberration", "catEye", "axialChromaticAberration", "apertureImage"}));
+    addSettings(command, options.seen,
+                settingsOf({SettingGroup::camera, SettingGroup::lens},
+                           {"camera", "nodeBlur", "bladeCount", "bladeRotation", "bladeCurvature", "anamorphicRatio",
+                            "obstruction", "sphericalAberration", "catEye", "axialChromaticAberration", "astigmatism",
+                            "coma", "apertureImage"}));
     addSettings(command, options.seen, {"units", "time", "clip", "loop"});
     for (CLI::Option* option : command.get_options([&](const CLI::Option* each) {
              return each != camera && std::find(before.begin(), before.end(), each) == before.end();

@@ -1,11 +1,11 @@
 #include "frame/focus.h"
 
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "core/error.h"
 #include "plan/focus_depth.h"
@@ -27,19 +27,17 @@ double depthOfSubject(const Scene& scene, const Pose& pose, const View& view) {
     return depth && *depth > view.nearPlane && std::isfinite(*depth) ? *depth : depthOfCentre(pose.bounds, view);
 }
 
-void focusAlong(const Scene& scene, const Pose& pose, const std::array<Pixel, 3>& pixels, View& view) {
+void focusAlong(const Scene& scene, const Pose& pose, const std::vector<Pixel>& pixels, View& view) {
     Lens flat = view.lens;
     flat.focusDistance = std::numeric_limits<double>::infinity();
-    std::array<glm::dvec3, 3> points;
-    for (std::size_t i = 0; i < 3; ++i)
-        points[i] = surfaceAtPixel(scene, pose, view, flat, asVector(pixels[i]), "--focus-points");
+    std::vector<glm::dvec3> points;
+    for (const Pixel& pixel : pixels)
+        points.push_back(surfaceAtPixel(scene, pose, view, flat, asVector(pixel), "--focus-points"));
     focusThrough(points, view.lens, "--focus-points");
 }
 
-}  // namespace
-
 // w + mx·X + my·Y = s for (X, Y, −w) in view space, mx = tan(swing), my = tan(tilt).
-void focusThrough(const std::array<glm::dvec3, 3>& points, Lens& lens, const std::string& what) {
+void planeThrough(std::span<const glm::dvec3, 3> points, Lens& lens, const std::string& what) {
     const glm::dvec3 normal = glm::cross(points[1] - points[0], points[2] - points[0]);
     const double extent = glm::length(points[1] - points[0]) * glm::length(points[2] - points[0]);
     if (!(glm::length(normal) > 1e-6 * extent)) fail("{}: the three points lie on a line; choose others", what);
@@ -54,6 +52,40 @@ void focusThrough(const std::array<glm::dvec3, 3>& points, Lens& lens, const std
     lens.focusDistance = distance;
 }
 
+// 1/w = 1/s + mx/s·X/w + my/s·Y/w + κ/s·r² at each point, by the normal equations. Their diagonal is raised a little,
+// so that what the points leave open becomes 0.
+void surfaceNear(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
+    constexpr double raised = 1e-12;  // of the number of points
+    const double tanX = tanHalfHorizontalFov(lens);
+    glm::dmat4 matrix(raised * static_cast<double>(points.size()));
+    glm::dvec4 right(0);
+    for (const glm::dvec3& point : points) {
+        const glm::dvec2 field = glm::dvec2(point) / (-point.z * tanX);
+        const glm::dvec4 terms(1, field, glm::dot(field, field));
+        matrix += glm::outerProduct(terms, terms);
+        right += terms * (-1 / point.z);
+    }
+    const glm::dvec4 fitted = glm::inverse(matrix) * right;
+    if (!(fitted[0] > 0))
+        fail("{}: the focus through these points would meet the view axis behind the camera; choose others", what);
+    Lens focused = lens;
+    focused.focusDistance = 1 / fitted[0];
+    focused.focusSwing = std::atan(fitted[1] / (fitted[0] * tanX));
+    focused.focusTilt = std::atan(fitted[2] / (fitted[0] * tanX));
+    focused.fieldCurvature = fitted[3] / fitted[0];
+    checkLens(focused);
+    lens = focused;
+}
+
+}  // namespace
+
+void focusThrough(std::span<const glm::dvec3> points, Lens& lens, const std::string& what) {
+    if (points.size() == 3)
+        planeThrough(points.first<3>(), lens, what);
+    else
+        surfaceNear(points, lens, what);
+}
+
 void chooseFocus(const Request& request, const Camera& camera, const Scene& scene, const Pose& pose, View& view) {
     Lens& lens = view.lens;
     const std::optional<double> own = camera.lensValue("focusDistance");
@@ -63,8 +95,8 @@ void chooseFocus(const Request& request, const Camera& camera, const Scene& scen
         lens.focusDistance = depthOfNode(scene, pose, view, request.focusNode, "--focus-node");
     else if (request.focusPixel)
         lens.focusDistance = depthAtPixel(scene, pose, view, asVector(*request.focusPixel), "--focus-pixel");
-    else if (request.focusPoints)
-        focusAlong(scene, pose, *request.focusPoints, view);
+    else if (!request.focusPoints.empty())
+        focusAlong(scene, pose, request.focusPoints, view);
     else if (request.focusAuto)
         lens.focusDistance = depthOfMiddle(scene, pose, view, "--focus-auto");
     else

@@ -79,7 +79,7 @@ Request requestOf(const RenderCommandText& text) {
     request.lens = lensOf(text);
     request.focusNode.clear();
     request.focusPixel.reset();
-    request.focusPoints.reset();
+    request.focusPoints.clear();
     request.focusAuto = false;
     const double metresPerUnit = text.frame.scene->metresPerUnit;
     if (metresPerUnit != 1) request.metresPerUnit = metresPerUnit;  // a guess comes out otherwise for a placed camera

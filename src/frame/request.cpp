@@ -58,7 +58,8 @@ void checkRequest(const Request& request) {
             fmt::format("sampleLimit: {} is not a whole number from 1 to {}", request.stop.sampleLimit, mostSamples));
     checkStop(request);
     const int focuses = (request.lens.focusDistance ? 1 : 0) + (request.focusNode.empty() ? 0 : 1) +
-                        (request.focusPixel ? 1 : 0) + (request.focusPoints ? 1 : 0) + (request.focusAuto ? 1 : 0);
+                        (request.focusPixel ? 1 : 0) + (request.focusPoints.empty() ? 0 : 1) +
+                        (request.focusAuto ? 1 : 0);
     if (focuses > 1)
         throw UsageError("give at most one of focusDistance, focusNode, focusPixel, focusPoints and focusAuto");
 }

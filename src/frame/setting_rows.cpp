@@ -100,17 +100,22 @@ std::optional<std::string> focusPixelText(const Request& request) {
     return fmt::format("{},{}", request.focusPixel->column, request.focusPixel->row);
 }
 
+constexpr std::size_t mostFocusPoints = 16;
+
 void setFocusPoints(Request& request, const std::string& text) {
-    const std::vector<double> numbers = parseNumbers(text, 6, {0, mostPixels - 1});
-    std::array<Pixel, 3>& points = request.focusPoints.emplace();
-    for (std::size_t i = 0; i < 3; ++i)
-        points[i] = {static_cast<int>(numbers[2 * i]), static_cast<int>(numbers[2 * i + 1])};
+    const auto count = static_cast<std::size_t>(std::ranges::count(text, ',')) + 1;
+    if (count < 6 || count % 2 != 0 || count > 2 * mostFocusPoints)
+        fail("'{}' is not X,Y,X,Y,X,Y: columns and rows of 3 to {} pixels", text, mostFocusPoints);
+    const std::vector<double> numbers = parseNumbers(text, count, {0, mostPixels - 1});
+    request.focusPoints.clear();
+    for (std::size_t i = 0; i < count; i += 2)
+        request.focusPoints.push_back({static_cast<int>(numbers[i]), static_cast<int>(numbers[i + 1])});
 }
 
 std::optional<std::string> focusPointsText(const Request& request) {
-    if (!request.focusPoints) return std::nullopt;
+    if (request.focusPoints.empty()) return std::nullopt;
     std::vector<int> numbers;
-    for (const Pixel& point : *request.focusPoints) numbers.insert(numbers.end(), {point.column, point.row});
+    for (const Pixel& point : request.focusPoints) numbers.insert(numbers.end(), {point.column, point.row});
     return fmt::format("{}", fmt::join(numbers, ","));
 }
 
@@ -365,7 +370,8 @@ Rows focusRows() {
         other("focusPixel", "--focus-pixel", "X,Y", setFocusPixel, focusPixelText,
               "Focus on the surface seen at this pixel (0,0 is the top left one)"),
         other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
-              "Tilt the focus plane so that it goes through what three pixels show"),
+              "Tilt the focus plane so that it goes through what three pixels show. Of four to 16 pixels, bend it too, "
+              "so that their blurs are as small as can be"),
         truth("focusAuto", "--focus-auto", MEMBER(focusAuto),
               "Focus on the median depth of what the image's middle shows"),
     };

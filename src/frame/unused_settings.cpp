@@ -18,7 +18,7 @@ using Names = std::span<const std::string_view>;
 constexpr std::string_view ofSamples[] = {"samples", "sequence", "seed", "lodCoc", "cocTolerance"};
 constexpr std::string_view ofTheShape[] = {"bladeCount",  "bladeRotation",       "bladeCurvature", "anamorphicRatio",
                                            "obstruction", "sphericalAberration", "apertureImage"};
-constexpr std::string_view ofACatEye[] = {"catEye"};
+constexpr std::string_view ofLensPoints[] = {"catEye", "axialChromaticAberration", "astigmatism", "coma"};
 constexpr std::string_view ofAnOpenShutter[] = {"shutterPosition", "motionSegments"};
 constexpr std::string_view ofShadows[] = {"lightAngle", "lightRadius"};
 constexpr std::string_view ofTheShutter[] = {"shutter"};
@@ -48,7 +48,9 @@ constexpr std::string_view ofBlur[] = {"focusDistance",
                                        "radialBlurGain",
                                        "nodeBlur",
                                        "sphericalAberration",
-                                       "axialChromaticAberration"};
+                                       "axialChromaticAberration",
+                                       "astigmatism",
+                                       "coma"};
 constexpr std::string_view ofTheStop[] = {"fStop"};
 constexpr std::string_view ofLevels[] = {"blurThreshold", "sizeThreshold", "lightThreshold",
                                          "lodMetric",     "levelVertices", "lodCoc"};
@@ -84,7 +86,8 @@ std::vector<std::string> unusedSettings(const Request& request, const Scene& sce
     if (method.aperture == ApertureShown::disk)
         lines.add(ofTheShape, fmt::format("the method {} has a round aperture", method.name));
     if (method.aperture != ApertureShown::all)
-        lines.add(ofACatEye, fmt::format("the method {} has the same aperture all over the image", method.name));
+        lines.add(ofLensPoints,
+                  fmt::format("the method {} has one lens for all colours and all places of the image", method.name));
     if (request.settings.shadows == Shadows::off || (request.settings.shadows == Shadows::automatic && !request.ground))
         lines.add(ofShadows, "without shadows (--shadows on, --ground) the size of a light shows nowhere");
     if (!method.drawsMotion) lines.add(ofTheShutter, fmt::format("the method {} draws no motion", method.name));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lens/aberrations.h"
 #include "lens/wavelengths.h"
 
 namespace defocus {
@@ -85,7 +86,7 @@ bool ClipCircleOfConfusion::thinLens() const {
 }
 
 bool ClipCircleOfConfusion::varies() const {
-    return tilt != glm::dvec2(0) || curvature != 0 || gain != 0;
+    return tilt != glm::dvec2(0) || curvature != 0 || gain != 0 || aberrates();
 }
 
 ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int height) {
@@ -104,6 +105,8 @@ ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int hei
     coc.backgroundLimit = lens.backgroundLimit / width;
     coc.aspect = aspect;
     coc.shareOfMillimetre = lens.dofEnabled ? lens.blurScale / lens.horizontalAperture : 0;
+    coc.astigmatism = lens.astigmatism * coc.shareOfMillimetre;
+    coc.coma = comaOfTail(lens.coma * coc.shareOfMillimetre);
     coc.chromatic = std::abs(chromaticShift(coc.a, lens.axialChromaticAberration, 1));
     return coc;
 }
@@ -127,9 +130,10 @@ OwnBlur ownBlur(const ClipCircleOfConfusion& coc, double factor, const VertexBlu
 CocRange circleOfConfusionRange(const ClipCircleOfConfusion& coc, const CocBox& box, int width) {
     const Parts parts = partsOver(coc, box);
     const Interval blur = unlimitedBlur(parts, box.own);
+    const double aberration = aberrationReach(coc, std::sqrt(parts.radius2.most));
     CocRange range;
-    range.nearest = std::clamp(blur.least, -coc.foregroundLimit, coc.backgroundLimit) * width;
-    range.farthest = std::clamp(blur.most, -coc.foregroundLimit, coc.backgroundLimit) * width;
+    range.nearest = (std::clamp(blur.least, -coc.foregroundLimit, coc.backgroundLimit) - aberration) * width;
+    range.farthest = (std::clamp(blur.most, -coc.foregroundLimit, coc.backgroundLimit) + aberration) * width;
     const bool straddles = range.nearest <= 0 && range.farthest >= 0;
     range.smallest = straddles ? 0 : std::min(std::abs(range.nearest), std::abs(range.farthest));
     range.largest = std::max(std::abs(range.nearest), std::abs(range.farthest));
@@ -180,7 +184,7 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     const double reach = 1 + std::sqrt(parts.radius2.most);
     const double second = 2 * reach * reach *
                           (box.own.factorMost * coc.front * std::abs(coc.curvature) * gained +
-                           3 * box.own.factorMost * coc.gain * (base + coc.front * reach));
+                           3 * box.own.factorMost * coc.gain * (base + coc.front * reach) + std::abs(coc.astigmatism));
     deviation.curved = second * length * length / 8 * width;
 
     // A product of two linear functions deviates from its chord by a quarter of the product of their changes. What

@@ -39,14 +39,18 @@ struct ClipCircleOfConfusion {
     double backgroundLimit = std::numeric_limits<double>::infinity();  // R₂
     double aspect = 1;                                                 // k
     double shareOfMillimetre = 0;  // of the image's width, of blur that vertices have in mm on the sensor
+    double astigmatism = 0;        // A of aberrations.h
+    double coma = 0;               // B of aberrations.h
     double chromatic = 0;          // the most that a wavelength adds to b₁ and b₂ or takes from them
 
     // F and B differ.
     [[nodiscard]] bool hasFocusRange() const { return front != behind || a != aBehind; }
-    // C = a + b·w everywhere: none of the controls is in use.
+    // C = a + b·w everywhere, and nothing else moves what the lens shows: none of the controls is in use.
     [[nodiscard]] bool thinLens() const;
-    // C depends on the place in the image.
+    // What the lens does depends on the place in the image.
     [[nodiscard]] bool varies() const;
+    // Points in focus aren't points.
+    [[nodiscard]] bool aberrates() const { return astigmatism != 0 || coma != 0; }
 };
 
 // Of an image of `width` x `height` px.
@@ -57,6 +61,7 @@ ClipCircleOfConfusion clipCircleOfConfusion(const Lens& lens, int width, int hei
 double circleOfConfusion(const ClipCircleOfConfusion& coc, double z, int width, const glm::dvec2& ndc = glm::dvec2(0),
                          double factor = 1, double added = 0);
 
+// Aberrations move what lens points show as blur would do, so they widen the range to both sides.
 struct CocRange {
     double nearest = 0;   // least signed CoC, px: that of the nearest depth
     double farthest = 0;  // greatest signed CoC, px: that of the farthest depth

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double mostTilt = 89.95 * std::numbers::pi / 180;  // at 90° the focus plane goes through the camera
+constexpr double mostAberration = 100;                       // mm
 
 void requireWithin(double value, double least, double most, const char* name) {
     if (!(value >= least && value <= most)) fail("lens: {} must be from {} to {}, not {}", name, least, most, value);
@@ -53,6 +54,8 @@ void checkLens(const Lens& lens) {
     requireWithin(lens.sphericalAberration, -1, 1, "the spherical aberration");
     requireWithin(lens.catEye, 0, 1, "the cat's eye");
     requireWithin(lens.axialChromaticAberration, -100, 100, "the axial chromatic aberration (dioptres)");
+    requireWithin(lens.astigmatism, -mostAberration, mostAberration, "the astigmatism (mm)");
+    requireWithin(lens.coma, -mostAberration, mostAberration, "the coma (mm)");
     requireWithin(lens.foregroundLimit, 0, infinity, "the limit of the foreground's blur (px)");
     requireWithin(lens.backgroundLimit, 0, infinity, "the limit of the background's blur (px)");
     requireWithin(lens.focusRangeFront, 0, infinity, "the focus range in front (m)");

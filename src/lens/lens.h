@@ -35,6 +35,8 @@ struct Lens {
     double sphericalAberration = 0;       // [−1, 1]; > 0 moves light to the rim (soap bubbles), < 0 inwards (creamy)
     double catEye = 0;                    // [0, 1]; how far the rim of the barrel reaches in at the image's corners
     double axialChromaticAberration = 0;  // dioptres between the focus of red and of blue; > 0: red focuses farther
+    double astigmatism = 0;               // mm on the sensor; see aberrations.h
+    double coma = 0;                      // mm on the sensor; > 0: tails point outwards
     std::shared_ptr<const Image> apertureImage;  // grey values as transmission; null: the shape above
 
     // An artist's controls of C(w); see circle_of_confusion.h.

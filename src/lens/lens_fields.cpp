@@ -52,6 +52,12 @@ const LensField fields[] = {
      "Blurred points narrow towards the image's corners: how far the barrel hides the aperture there, in radii"},
     {"axialChromaticAberration", "--axial-chromatic-aberration", "D", -100, 100, &Lens::axialChromaticAberration,
      &LensSettings::axialChromaticAberration, "Colour fringes: dioptres by which red focuses farther away than blue"},
+    {"astigmatism", "--astigmatism", "MM", -100, 100, &Lens::astigmatism, &LensSettings::astigmatism,
+     "Points in focus become lines that point to the image's centre: their length on the sensor at its left and right "
+     "edge. Below 0, they are blurred as lines where the focus lies on the other side"},
+    {"coma", "--coma", "MM", -100, 100, &Lens::coma, &LensSettings::coma,
+     "Points grow tails, away from the image's centre (above 0) or towards it: their length on the sensor at its left "
+     "and right edge"},
     {"foregroundLimit", "--foreground-limit", "PX", 0, 1e6, &Lens::foregroundLimit, &LensSettings::foregroundLimit,
      "Largest blur in front of the focus plane"},
     {"backgroundLimit", "--background-limit", "PX", 0, 1e6, &Lens::backgroundLimit, &LensSettings::backgroundLimit,

@@ -140,6 +140,7 @@ std::string reasonForFullRate(const FramePlan& plan, const ObjectPlan& object) {
     if (plan.settings.keepAll) return "everything is drawn for each sample";
     if (!plan.usesLens) return "no blur reaches half a pixel";
     if (plan.coc.chromatic > 0) return "each sample has a wavelength of its own";
+    if (plan.coc.aberrates()) return "the lens has astigmatism or coma";
     if (!object.motion.empty() || !plan.middleFromView.empty()) return "it or the camera moves";
     if (object.blurMoves) return "the blur of its vertices changes";
     if (object.blended) return "it is alpha-blended";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "image/colour_map.h"
+#include "lens/aberrations.h"
 #include "plan/clip_vertices.h"
 #include "plan/lens_facing.h"
 
@@ -94,7 +95,9 @@ public:
                     sums.add({glm::dvec2(-1), glm::dvec2(1)}, share_);
                     return;
                 }
-                const double blur = std::abs(moment.coc[indices[k]] / p.z);
+                const glm::dvec2 field = glm::dvec2(p) / p.z / glm::dvec2(1, plan_->coc.aspect);
+                const double blur =
+                    std::abs(moment.coc[indices[k]] / p.z) + aberrationReach(plan_->coc, glm::length(field));
                 const glm::dvec2 reach = blur * glm::dvec2(1, plan_->coc.aspect);
                 bounds.least = glm::min(bounds.least, glm::dvec2(p) / p.z - reach);
                 bounds.most = glm::max(bounds.most, glm::dvec2(p) / p.z + reach);
@@ -103,9 +106,9 @@ public:
     }
 
 private:
-    // What moves is taken to show its front.
+    // What moves is taken to show its front, and what is seen through an aberrated lens.
     [[nodiscard]] bool facesAway(const std::uint32_t* indices) const {
-        if (moments_.size() > 1) return false;
+        if (moments_.size() > 1 || plan_->coc.aberrates()) return false;
         LensTriangle triangle;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t from = object_->mirrored ? 2 - k : k;

@@ -112,7 +112,7 @@ ObjectViews objectViews(const ObjectPlan& object, const World& world, const Fram
         views.largestOffset = std::max(views.largestOffset, glm::length(glm::dvec3(matrix[3])));
     }
     views.own = object.own;
-    if (views.own.varies()) return views;
+    if (views.own.varies() || plan.coc.aberrates()) return views;
     const double factor = views.own.factorMost;
     const double reach = lensReach(plan);
     const ClipCircleOfConfusion& coc = plan.coc;
@@ -329,7 +329,8 @@ bool goesEvenly(const CocBox& coc, const LevelCorners& corners, const ObjectPlan
 
 bool cornersFaceAway(const IndexRange& range, const Bounds& box, const LevelCorners& corners, const ObjectPlan& object,
                      const Pyramid& pyramid, const FramePlan& plan) {
-    if (!(-box.maximum.z > plan.view.nearPlane * (1 + storage)) || plan.coc.chromatic > 0) return false;
+    if (!(-box.maximum.z > plan.view.nearPlane * (1 + storage))) return false;
+    if (plan.coc.chromatic > 0 || plan.coc.aberrates()) return false;
     const CocBox coc = cocBoxOf(box, object.own, plan);
     if (!staysWhole(coc, plan) || !goesEvenly(coc, corners, object, plan)) return false;
     for (std::uint32_t i = range.first; i < range.first + range.count; i += 3)

@@ -162,6 +162,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     countsInAlpha_ = barrelCuts(plan);
     if (countsInAlpha_) defines_.emplace_back("CAT_EYE", fmt::format("{:.6f}", plan.view.lens.catEye));
     if (plan.usesCocControls) defines_.emplace_back("COC_CONTROLS", "1");
+    if (plan.usesCocControls && plan.coc.aberrates()) defines_.emplace_back("ABERRATIONS", "1");
     layerCount_ = layerCount;
     uploadLighting(world);
     uploadSamples(plan, layerCount);
@@ -176,7 +177,7 @@ void FrameUniforms::upload(const World& world, const FramePlan& plan, std::uint3
     block.cocField = {coc.tilt, coc.curvature, coc.gain};
     block.cocLimits = {std::min(coc.foregroundLimit, unlimitedBlur), std::min(coc.backgroundLimit, unlimitedBlur),
                        1 / (coc.aspect * coc.aspect), plan.settings.cocTolerance};
-    block.cocOther = {coc.aBehind, coc.shareOfMillimetre, 0, 0};
+    block.cocOther = {coc.aBehind, coc.shareOfMillimetre, coc.astigmatism, coc.coma};
     const LayerWindow window = layerWindow(plan);
     block.window = {window.imageLeft, window.imageBottom, window.imageWidth, window.imageHeight};
     block.worldFromView = glm::mat4(glm::mat3(view.worldFromCamera));

@@ -23,8 +23,9 @@ using Names = std::vector<std::string_view>;
 
 const Names focusFields = {"focusDistance", "focusRangeFront", "focusRangeBehind", "focusRangeRefocuses",
                            "focusTilt",     "focusSwing",      "fieldCurvature"};
-const Names apertureFields = {"bladeCount",  "bladeRotation",       "bladeCurvature", "anamorphicRatio",
-                              "obstruction", "sphericalAberration", "catEye",         "axialChromaticAberration"};
+const Names apertureFields = {
+    "bladeCount",          "bladeRotation", "bladeCurvature",           "anamorphicRatio", "obstruction",
+    "sphericalAberration", "catEye",        "axialChromaticAberration", "astigmatism",     "coma"};
 
 bool holds(const Names& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();

@@ -186,7 +186,7 @@ void ViewSession::chooseCamera(const std::string& name) {
     options.cameraTarget.reset();
     options.cameraUp.reset();
     options.focusPixel.reset();
-    options.focusPoints.reset();
+    options.focusPoints.clear();
     options.focusAuto = false;
     const glm::ivec2 size = pictureSize();
     options.width = size.x;

@@ -176,6 +176,8 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
         [&](Request& r) { r.lens.bladeCurvature = number(); },
         [&](Request& r) { r.lens.catEye = number(); },
         [&](Request& r) { r.lens.axialChromaticAberration = number(); },
+        [&](Request& r) { r.lens.astigmatism = number(); },
+        [&](Request& r) { r.lens.coma = number(); },
         [&](Request& r) { r.lens.foregroundLimit = number(); },
         [&](Request& r) { r.lens.focusRangeFront = number(); },
         [&](Request& r) { r.lens.focusRangeRefocuses = true; },

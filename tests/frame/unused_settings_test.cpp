@@ -30,8 +30,9 @@ TEST(UnusedSettings, eachIsNamedWithItsReason) {
         {{{"method", "circular"}, {"seed", "2"}}, "--seed does nothing: the method circular draws no lens samples"},
         {{{"method", "circular"}, {"bladeCount", "5"}, {"obstruction", "0.5"}},
          "--blades, --obstruction do nothing: the method circular has a round aperture"},
-        {{{"method", "scheuermann"}, {"bladeCount", "5"}, {"catEye", "0.5"}},
-         "--cat-eye does nothing: the method scheuermann has the same aperture all over the image"},
+        {{{"method", "scheuermann"}, {"bladeCount", "5"}, {"catEye", "0.5"}, {"coma", "1"}},
+         "--cat-eye, --coma do nothing: the method scheuermann has one lens for all colours and all places of the "
+         "image"},
         {{{"method", "circular"}, {"shutter", "0.1"}}, "--shutter does nothing: the method circular draws no motion"},
         {{{"motionSegments", "4"}}, "--motion-segments does nothing: without --shutter it is open for a moment"},
         {{{"environmentRotation", "30"}},

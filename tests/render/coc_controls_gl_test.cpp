@@ -184,6 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
         Control{"tiltAndLimit", [](Lens& lens) { lens.focusTilt = -1, lens.backgroundLimit = 1; }, 0.7},
         Control{"fieldCurvature", [](Lens& lens) { lens.fieldCurvature = 1.5; }, 0.7},
         Control{"radialBlurGain", [](Lens& lens) { lens.radialBlurGain = 1; }, 0.7},
+        Control{"astigmatism", [](Lens& lens) { lens.astigmatism = 6; }, 0.7},
         Control{"curvedAndLimit", [](Lens& lens) { lens.fieldCurvature = 1, lens.foregroundLimit = 3; }, 0.7},
         Control{"limitThroughTheCamera", [](Lens& lens) { lens.foregroundLimit = 6; }, -4},
         Control{"rangeThroughTheCamera", [](Lens& lens) { lens.focusRangeFront = 1.5, lens.foregroundLimit = 6; }, -4}),

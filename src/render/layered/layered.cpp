@@ -47,6 +47,8 @@ public:
             fail(
                 "method layered: with controls of the blur it has one focus for all wavelengths; leave out the axial "
                 "chromatic aberration or choose accumulation");
+        if (plan.usesLens && plan.coc.aberrates())
+            fail("method layered: its rays are straight; leave out astigmatism and coma or choose accumulation");
         const auto total = static_cast<std::uint32_t>(plan.samples.size());
         const auto asked = static_cast<std::uint32_t>(numberOf(options_.settings, "pinholes"));
         pinholeCount_ = std::min(asked, total);

@@ -35,6 +35,8 @@ void checkDrawable(const FramePlan& plan, const World& world, const std::string&
             "method {}: it has one focus for all wavelengths; leave out the axial chromatic aberration or choose "
             "accumulation",
             method);
+    if (plan.usesLens && plan.coc.aberrates())
+        fail("method {}: its lens has no astigmatism or coma; leave them out or choose accumulation", method);
     if (plan.usesLens && plan.view.lens.catEye > 0)
         fail("method {}: it knows no cat's eye; leave it out or choose accumulation", method);
     if (!plan.moments.empty() && world.shutter.perSample)

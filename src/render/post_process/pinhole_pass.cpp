@@ -31,6 +31,9 @@ FramePlan pinholePlan(const World& world, const FramePlan& plan, std::uint32_t c
     for (std::uint32_t i = 0; i < count && count > 1; ++i)
         pinholes.samples[i].pixel = glm::vec2((i + 0.5) / count - 0.5, radicalInverse(2, i) + 0.5 / count - 0.5);
     pinholes.coc.chromatic = 0;
+    pinholes.coc.astigmatism = 0;
+    pinholes.coc.coma = 0;
+    pinholes.usesCocControls = plan.usesLens && (plan.usesOwnBlur || !pinholes.coc.thinLens());
     pinholes.view.lens.catEye = 0;
     pinholes.trianglesDrawn = 0;
     pinholes.moments.clear();

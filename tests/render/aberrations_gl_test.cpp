@@ -1,0 +1,198 @@
+// Astigmatism and coma in the image: the moments of a point's blur in closed form, and the sky.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/mat2x2.hpp>
+
+#include "bokeh.h"
+#include "core/error.h"
+#include "gl/context.h"
+#include "lens/aberrations.h"
+#include "plan/rates.h"
+#include "render/methods.h"
+
+namespace defocus {
+namespace {
+
+class Aberrations : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> Aberrations::context_;
+
+View viewOf(double astigmatism, double coma) {
+    View view;
+    view.width = 160;
+    view.height = 120;
+    view.lens.fStop = 2;
+    view.lens.focusDistance = 2;
+    view.lens.astigmatism = astigmatism;
+    view.lens.coma = coma;
+    return view;
+}
+
+RenderSettings fullDetail(std::uint32_t samples) {
+    RenderSettings settings;
+    settings.sampleCount = samples;
+    settings.lod = LodMode::off;
+    settings.keepAll = true;  // pinhole images keep all their samples
+    return settings;
+}
+
+// What a bright point of 2 x 2 px becomes: its centre and its moments about it, px and px².
+struct Spot {
+    glm::dvec2 centre{0};
+    glm::dmat2 moments{0};
+    double energy = 0;
+};
+
+Spot spotAt(const View& view, const glm::dvec2& place, double depth, const char* method = "accumulation") {
+    const Scene scene =
+        rectangleScene(view, {{place.x - 1, place.y - 1, place.x + 1, place.y + 1, depth}}, glm::vec3(50));
+    World world = flatWorld(scene, blackBackground());
+    world.pyramids = buildPyramids(scene.meshes);
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const auto renderer = methodNamed(method).make(world, options);
+    const Image image = renderedImage(*renderer, planFrame(world, view, fullDetail(4096)));
+    Spot spot;
+    const auto sum = [&](const auto& add) {
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) add(double(image.at(x, y)[1]), glm::dvec2(x + 0.5, y + 0.5));
+    };
+    sum([&](double value, const glm::dvec2& at) {
+        spot.energy += value;
+        spot.centre += value * at;
+    });
+    spot.centre /= spot.energy;
+    sum([&](double value, const glm::dvec2& at) {
+        spot.moments += value / spot.energy * glm::outerProduct(at - spot.centre, at - spot.centre);
+    });
+    return spot;
+}
+
+constexpr glm::dvec2 middle{80, 60};
+constexpr double perHalfWidth = 80;  // px
+constexpr double inFocus = 2;        // m
+// Of the point's two pixels, 1/3, and of the pixel that each sample has a place in, 1/12.
+constexpr double ownVariance = 5.0 / 12;
+
+// Over the disk E[u²] = 1/4: a line to the image's centre has the variance (A·|m|²)²/4 along itself and none across.
+// Its outer half is the brighter one: there the point is the image of a smaller area, by 3·A·(m·l), which moves the
+// mean by ¾·A²·|m|²·m.
+TEST_F(Aberrations, astigmatismMakesLinesToTheCentre) {
+    constexpr double share = 0.05;  // A
+    for (const glm::dvec2& place : {glm::dvec2(138, 71), glm::dvec2(124, 93), glm::dvec2(40, 100)}) {
+        const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
+        const Spot line = spotAt(viewOf(share * 36, 0), place, inFocus);
+        const glm::dvec2 field = (place - middle) / perHalfWidth;
+        const double spread = perHalfWidth * share;
+        const glm::dmat2 expected = spread * spread / 4 * glm::dot(field, field) * glm::outerProduct(field, field);
+        for (int c = 0; c < 2; ++c)
+            for (int r = 0; r < 2; ++r)
+                EXPECT_NEAR(line.moments[c][r], expected[c][r] + (c == r ? ownVariance : 0),
+                            0.03 * (expected[0][0] + expected[1][1]));
+        EXPECT_NEAR(line.energy / sharp.energy, 1, 3e-3);
+        const glm::dvec2 moved = 0.75 * share * spread * glm::dot(field, field) * field;
+        EXPECT_NEAR(glm::distance(line.centre - sharp.centre, moved), 0, 0.02);
+    }
+}
+
+// ∇W = B·m·(3u² + v²) along and 2·B·m·u·v across, for which the disk has the mean B·m and the variances B²·m²/2 and
+// B²·m²/6. Rays of the rim show the point larger, by 4·B·|l|², which takes the mean to B·m·(1 + ⅔·B).
+TEST_F(Aberrations, comaMakesComets) {
+    for (const double share : {0.03, -0.03}) {  // B
+        const glm::dvec2 place(134, 60);
+        const Spot sharp = spotAt(viewOf(0, 0), place, inFocus);
+        const Spot comet = spotAt(viewOf(0, 1.5 * share * 36), place, inFocus);
+        const double scale = share * (place.x - middle.x);
+        EXPECT_NEAR(comet.centre.x - sharp.centre.x, scale * (1 + 2 * share / 3), 0.02 * std::abs(scale))
+            << "outwards if above 0";
+        EXPECT_NEAR(comet.centre.y, sharp.centre.y, 0.02);
+        EXPECT_NEAR(comet.moments[0][0] - ownVariance, scale * scale / 2, 0.03 * scale * scale);
+        EXPECT_NEAR(comet.moments[1][1] - ownVariance, scale * scale / 6, 0.03 * scale * scale);
+        EXPECT_NEAR(comet.moments[0][1], 0, 0.01 * scale * scale);
+    }
+}
+
+// Blur of c px and a line of L px have (c + L)²/16 along the line and c²/16 across: as an astigmatic lens has two foci,
+// there is a depth where the point is a line across.
+TEST_F(Aberrations, astigmatismAddsToTheBlurAlongOneAxis) {
+    const glm::dvec2 place(134, 60);
+    const View plain = viewOf(0, 0);
+    const View astigmatic = viewOf(5.4, 0);
+    const double field = (place.x - middle.x) / perHalfWidth;
+    const double line = 160 * 5.4 / 36 * field * field;
+    for (const double depth : {1.93, 2.07}) {
+        const double blur = circleOfConfusion(clipCircleOfConfusion(plain.lens, 160, 120), depth, 160);
+        const Spot disk = spotAt(plain, place, depth);
+        const Spot ellipse = spotAt(astigmatic, place, depth);
+        EXPECT_NEAR(ellipse.moments[1][1], disk.moments[1][1], 0.02 * line * line / 16);
+        EXPECT_NEAR(ellipse.moments[0][0] - disk.moments[0][0], ((blur + line) * (blur + line) - blur * blur) / 16,
+                    0.02 * line * line / 16);
+    }
+}
+
+// Neighbours on the lens don't see the same, moved by their blur: each draws its own image.
+TEST_F(Aberrations, multirateSharesNoImages) {
+    View view = viewOf(0, 0);
+    const Scene scene = rectangleScene(view, {{90, 30, 130, 90, 2.5}}, glm::vec3(1));
+    World world = flatWorld(scene, blackBackground());
+    world.pyramids = buildPyramids(scene.meshes);
+    view.lens.fStop = 0.5;
+    RenderSettings settings = fullDetail(256);
+    settings.keepAll = false;
+    EXPECT_GT(frameRates(planFrame(world, view, settings)).objects.at(0).lensShare, 0.5);
+    view.lens.coma = 3;
+    EXPECT_EQ(frameRates(planFrame(world, view, settings)).objects.at(0).lensShare, 0);
+}
+
+// A gradient through a lens that is focused infinitely far away: the mean over the samples of what each ray sees.
+TEST_F(Aberrations, skyIsSeenThroughThem) {
+    View view = viewOf(20, 20);
+    view.lens.focusDistance = std::numeric_limits<double>::infinity();
+    const Scene empty;
+    Environment gradient = blackBackground();
+    gradient.type = EnvironmentType::gradient;
+    gradient.zenith = glm::vec3(8);
+    gradient.horizon = glm::vec3(0.1f);
+    gradient.nadir = glm::vec3(1);
+    const World world = flatWorld(empty, gradient);
+    const FramePlan plan = planFrame(world, view, fullDetail(64));
+    RendererOptions options;
+    options.layerFormat = LayerFormat::rgba32f;
+    const auto renderer = methodNamed("accumulation").make(world, options);
+    const Image image = renderedImage(*renderer, plan);
+    const double tanX = tanHalfHorizontalFov(view.lens);
+    double moved = 0;
+    for (int row = 0; row < view.height; row += 17)
+        for (int column = 0; column < view.width; column += 23) {
+            const glm::dvec2 ndc((column + 0.5) / view.width * 2 - 1, 1 - (row + 0.5) / view.height * 2);
+            const auto radiance = [&](const glm::dvec2& at) {
+                const glm::dvec3 direction = glm::normalize(glm::dvec3(at.x * tanX, at.y * tanX * 0.75, -1));
+                return 0.1 + std::abs(direction.y) * ((direction.y > 0 ? 8.0 : 1.0) - 0.1);
+            };
+            double expected = 0;
+            double straight = 0;
+            for (const LensSample& sample : plan.samples) {
+                const glm::dvec2 inPixel = 2.0 * glm::dvec2(sample.pixel) / glm::dvec2(view.width, view.height);
+                const glm::dvec2 missed = aberration(plan.coc, ndc, glm::dvec2(sample.lens)) * glm::dvec2(1, 4.0 / 3);
+                expected += radiance(ndc + inPixel - missed) / 64;
+                straight += radiance(ndc + inPixel) / 64;
+            }
+            EXPECT_NEAR(image.at(column, row)[1], expected, 1e-4 * (1 + expected)) << column << ", " << row;
+            moved = std::max(moved, std::abs(expected - straight));
+        }
+    EXPECT_GT(moved, 0.05);
+}
+
+TEST_F(Aberrations, methodsThatCannotSaySo) {
+    const View view = viewOf(3, 0);
+    for (const char* const method : {"stochastic", "line", "layered"})
+        EXPECT_THROW(spotAt(view, {120, 80}, 2.2, method), Error) << method;
+}
+
+}  // namespace
+}  // namespace defocus
