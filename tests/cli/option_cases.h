@@ -54,7 +54,8 @@ inline std::string movingBall(bool lamp, bool pane = false) {
                     {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 0.5}}}}});
         board["material"] = 0;
     }
-    builder.mesh({board}, {{"name", "Board"}, {"translation", {-1.5, 0.5, -9}}, {"scale", {2, 2, 1}}});
+    builder.mesh(nlohmann::json::array({board}),
+                 {{"name", "Board"}, {"translation", {-1.5, 0.5, -9}}, {"scale", {2, 2, 1}}});
     builder.json["cameras"] = {
         {{"name", "Far"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.9}, {"znear", 0.1}}}},
         {{"name", "Near"},
