@@ -27,8 +27,8 @@ public:
     PinholePass(GpuScene& scene, int width, int height, LayerFormat format, bool ownBlur,
                 const std::filesystem::path& shaderFolder);
 
-    // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing. `buckets` are
-    // drawn apart, each by drawBucket.
+    // `frame` was uploaded for `pinholes` with one layer, and must outlive the drawing. `buckets` are drawn
+    // apart, each by drawBucket.
     void prepare(const FramePlan& pinholes, const FrameUniforms& frame, const std::vector<TransparencyBucket>& buckets);
     // Draws sample `index`. Alpha-blended surfaces that are in no bucket leave their depth too, in a pass of its own:
     // what lies behind them is blurred as they are (Scheuermann 2004).

@@ -89,6 +89,7 @@ private:
 
     // A bucket over what is drawn.
     void layOver(PinholeImage& bucket) {
+        if (!process_->blursAsTheLens()) bucket.part.reset();
         process_->draw(bucket, frame_, radianceTarget_);
         blurCoverage(bucket);
         sum_->layers().bind();

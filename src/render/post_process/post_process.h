@@ -18,6 +18,8 @@ public:
     // Draws the blurred image of `pinhole` into `output`: linear radiance, alpha 1. Linear in the radiance, so that
     // coverage is blurred by the same. Only PinholeImage::part has to be drawn.
     virtual void draw(const PinholeImage& pinhole, const FrameUniforms& frame, const Target& output) = 0;
+    // false: something may be blurred more widely than the plan's lens blurs it.
+    [[nodiscard]] virtual bool blursAsTheLens() const { return true; }
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 

@@ -96,6 +96,8 @@ public:
         fullscreen_.draw(gather_);
     }
 
+    [[nodiscard]] bool blursAsTheLens() const override { return thinLens_; }
+
     [[nodiscard]] std::size_t bytes() const override { return sharp_.bytes() + reduced_.bytes() + small_.bytes(); }
 
 private:
