@@ -1,5 +1,6 @@
 // The disks of method "circular" (Garcia 2018): what they cost over the radius, against a gather of the same kernel
-// over its whole square; how flat they are by components; what their storage loses.
+// over its whole square; what one pass for the near and the far field could save; how flat they are by components; what
+// their storage loses.
 //
 // Held equal within a table: image, process, kernel, runs alternate and the median counts. Checks that separable and
 // direct blur agree.
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -101,6 +103,37 @@ void costOverRadius() {
     }
     fmt::print("{:>10} {:>12.2f} {:>12.2f}\n\n", "exponent", exponent(radii, separableTimes),
                exponent(radii, directTimes));
+}
+
+// Passes that blurred both fields at once would read, weigh and write for each field what they do now. What they could
+// save is what a field's passes cost without taps.
+void savedByOnePass() {
+    fmt::print(
+        "A field's passes, two components, ms (median of {}), and the share that one pass for both fields could save "
+        "at "
+        "most\n{:>12} {:>10} {:>12} {:>12} {:>10}\n",
+        runs, "size px", "radius px", "with taps", "without", "share");
+    for (const auto& [width, height] : {std::pair(512, 384), std::pair(1024, 768)}) {
+        const GlTexture field = textureOf(filled(width, height, 4, 1), TextureFormat::rgba16f);
+        const GlTexture none = textureOf(filled(width, height, 1, 0), TextureFormat::r32f);
+        ComplexBlur blur({.width = width, .height = height, .components = 2, .shaderFolder = {}});
+        for (const float r : {2.0f, 8.0f, 32.0f}) {
+            const GlTexture radius = textureOf(filled(width, height, 1, r), TextureFormat::r32f);
+            std::vector<double> with, without;
+            for (int i = 0; i <= runs; ++i) {
+                const double first = milliseconds(blur, field, radius);
+                const double second = milliseconds(blur, field, none);
+                if (i == 0) continue;  // shaders are compiled
+                with.push_back(first);
+                without.push_back(second);
+            }
+            const double taps = spreadOf(with).median;
+            const double noTaps = spreadOf(without).median;
+            fmt::print("{:>12} {:>10} {:>12.2f} {:>12.2f} {:>8.0f} %\n", fmt::format("{} x {}", width, height), r, taps,
+                       noTaps, 100 * noTaps / (2 * taps));
+        }
+    }
+    fmt::print("\n");
 }
 
 void disks() {
@@ -194,6 +227,7 @@ int run() {
     const auto context = createHeadlessContext();
     fmt::print("{}, {}\n\n", context->device(), context->driver());
     costOverRadius();
+    savedByOnePass();
     disks();
     storages();
     return 0;
