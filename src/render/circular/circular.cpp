@@ -297,7 +297,7 @@ std::vector<MethodSetting> circularSettings() {
          .standard = "separable",
          .description = "Direct gathers the same kernel over its whole square, for checks",
          .choices = {"separable", "direct"}},
-        transparencyBucketsSetting("4"),
+        transparencyBucketsSetting("1"),
         pinholesSetting(),
     };
 }
