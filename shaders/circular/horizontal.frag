@@ -32,7 +32,7 @@ vec4 pairAt(ivec2 pixel, int i, Taps taps) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    Taps taps = tapsOf(texelFetch(radii, pixel, 0).r);
+    Taps taps = tapsOf(AXES.x * texelFetch(radii, pixel, 0).r);
     vec4 middle = texelFetch(field, pixel, 0);
     vec2 f[COMPONENTS];
     vec2 ratio[COMPONENTS];

@@ -1,5 +1,6 @@
 // Filters the columns of the rows' complex sums and adds the components up: the field blurred by the kernel, over the sum of its
-// taps. Where the rows had another radius that sum is not theirs, but radiance over weight is right all the same.
+// taps. Where the rows had another radius that sum is not theirs, but radiance over weight is right all the same. AXES: of the disk's
+// radius, that of an oval to the right and up; OVAL: they differ.
 #include "include/complex_kernel.glsl"
 
 #if BRACKETED
@@ -40,7 +41,9 @@ Complex4 rowSum(int c, ivec2 pixel, float offset) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    Taps taps = tapsOf(texelFetch(radii, pixel, 0).r);
+    float radius = texelFetch(radii, pixel, 0).r;
+    Taps taps = tapsOf(AXES.y * radius);
+    Taps rowTaps = tapsOf(AXES.x * radius);
     vec4 sum = vec4(0.0);
     float kernelSum = 0.0;
     for (int c = 0; c < COMPONENTS; ++c) {
@@ -66,17 +69,27 @@ void main() {
         }
         vec2 weight = weightOf(component);
         sum += weight.x * re - weight.y * im;
-        kernelSum += times(times(weight, norm), norm).x;
+#if OVAL
+        vec2 rowNorm = tapSum(component, rowTaps);
+#else
+        vec2 rowNorm = norm;
+#endif
+        kernelSum += times(times(weight, rowNorm), norm).x;
     }
 #if COMPONENTS < KERNEL_SIZE
     // The other components are filtered by other runs of this pass.
     kernelSum = 0.0;
     for (int c = 0; c < KERNEL_SIZE; ++c) {
         vec2 norm = tapSum(kernel[c], taps);
-        kernelSum += times(times(weightOf(kernel[c]), norm), norm).x;
+#if OVAL
+        vec2 rowNorm = tapSum(kernel[c], rowTaps);
+#else
+        vec2 rowNorm = norm;
+#endif
+        kernelSum += times(times(weightOf(kernel[c]), rowNorm), norm).x;
     }
 #endif
-    blurred = sum * (tapCount(taps) / kernelSum);   // the rows were divided by their number of taps
+    blurred = sum * (tapCount(rowTaps) / kernelSum);   // the rows were divided by their number of taps
 #if BRACKETED
     blurred *= texelFetch(brightest, ivec2(0), 0).rrrg;
 #endif

@@ -16,7 +16,7 @@ namespace {
 using Names = std::span<const std::string_view>;
 
 constexpr std::string_view ofSamples[] = {"samples", "sequence", "seed", "lodCoc", "cocTolerance"};
-constexpr std::string_view ofTheShape[] = {"bladeCount",  "bladeRotation",       "bladeCurvature", "anamorphicRatio",
+constexpr std::string_view ofTheShape[] = {"bladeCount",  "bladeRotation",       "bladeCurvature",
                                            "obstruction", "sphericalAberration", "apertureImage"};
 constexpr std::string_view ofLensPoints[] = {"catEye", "axialChromaticAberration", "astigmatism", "coma"};
 constexpr std::string_view ofAnOpenShutter[] = {"shutterPosition", "motionSegments"};
@@ -83,8 +83,8 @@ std::vector<std::string> unusedSettings(const Request& request, const Scene& sce
     const Method& method = *chosenMethod(request).method;
     Lines lines(request);
     if (!method.usesLensSamples) lines.add(ofSamples, fmt::format("the method {} draws no lens samples", method.name));
-    if (method.aperture == ApertureShown::disk)
-        lines.add(ofTheShape, fmt::format("the method {} has a round aperture", method.name));
+    if (method.aperture == ApertureShown::oval)
+        lines.add(ofTheShape, fmt::format("the method {} has a round or oval aperture", method.name));
     if (method.aperture != ApertureShown::all)
         lines.add(ofLensPoints,
                   fmt::format("the method {} has one lens for all colours and all places of the image", method.name));

@@ -42,7 +42,7 @@ struct RendererOptions {
 };
 
 // What of the lens's aperture an image shows.
-enum class ApertureShown { disk, shape, all };  // shape: all but a cat's eye
+enum class ApertureShown { oval, shape, all };  // oval: of any ratio; shape: all but a cat's eye
 
 struct Method {
     std::string name;

@@ -29,7 +29,7 @@ TEST(UnusedSettings, eachIsNamedWithItsReason) {
     const std::vector<std::pair<std::vector<Given>, std::string>> cases = {
         {{{"method", "circular"}, {"seed", "2"}}, "--seed does nothing: the method circular draws no lens samples"},
         {{{"method", "circular"}, {"bladeCount", "5"}, {"obstruction", "0.5"}},
-         "--blades, --obstruction do nothing: the method circular has a round aperture"},
+         "--blades, --obstruction do nothing: the method circular has a round or oval aperture"},
         {{{"method", "scheuermann"}, {"bladeCount", "5"}, {"catEye", "0.5"}, {"coma", "1"}},
          "--cat-eye, --coma do nothing: the method scheuermann has one lens for all colours and all places of the "
          "image"},

@@ -88,7 +88,8 @@ public:
     void start(const FramePlan& plan, const FrameUniforms& frame) override {
         if (!split_ || defines_ != frame.defines()) makePrograms(frame);
         const View& view = plan.view;
-        if (view.width != width_ || view.height != height_) makeFields(view.width, view.height);
+        if (view.width != width_ || view.height != height_ || view.lens.anamorphicRatio != anamorphicRatio_)
+            makeFields(view);
         const double largest = 0.5 * view.width;  // px: a disk as wide as the image
         const double nearRadius = std::min(0.5 * largestNearDiameter(plan), largest) / options_.reduction;
         glProgramUniform1f(split_.name(), 0, static_cast<float>(largest));
@@ -157,9 +158,10 @@ private:
         composite_ = pass("circular/composite.frag");
     }
 
-    void makeFields(int width, int height) {
-        width_ = width;
-        height_ = height;
+    void makeFields(const View& view) {
+        const int width = width_ = view.width;
+        const int height = height_ = view.height;
+        anamorphicRatio_ = view.lens.anamorphicRatio;
         const int fieldWidth = (width + options_.reduction - 1) / options_.reduction;
         const int fieldHeight = (height + options_.reduction - 1) / options_.reduction;
         const auto texture = [](TextureFormat format, int w, int h) {
@@ -179,6 +181,8 @@ private:
         reaching_ = texture(TextureFormat::r32f, columns, rows);
         ComplexBlurInfo info{.width = fieldWidth,
                              .height = fieldHeight,
+                             .across = std::min(1 / anamorphicRatio_, 1.0),
+                             .upwards = std::min(anamorphicRatio_, 1.0),
                              .components = options_.farComponents,
                              .constants = options_.constants,
                              .storage = options_.storage,
@@ -229,6 +233,7 @@ private:
     CircularOptions options_;
     int width_ = 0;
     int height_ = 0;
+    double anamorphicRatio_ = 1;
     bool hasNear_ = true;
     ShaderDefines defines_;  // that the programs were built with
     Program split_, tile_, reach_, widen_, composite_;
@@ -310,7 +315,7 @@ Method circularMethod() {
             .description = "post-process: circular separable convolution of one pinhole image (Garcia 2018)",
             .usesLensSamples = false,
             .drawsMotion = false,
-            .aperture = ApertureShown::disk,
+            .aperture = ApertureShown::oval,
             .settings = settings,
             .best = {{"transparency-buckets", "8"}, {"pinholes", "16"}},
             .make = [settings](const World& world, const RendererOptions& options) {

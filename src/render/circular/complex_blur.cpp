@@ -3,6 +3,8 @@
 
 #include "render/circular/complex_blur.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -55,6 +57,8 @@ int componentsAtOnce(ComplexStorage storage) {
 ShaderDefines definesOf(const ComplexBlurInfo& info, int components) {
     return {{"KERNEL_SIZE", std::to_string(info.components)},
             {"COMPONENTS", std::to_string(components)},
+            {"AXES", fmt::format("vec2({:.9f}, {:.9f})", info.across, info.upwards)},
+            {"OVAL", info.across != info.upwards ? "1" : "0"},
             {"BRACKETED", info.storage == ComplexStorage::rgb10A2 ? "1" : "0"},
             {"LARGEST", info.storage == ComplexStorage::half ? "65504.0" : "3.0e38"},
             {"TAPS_EXACT", info.taps == ComplexTaps::exact ? "1" : "0"},

@@ -36,6 +36,9 @@ enum class KernelConstants {
 struct ComplexBlurInfo {
     int width = 1;
     int height = 1;
+    // Of an oval, shares of the radius to the right and up.
+    double across = 1;
+    double upwards = 1;
     int components = 1;  // 1 … circularKernelLimit, or publishedKernelLimit
     KernelConstants constants = KernelConstants::fitted;
     ComplexStorage storage = ComplexStorage::half;

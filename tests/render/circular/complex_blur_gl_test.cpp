@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <numbers>
 
@@ -88,6 +89,45 @@ TEST_F(ComplexBlurs, twoPassesGiveTheWholeKernel) {
                 EXPECT_LT(largestDifference(passes, whole), 1e-3)
                     << components << " components, radius " << radius << ", taps " << static_cast<int>(taps);
             }
+}
+
+TEST_F(ComplexBlurs, twoPassesGiveTheWholeOval) {
+    for (const ComplexTaps taps : {ComplexTaps::exact, ComplexTaps::eight, ComplexTaps::sets})
+        for (const int components : {1, 2, circularKernelLimit})
+            for (const auto& [across, upwards] : {std::pair(0.5, 1.0), std::pair(1.0, 0.7)}) {
+                ComplexBlurInfo info = infoOf(components);
+                info.width /= 2;
+                info.height /= 2;
+                info.across = across;
+                info.upwards = upwards;
+                info.taps = taps;
+                const Image passes = blurred(info, partOf(blocks()), partOf(filled(1, 9)));
+                info.direct = true;
+                EXPECT_LT(largestDifference(passes, blurred(info, partOf(blocks()), partOf(filled(1, 9)))), 1e-3)
+                    << components << " components, " << across << ", taps " << static_cast<int>(taps);
+            }
+}
+
+// The variance of an ellipse along an axis is a quarter of the square of its half.
+TEST_F(ComplexBlurs, aPointBecomesAnOvalOfItsAxes) {
+    Image point = filled(4, 0);
+    point.at(48, 40)[0] = 1000;
+    for (const auto& [across, upwards] : {std::pair(0.5, 1.0), std::pair(1.0, 0.4)}) {
+        ComplexBlurInfo info = infoOf(5);
+        info.across = across;
+        info.upwards = upwards;
+        const Image image = blurred(info, point, filled(1, 24));
+        double energy = 0;
+        glm::dvec2 moment(0);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                energy += *image.at(x, y);
+                moment += double(*image.at(x, y)) * glm::dvec2(std::pow(x - 48, 2), std::pow(y - 40, 2));
+            }
+        EXPECT_NEAR(energy, 1000, 1000 * 0.01);
+        EXPECT_NEAR(2 * std::sqrt(moment.x / energy), 24 * across, 1);
+        EXPECT_NEAR(2 * std::sqrt(moment.y / energy), 24 * upwards, 1);
+    }
 }
 
 TEST_F(ComplexBlurs, aConstantStaysConstantHoweverTheRadiusVaries) {
