@@ -106,6 +106,7 @@ class Keywords(TypedDict, total=False):
     focal_plane_depth: Optional[float]
     far_blur_depth: Optional[float]
     blurriness_cutoff: Optional[float]
+    transparency_buckets: Optional[int]
     pinholes: Optional[int]
     near_components: Optional[int]
     far_components: Optional[int]
