@@ -54,7 +54,7 @@ protected:
     void expectActs(const std::string& name, OptionCase tried) {
         if (name == "size") tried.words = {"--size", "300x200"};  // windows have a least size
         for (Words* words : {&tried.words, &tried.with})
-            std::ranges::replace(*words, "10,16,24,18,26,8", "100,90,120,90,120,60");
+            std::ranges::replace(*words, "10,16,24,18,26,8,30,20", "100,90,120,90,120,60,130,100");
         const CommandLine view = {.name = "view", .command = {}, .size = "240x180", .rest = {"--frames", "1"}};
         const std::string& without = seenOf(lineOfCase(view, name, tried, false));
         EXPECT_NE(without, seenOf(lineOfCase(view, name, tried, true))) << name << " changes nothing";
