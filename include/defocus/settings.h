@@ -53,12 +53,12 @@ enum class LevelVertices {
 };
 
 // By size and by error the target is max(blur · c, size) px for a circle of confusion of c px. Measured levels err by
-// at most `light`, in standard deviations of the object's light within its blur. What isn't given follows the number of
-// samples, so that long renders converge to full detail.
+// at most light / edge, in standard deviations of the object's light within its blur, for edges of `edge` px. What isn't
+// given follows the number of samples, so that long renders converge to full detail.
 struct GivenThresholds {
     std::optional<double> blur = {};   // px a px of blur, ≥ 0
     std::optional<double> size = {};   // px, ≥ 0; not of LodMetric::score
-    std::optional<double> light = {};  // ≥ 0; of LodMetric::measured alone, which has neither of the others
+    std::optional<double> light = {};  // px, ≥ 0; of LodMetric::measured alone, which has neither of the others
 };
 
 // Whether lights and surroundings cast shadows.

@@ -84,7 +84,7 @@ class Keywords(TypedDict, total=False):
     lod: Optional[Literal["fractional", "continuous", "nearest", "off"]]
     blur_threshold: Optional[float]
     size_threshold: Optional[float]  # px
-    light_threshold: Optional[float]
+    light_threshold: Optional[float]  # px
     cache_folder: Optional[Path]
     no_cache: Optional[bool]
     method: Optional[str]

@@ -6,6 +6,11 @@
 #endif
 #include "include/layer_format.glsl"
 #include "include/environment.glsl"
+
+float sampleInWave() {
+    return float(gl_Layer);
+}
+
 #include "include/shading.glsl"
 
 in Surface {

@@ -472,10 +472,11 @@ Rows sampleRows() {
                                "Levels by size: least target in pixels; without it, by the number of samples"),
                         "/sizeThreshold"),
                  "px"),
-        inShot(number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(settings.thresholds.light),
-                      "Error of measured levels, in standard deviations of their light within the blur; "
-                      "without it, by the number of samples"),
-               "/lightThreshold"),
+        withUnit(inShot(number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(settings.thresholds.light),
+                               "Error of measured levels, in standard deviations of their light within the blur, "
+                               "where edges are 1 px long; without it, by the number of samples"),
+                        "/lightThreshold"),
+                 "px"),
         path("cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
              "Where simplified meshes are kept; without it, $XDG_CACHE_HOME/defocus or ~/.cache/defocus"),
         truth("noCache", "--no-cache", MEMBER(noCache), "Simplify the meshes anew and store nothing"),

@@ -15,7 +15,15 @@ double leastCoc(const ObjectPlan& object, const FramePlan& plan, double depth, c
     return circleOfConfusionRange(plan.coc, {depth, depth, ndc, ndc, object.own}, plan.view.width).smallest;
 }
 
+double pixelsPerUnit(const ObjectPlan& object, const FramePlan& plan, double depth) {
+    return largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * depth);
+}
+
 }  // namespace
+
+double pixelsPerUnitAtCentre(const ObjectPlan& object, const FramePlan& plan) {
+    return pixelsPerUnit(object, plan, -object.viewBox.centre().z);
+}
 
 double cocAtCentre(const ObjectPlan& object, const FramePlan& plan) {
     const glm::dvec3 centre = object.viewBox.centre();
@@ -24,12 +32,10 @@ double cocAtCentre(const ObjectPlan& object, const FramePlan& plan) {
 }
 
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan) {
-    const double scale = largestScale(object.pose);
     const double pixel = plan.settings.lodCause == LodCause::blur ? 0 : 1;
     const double blur = plan.settings.lodCause == LodCause::size ? 0 : 1;
     const auto sideAt = [&](double depth, double coc) {
-        const double pixelsPerUnit = scale * plan.view.width / (2 * plan.tanHalfHorizontal * depth);
-        return std::sqrt(pixel + 0.75 * blur * coc * coc) / pixelsPerUnit;
+        return std::sqrt(pixel + 0.75 * blur * coc * coc) / pixelsPerUnit(object, plan, depth);
     };
     std::array<double, patchDepths> sides;
     if (plan.settings.lodCocAtCentre) {

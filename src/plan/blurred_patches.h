@@ -18,6 +18,9 @@ inline constexpr std::size_t patchDepths = 5;
 // RenderSettings::lodCause can leave out the disk or the pixel.
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan);
 
+// Returns how many px an object unit is long at the depth of the box's centre.
+double pixelsPerUnitAtCentre(const ObjectPlan& object, const FramePlan& plan);
+
 // Returns the diameter of the circle of confusion at the centre of the object's box in view space, px.
 double cocAtCentre(const ObjectPlan& object, const FramePlan& plan);
 

@@ -102,7 +102,8 @@ ObjectPlan placedObject(const World& world, const FramePlan& plan, std::size_t i
 double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const FramePlan& plan) {
     if (plan.settings.lod == LodMode::off || object.nearestDepth <= plan.view.nearPlane) return 0;
     if (plan.settings.metric == LodMetric::measured)
-        return levelOfBlurredError(pyramid, blurredPatches(object, plan), plan.thresholds.light);
+        return levelOfBlurredError(pyramid, blurredPatches(object, plan), pixelsPerUnitAtCentre(object, plan),
+                                   plan.thresholds.light);
     LevelQuery query;
     const double depth = plan.settings.metric == LodMetric::score ? -object.viewBox.centre().z : object.nearestDepth;
     query.pixelsPerUnit = largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * depth);

@@ -190,6 +190,7 @@ RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint3
     block.groupSize = size;
     block.groups = block.samples;
     block.groups.samples = groupImages(block.samples, size);
+    block.groups.settings.firstSample = firstGroup(block.samples, size);
     reorder(block.samples, groupedOrder(block.samples.samples, block.groups.samples, size));
     for (std::size_t i = 0; i < count; ++i) block.samples.samples[i].pixel = block.groups.samples[i / size].pixel;
     block.groups.moments.clear();

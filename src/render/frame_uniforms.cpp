@@ -123,17 +123,8 @@ std::string lightingText(const GpuLighting& block, std::size_t lightCount) {
                        lights);
 }
 
-// Variance in px², along each axis, of the places that one sample stands for, in block b of all samples. In the first
-// block it is that of a normal distribution as wide as half a pixel: a glint that is smaller than a pixel is spread
-// over its neighbours, too, so that few samples make no single white pixels. After that it is its share. It depends on
-// the sample's number alone, so that blocks add up to the image that is drawn at once, and vanishes as samples grow, so
-// that highlights converge to what the surface reflects.
-float placesVariance(std::uint32_t block) {
-    return 1 / (4 * (static_cast<float>(block) + 1));
-}
-
-// Values of a block start where any driver lets a buffer be bound: a vec4 in every 256 bytes.
-constexpr std::size_t blockStride = 256;
+// Values of a wave start where any driver lets a buffer be bound: a vec4 in every 256 bytes.
+constexpr std::size_t waveStride = 256;
 
 bool barrelCuts(const FramePlan& plan) {
     return plan.usesLens && plan.view.lens.catEye > 0;
@@ -238,11 +229,11 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
     sampleShifts_ = Buffer::of(std::span<const glm::vec4>(shifts));
     uploadBands(plan, bandShifts);
 
-    std::vector<glm::vec4> places(shifts.size() / blockSamples * blockStride / sizeof(glm::vec4));
-    for (std::size_t i = 0; i < shifts.size(); i += blockSamples)
-        places[i / blockSamples * blockStride / sizeof(glm::vec4)].x =
-            placesVariance((plan.settings.firstSample + static_cast<std::uint32_t>(i)) / blockSamples);
-    places_ = Buffer::of(std::span<const glm::vec4>(places));
+    std::vector<glm::vec4> waves(shifts.size() / blockSamples * wavesPerBlock() * waveStride / sizeof(glm::vec4));
+    for (std::uint32_t i = 0; i < samples.size(); ++i)
+        if (i % blockSamples % layerCount == 0)
+            waves[waveOf(i) * waveStride / sizeof(glm::vec4)].x = static_cast<float>(plan.settings.firstSample + i);
+    waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 
 // A block's samples: colour weights and shifts of b, then points on the lens.
@@ -271,18 +262,26 @@ void FrameUniforms::bind(std::uint32_t firstSample) const {
     if (sampleBands_)
         glBindBufferRange(GL_UNIFORM_BUFFER, 4, sampleBands_.name(),
                           static_cast<GLintptr>(firstSample / blockSamples * blockBytes * 2), blockBytes * 2);
-    bindPlaces(firstSample);
+    bindWave(firstSample);
     if (environmentMap_) environmentMap_.attach(5);
 }
 
-void FrameUniforms::bindPlaces(std::uint32_t firstSample) const {
-    glBindBufferRange(GL_UNIFORM_BUFFER, 6, places_.name(),
-                      static_cast<GLintptr>(firstSample / blockSamples * blockStride), sizeof(glm::vec4));
+void FrameUniforms::bindWave(std::uint32_t sample) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, 6, waves_.name(), static_cast<GLintptr>(waveOf(sample) * waveStride),
+                      sizeof(glm::vec4));
+}
+
+std::size_t FrameUniforms::wavesPerBlock() const {
+    return (blockSamples + layerCount_ - 1) / layerCount_;
+}
+
+std::size_t FrameUniforms::waveOf(std::uint32_t sample) const {
+    return sample / blockSamples * wavesPerBlock() + sample % blockSamples / layerCount_;
 }
 
 std::size_t FrameUniforms::bytes() const {
     return frameBlock_.bytes() + lightingBlock_.bytes() + samples_.bytes() + moments_.bytes() + sampleShifts_.bytes() +
-           places_.bytes() + bandShifts_.bytes() + sampleBands_.bytes() + environmentMap_.bytes();
+           waves_.bytes() + bandShifts_.bytes() + sampleBands_.bytes() + environmentMap_.bytes();
 }
 
 }  // namespace defocus

@@ -28,8 +28,8 @@ public:
     [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
     // Binds the uniform blocks (and the environment's map) for samples [firstSample, …) of one block of the sum.
     void bind(std::uint32_t firstSample) const;
-    // Binds only what places in a pixel a sample of that block stands for.
-    void bindPlaces(std::uint32_t firstSample) const;
+    // Binds only what tells the samples of a wave apart where they are shaded; `sample` is any of the wave's.
+    void bindWave(std::uint32_t sample) const;
     [[nodiscard]] const Buffer& samples() const { return samples_; }
     // vec2, one a lens sample: its SampleMoment. Empty where nothing moves.
     [[nodiscard]] const Buffer& moments() const { return moments_; }
@@ -44,6 +44,8 @@ private:
     void uploadLighting(const World& world);
     void uploadSamples(const FramePlan& plan, std::uint32_t layerCount);
     void uploadBands(const FramePlan& plan, const std::vector<float>& bandShifts);
+    [[nodiscard]] std::size_t wavesPerBlock() const;
+    [[nodiscard]] std::size_t waveOf(std::uint32_t sample) const;
 
     ShaderDefines defines_;
     std::array<glm::vec4, 9> irradiance_{};  // of the environment
@@ -51,7 +53,7 @@ private:
     Buffer lightingBlock_;  // empty where the shaders hold it as constants
     Buffer samples_;        // GpuSample, one a lens sample
     Buffer moments_;
-    Buffer places_;        // of each block: the variance of the places that a sample stands for
+    Buffer waves_;         // of each wave: the number of its first sample
     Buffer sampleShifts_;  // vec4, one a lens sample: where the sky lies for it
     Buffer bandShifts_;
     Buffer sampleBands_;  // of shaders/accumulation/add_layers.frag's SampleBlock

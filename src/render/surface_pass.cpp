@@ -173,7 +173,7 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     if (begin >= end) return;
     GpuMesh& mesh = scene_->mesh(item.mesh);
     item.program->use();
-    frame_->bindPlaces(begin);
+    frame_->bindWave(begin);
     objectBlocks_.bind(1, item.object);
     materialBlocks_.bind(2, materialSlots_.at(item.material));
     if (poses_[item.object].texels) poses_[item.object].texels.attach(6);

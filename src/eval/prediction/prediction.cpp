@@ -151,7 +151,8 @@ double renderedError(const TwoSets& truth, const TwoSets& level) {
     if (!(light.mean > 0)) return 0;
     const double white = shownWhite * light.mean;
     const auto change = [&](std::size_t set, std::size_t view, std::size_t i) {
-        return std::min(double{level[set][view].pixels[i]}, white) - std::min(double{truth[set][view].pixels[i]}, white);
+        return std::min(double{level[set][view].pixels[i]}, white) -
+               std::min(double{truth[set][view].pixels[i]}, white);
     };
     double products = 0;
     for (std::size_t view = 0; view < truth[0].size(); ++view)
@@ -183,8 +184,9 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
         const FramePlan plan = planOf(stand, enoughSamples, 0);
         if (plan.objects.empty()) return;
         const auto sides = blurredPatches(plan.objects.front(), plan);
-        const double finest = levelOfBlurredError(pyramid, sides, lightAt(512));
-        const double coarsest = levelOfBlurredError(pyramid, sides, lightAt(16));
+        const double pixelsPerUnit = pixelsPerUnitAtCentre(plan.objects.front(), plan);
+        const double finest = levelOfBlurredError(pyramid, sides, pixelsPerUnit, lightAt(512));
+        const double coarsest = levelOfBlurredError(pyramid, sides, pixelsPerUnit, lightAt(16));
         const TwoSets truth = twoSetsOf(stand, 0, options.renderer);
 
         PredictionRow row;

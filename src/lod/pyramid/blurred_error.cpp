@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "lod/pyramid/level_selection.h"
 #include "lod/pyramid/picture.h"
 
 namespace defocus {
@@ -226,17 +227,21 @@ double squaredContrast(const Pyramid& pyramid, double side) {
     return interpolated(pyramid.smallestPatch, side, [&](std::size_t i) { return squared(pyramid.contrast[i]); });
 }
 
-double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double share) {
-    double target = 0;
-    for (const double side : sides) target += squaredContrast(pyramid, side);
-    target = share * std::sqrt(target);
-    if (!(target > 0)) return 0;
-    double fine = 0;
+double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light) {
+    const auto rootOfSum = [&](const auto& squared) {
+        double sum = 0;
+        for (const double side : sides) sum += squared(side);
+        return std::sqrt(sum);
+    };
+    const double contrast = rootOfSum([&](double side) { return squaredContrast(pyramid, side); });
+    if (!(contrast > 0) || !(light > 0)) return 0;
+    const auto limit = [&](std::size_t l) {
+        return contrast * measuredLimit(light, pyramid.levels[l].meanEdge * pixelsPerUnit);
+    };
+    double fine = -limit(0);  // how much more than its limit a level is off
     for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
-        double coarse = 0;
-        for (const double side : sides) coarse += squaredError(pyramid, l, side);
-        coarse = std::sqrt(coarse);
-        if (coarse > target) return static_cast<double>(l - 1) + (target - fine) / (coarse - fine);
+        const double coarse = rootOfSum([&](double side) { return squaredError(pyramid, l, side); }) - limit(l);
+        if (coarse > 0) return static_cast<double>(l) - coarse / (coarse - fine);
         fine = coarse;
     }
     return static_cast<double>(pyramid.levels.size() - 1);

@@ -14,9 +14,9 @@ constexpr LodThresholds referenceSize{0.25, 3.3};     // px of edge at 64 sample
 constexpr LodThresholds referenceError{0.018, 0.18};  // px of deviation at 64 samples
 constexpr double sampleExponent = 2.0 / 3.0;
 constexpr double sampleErrorExponent = 0.65;
-constexpr double lightAtOneSample = 0.185;  // at 16 samples it is a seventh of what they leave
-constexpr double lightExponent = 0.75;
-constexpr double largestFactor = 2;  // few samples: their noise hides nothing of the silhouette
+constexpr double lightOfSampleError = 6.7;  // px
+constexpr double mostOfSampleError = 0.3;   // the root mean square of both is 1.04 times that of the samples
+constexpr double largestFactor = 2;         // few samples: their noise hides nothing of the silhouette
 
 // Whether edges are held against the target.
 bool bySize(LodMetric metric) {
@@ -87,12 +87,17 @@ LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given) {
 
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount) {
     if (chosenMetric(metric, {}) == LodMetric::measured)
-        return {.light = lightAtOneSample * std::pow(std::max(sampleCount, 1u), -lightExponent)};
+        return {.light = lightOfSampleError * std::pow(expectedSampleError(sampleCount), 2)};
     const LodThresholds& reference = metric == LodMetric::error ? referenceError : referenceSize;
     const double factor = std::pow(referenceSamples / std::max(sampleCount, 1u), sampleExponent);
     const double blur = reference.blur * std::min(factor, largestFactor);
     if (metric == LodMetric::score) return {.blur = blur};
     return {blur, reference.size * std::min(factor, 1.0)};
+}
+
+double measuredLimit(double light, double edge) {
+    const double sampleError = std::sqrt(light / lightOfSampleError);
+    return std::min(light / edge, mostOfSampleError * sampleError);
 }
 
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount) {

@@ -19,7 +19,8 @@ LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
 struct LodThresholds {
     double blur = 0;   // kBlur: target px per px of CoC
     double size = 0;   // kSize: least target in px
-    double light = 0;  // the error of measured levels, in standard deviations of the light within the blur
+    double light = 0;  // the error of measured levels with edges of 1 px, in standard deviations of the light within
+                       // the blur; see measuredLimit
 };
 
 // Returns the thresholds that are given, and the rest from defaultThresholds. Those that the metric doesn't have are 0.
@@ -41,13 +42,19 @@ double expectedSampleError(std::uint32_t sampleCount);
 // is 2.4 times the sampling error at 64 and less and less beyond, and both vanish as N grows (school of fish, 512 ×
 // 384: bench/results/llvmpipe-thresholds.txt).
 //
-// Measured levels have a seventh of the error that 16 samples are expected to leave, and a smaller part with more
-// samples. One sample, anywhere on the lens, is off by the standard deviation of the light within the blur, and N
-// samples by expectedSampleError(N) times that deviation. Levels are off by 0.185·N^(−0.75) times it, so their error
-// vanishes beside that of the samples. It hardly raises the root mean square of both together. But a level is wrong in
-// large soft spots all over an object, while samples are wrong at outlines and in fine ghosts, and FLIP, like the eye,
-// minds the spots more.
+// Measured levels: `light` is 6.7 times the square of expectedSampleError(N). One sample, anywhere on the lens, is off
+// by the standard deviation of the light within the blur, and N samples by expectedSampleError(N) times that deviation.
+// So the levels' error vanishes beside that of the samples. It hardly raises the root mean square of both together. But
+// a level is wrong in large soft spots all over an object, while samples are wrong at outlines and in fine ghosts, and
+// FLIP, like the eye, minds the spots more.
 LodThresholds defaultThresholds(LodMetric metric, std::uint32_t sampleCount);
+
+// Returns by how much a measured level may be off whose edges are `edge` px long (> 0), in standard deviations of the
+// light within the blur: by light / edge, and at most by 0.3 times the expected error of as many samples as have
+// `light` by default. Of the levels whose squared errors have a given sum over the image, those with a squared error
+// proportional to their triangles a pixel are drawn from the fewest triangles, as half of these double the error: the
+// error goes with 1/edge. So small triangles give way first, and large ones, which save nothing, hardly do.
+double measuredLimit(double light, double edge);
 
 struct LevelQuery {
     // Projected px per object unit: largestScale · W / (2 tan(θx/2) · z), z the nearest depth, or of scores the depth

@@ -84,11 +84,12 @@ Shift shiftOf(const Pyramid& pyramid, std::size_t number) {
 }
 
 // The smallest patch (object units) over which a blur averages when half of `samples` samples or more draw the level;
-// none if no patch of the pyramid's table is large enough.
+// none if no patch of the pyramid's table is large enough. A patch is a pixel at least, and the more pixels it is, the
+// longer are the edges and the finer the level.
 std::optional<double> leastPatch(const Pyramid& pyramid, std::size_t level, std::uint32_t samples) {
-    const double share = defaultThresholds(LodMetric::measured, samples).light;
+    const double light = defaultThresholds(LodMetric::measured, samples).light;
     const auto isDrawn = [&](double side) {
-        return levelOfBlurredError(pyramid, std::vector{side}, share) >= static_cast<double>(level) - 0.5;
+        return levelOfBlurredError(pyramid, std::vector{side}, 1 / side, light) >= static_cast<double>(level) - 0.5;
     };
     double large = pyramid.smallestPatch * std::exp2(double{blurSizes - 2});
     if (!isDrawn(large)) return {};
