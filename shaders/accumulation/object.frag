@@ -7,10 +7,7 @@
 #include "include/layer_format.glsl"
 #include "include/environment.glsl"
 
-float sampleInWave() {
-    return float(gl_Layer);
-}
-
+#define SAMPLE_NUMBER (wave.firstSample + float(gl_Layer))
 #include "include/shading.glsl"
 
 in Surface {

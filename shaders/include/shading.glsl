@@ -3,13 +3,14 @@
 // (2014, Physically Based Shading on Mobile).
 //
 // One sample stands for a piece of the surface, and a normal of a coarse level for those of level 0: what either spreads is
-// added to the width of the lobe, and neither changes how much light the lobe holds.
+// added to the width of the lobe, and neither changes how much light the lobe holds. SAMPLE_NUMBER says which sample of the frame it is.
 //
 // Fresnel is F = F0 + (1 − F0)·g with g = (1 − v·h)⁵, so the lights can be summed before F0 and the albedo are known: three sums,
 // and few operations a light (software rasterisers feel each one).
 
 layout(std140, binding = 6) uniform WaveBlock {
-    float firstSample;   // its number in the whole frame; sampleInWave() says how many after it this one is
+    float firstSample;    // numbers in the whole frame: of the wave's first sample,
+    float firstOfBlock;   // and of the first in its block of the sum
 } wave;
 
 struct SurfacePoint {
@@ -69,21 +70,22 @@ float meanCosine(float cosine, float agreement) {
 }
 #endif
 
-// Variance in px², along each axis, of the places in a pixel that this sample stands for. The first sample has a normal distribution as
-// wide as half a pixel: a glint that is smaller than a pixel is spread over its neighbours, too, so that few samples make no white pixels
-// that many lack. Sample n has (n + 1)^(−2/3) of that: N samples blur highlights by N^(−2/3), and the variance of their glints falls as
-// N^(−1/3). It depends on the sample's number alone, so that blocks add up to the image that is drawn at once.
-float placesVariance() {
-    return 0.25 * pow(wave.firstSample + sampleInWave() + 1.0, -2.0 / 3.0);
-}
-
 // 2σ² for normals whose slopes have the variance σ² along each axis: the mean square of the angles by which they differ.
-// Within a pixel, as Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading Antialiasing) and with the bound of Tokuyoshi
-// and Kaplanyan 2019 (Improved Geometric Specular Antialiasing), with the places in a pixel that this sample stands for: the more samples
-// share the pixel, the fewer. It falls with the square of the pixel's size, and is 0 on flat surfaces.
+//
+// Of the places in a pixel that one sample stands for, as Kaplanyan et al. 2016 (Filtering Distributions of Normals for Shading
+// Antialiasing) and with the bound of Tokuyoshi and Kaplanyan 2019 (Improved Geometric Specular Antialiasing). Sample n has the share
+// 1/(n + 1) of a pixel, whose places have a normal distribution as wide as half of it. A lobe that is narrower than the pixel's normals
+// vary would still make single white pixels of few samples: it is made as wide as that in the first block, and as a share of it in the
+// next ones. Both depend on the sample's number alone, so that blocks add up to the image that is drawn at once, and vanish as samples
+// grow, so that highlights converge to what the surface reflects. It falls with the square of the pixel's size, and is 0 on flat surfaces.
+//
 // Of a coarse level: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float slopeSpread(SurfacePoint point) {
-    float spread = min(point.footprint * placesVariance(), 0.18);
+    float ofPixel = 0.25 * point.footprint;
+    float ofBlock = min(ofPixel / (wave.firstOfBlock / float(BLOCK_SAMPLES) + 1.0), 0.18);
+    float width = point.roughness * point.roughness;
+    float ofSample = min(ofPixel / (SAMPLE_NUMBER + 1.0), 0.18);
+    float spread = max(ofBlock - width * width, ofSample);
 #ifdef COARSE_LEVEL
     spread += 2.0 * (1.0 - point.agreement) / point.agreement;
 #endif

@@ -1,10 +1,7 @@
 // Surfaces of one material, shaded from the attributes of their vertices.
 
 // All samples of a block are shaded alike: as the one whose share of a pixel is the mean of a frame's first 64.
-float sampleInWave() {
-    return 16.3;
-}
-
+#define SAMPLE_NUMBER (wave.firstOfBlock + 12.5)
 #include "include/shading.glsl"
 
 struct Attributes {

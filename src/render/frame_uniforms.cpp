@@ -231,8 +231,11 @@ void FrameUniforms::uploadSamples(const FramePlan& plan, std::uint32_t layerCoun
 
     std::vector<glm::vec4> waves(shifts.size() / blockSamples * wavesPerBlock() * waveStride / sizeof(glm::vec4));
     for (std::uint32_t i = 0; i < samples.size(); ++i)
-        if (i % blockSamples % layerCount == 0)
-            waves[waveOf(i) * waveStride / sizeof(glm::vec4)].x = static_cast<float>(plan.settings.firstSample + i);
+        if (i % blockSamples % layerCount == 0) {
+            const std::uint32_t number = plan.settings.firstSample + i;
+            waves[waveOf(i) * waveStride / sizeof(glm::vec4)] =
+                glm::vec4(number, number / blockSamples * blockSamples, 0, 0);
+        }
     waves_ = Buffer::of(std::span<const glm::vec4>(waves));
 }
 

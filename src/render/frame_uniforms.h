@@ -53,7 +53,7 @@ private:
     Buffer lightingBlock_;  // empty where the shaders hold it as constants
     Buffer samples_;        // GpuSample, one a lens sample
     Buffer moments_;
-    Buffer waves_;         // of each wave: the number of its first sample
+    Buffer waves_;         // of each wave: the numbers of its first sample and of the first in its block
     Buffer sampleShifts_;  // vec4, one a lens sample: where the sky lies for it
     Buffer bandShifts_;
     Buffer sampleBands_;  // of shaders/accumulation/add_layers.frag's SampleBlock

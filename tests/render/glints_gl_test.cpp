@@ -90,19 +90,6 @@ double worstPixel(const Image& image) {
     return worst;
 }
 
-// How many times as bright as the next pixel is the one whose middle holds a glint, if sample n shows it as a normal
-// distribution of variance (n + 1)^(−2/3) / 4 px². The converged image has all of it in one pixel.
-double spreadGlint(std::uint32_t samples) {
-    double own = 0, next = 0;
-    for (std::uint32_t n = 0; n < samples; ++n) {
-        const double deviation = 0.5 / std::cbrt(n + 1.0);
-        const auto within = [&](double distance) { return std::erf(distance / (std::numbers::sqrt2 * deviation)); };
-        own += within(0.5);
-        next += 0.5 * (within(1.5) - within(0.5));
-    }
-    return own / next;
-}
-
 TEST_F(Glints, fewSamplesMakeNoSingleWhitePixels) {
     double unfiltered = 0;
     for (const float metallic : {0.0f, 1.0f})
@@ -110,12 +97,12 @@ TEST_F(Glints, fewSamplesMakeNoSingleWhitePixels) {
             for (const glm::dvec3& way : {glm::dvec3(1, -0.3, -0.2), glm::dvec3(-0.3, -0.8, -1)}) {
                 const auto small = rippledBall(roughness, metallic);
                 small->world.lights = {sun(way, 3)};
-                for (const std::uint32_t samples : {4u, 16u, 64u})
-                    EXPECT_LT(worstPixel(ballImage(*small, samples, true)), spreadGlint(samples))
+                for (const std::uint32_t samples : {16u, 64u})
+                    EXPECT_LT(worstPixel(ballImage(*small, samples, true)), 3.5)
                         << roughness << ' ' << metallic << ' ' << way.x << ' ' << samples;
                 unfiltered = std::max(unfiltered, worstPixel(ballImage(*small, 16, false)));
             }
-    EXPECT_GT(unfiltered, 5 * spreadGlint(16)) << "so many times as bright as its neighbours, or nothing is tested";
+    EXPECT_GT(unfiltered, 100) << "so many times as bright as its neighbours, or nothing is tested";
 }
 
 TEST_F(Glints, spreadingThemKeepsTheirLight) {
