@@ -38,9 +38,8 @@ double squaredError(const Pyramid& pyramid, std::size_t level, double side);
 double squaredContrast(const Pyramid& pyramid, double side);
 
 // Returns the λ at which the level's error is measuredLimit(light, edge) times V. Error and V are root mean squares
-// over patches of these sides (object units), and the edge is the level's mean edge, at `pixelsPerUnit` px per object
-// unit
-// (> 0). It is continuous in all of them, and 0 if no level's error is known.
+// over patches of these sides (object units). The edge is the level's mean edge, at `pixelsPerUnit` (> 0) px per object
+// unit. λ is continuous in all of them, and 0 if no level's error is known.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);
 
 }  // namespace defocus
