@@ -22,12 +22,34 @@ layout(std140, binding = 4) uniform SampleBlock {
     vec4 sampleLenses[BLOCK_SAMPLES];   // xy: points on the lens, in radii
 };
 #endif
+#ifdef LENS_CELLS
+#include "include/cells.glsl"
+layout(binding = 6) uniform sampler2DArray layerDepths;
+layout(rgba32f, binding = 0) uniform image2DArray cellSums;
+layout(location = 3) uniform float cellBlur;   // σ of the blur of a sample's image, as a share of |c|
+#endif
 layout(location = 0) uniform int layerCount;
 layout(location = 1) uniform int firstInBlock;
 layout(location = 2) uniform ivec2 firstPixel;   // of the layers, that the sums begin with
 
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
+
+#ifdef LENS_CELLS
+// Alpha-blended surfaces add their alpha to that of what is opaque, the sky included.
+const float BLENDED_ALPHA = 1.001;
+
+// Adds what a pixel of a layer shows to the classes of its blur.
+void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
+    float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
+    float variance = cellBlur * cellBlur * c * c - LEAST_CELL_VARIANCE;
+    if (variance <= 0.0) return;
+    float inFront = c < 0.0 ? 1.0 : 0.0;
+    for (int k = 0; k < CELLS_IN_FRONT; ++k) sums[k] += inFront * shareOfClass(variance, k, CELLS_IN_FRONT) * value;
+    for (int k = 0; k < CELLS_BEHIND; ++k)
+        sums[CELLS_IN_FRONT + k] += (1.0 - inFront) * shareOfClass(variance, k, CELLS_BEHIND) * value;
+}
+#endif
 
 #if BACKGROUND == 2
 // The sky that a sample sees through this pixel.
@@ -68,6 +90,11 @@ void main() {
 #else
     float seen = float(layerCount);
 #endif
+#ifdef LENS_CELLS
+    vec2 ndc = imagePlane * frame.projection.xy;
+    vec4 cells[cellClasses];
+    for (int k = 0; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
+#endif
     for (int layer = 0; layer < layerCount; ++layer) {
 #ifdef CAT_EYE
         vec2 onLens = sampleLenses[firstInBlock + layer].xy + rim;
@@ -81,21 +108,27 @@ void main() {
 #endif
 #ifdef LAYER_RGB9E5
         uint bits = texelFetch(layers, ivec3(layerPixel, layer), 0).r;
-        vec3 value = decodeLayer(bits).rgb;
+        vec4 value = decodeLayer(bits);
 #if BACKGROUND == 1 || BACKGROUND == 2
-        if (bits == 0u) value = behind(imagePlane, layer);
+        if (bits == 0u) value.rgb = behind(imagePlane, layer);
 #endif
-        addCompensated(sum.rgb, compensation.rgb, value * weight);
+        addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
 #else
         vec4 value = texelFetch(layers, ivec3(layerPixel, layer), 0);
 #if BACKGROUND == 1 || BACKGROUND == 2
-        value.rgb += (1.0 - value.a) * behind(imagePlane, layer);
+        value.rgb += (1.0 - min(value.a, 1.0)) * behind(imagePlane, layer);
 #elif BACKGROUND == 0
         addCompensated(sum.a, compensation.a, value.a);
 #endif
         addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
 #endif
+#ifdef LENS_CELLS
+        if (value.a < BLENDED_ALPHA) addToCells(cells, vec4(value.rgb, 1.0), ivec3(layerPixel, layer), ndc);
+#endif
     }
+#ifdef LENS_CELLS
+    for (int k = 0; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
+#endif
 #if BACKGROUND != 0
     sum.a += seen;   // whole numbers: exact
 #endif

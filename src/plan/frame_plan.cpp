@@ -302,6 +302,8 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     if (plan.needsAlpha && view.lens.dofEnabled && view.lens.catEye > 0)
         fail("lens: a cat's eye needs a background: what the barrel hides of it has no coverage of its own");
     plan.samples = lensSamples(view.lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed);
+    plan.frameFirst = settings.firstSample;
+    plan.frameSamples = settings.firstSample + settings.sampleCount;
 
     // Place every object and drop those that cannot be seen.
     const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);

@@ -123,7 +123,11 @@ struct FramePlan {
     // even if the lens is left out. Boxes bound it: an object that reaches the near plane makes it infinite.
     double largestBlur = 0;
     ClipCircleOfConfusion coc;
-    std::vector<LensSample> samples;    // the samples to draw, in order
+    std::vector<LensSample> samples;  // the samples to draw, in order
+    // Samples of the sequence that the frame has in the end, and the first of those that were planned together with
+    // these.
+    std::uint32_t frameSamples = 0;
+    std::uint32_t frameFirst = 0;
     std::vector<SampleMoment> moments;  // one for each sample; empty if nothing moves during the exposure
     // From the view at each moment of the shutter to the view in its middle; empty if the camera doesn't move.
     std::vector<glm::dmat4> middleFromView;

@@ -26,7 +26,7 @@ json drawJson(const LevelDraw& draw) {
             {"sampleCount", draw.sampleCount}};
 }
 
-json objectJson(const ObjectPlan& object, const ObjectRates& rates) {
+json objectJson(const ObjectPlan& object, const ObjectRates& rates, const LensCells& cells) {
     json draws = json::array();
     for (const LevelDraw& draw : {object.coarse, object.fine})
         if (draw.sampleCount > 0) draws.push_back(drawJson(draw));
@@ -43,7 +43,10 @@ json objectJson(const ObjectPlan& object, const ObjectRates& rates) {
                    {"transmits", object.transmits},
                    {"moves", !object.motion.empty()},
                    {"draws", std::move(draws)},
-                   {"rates", {{"lensShare", rates.lensShare}, {"reason", rates.reason}}}};
+                   {"rates",
+                    {{"lensShare", rates.lensShare},
+                     {"pixelRate", pixelRate(cells, object.coc.smallest)},
+                     {"reason", rates.reason}}}};
     if (boundarySample(object)) result["boundaryShare"] = object.boundaryShare;
     return result;
 }
@@ -80,10 +83,19 @@ std::string thresholdsText(const FramePlan& plan) {
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 
-// What groups of lens samples share, and why something that is hardly blurred isn't shared.
+// How images are blurred as lens cells; or what groups of lens samples share, and why something that is hardly blurred
+// isn't shared.
 std::string ratesText(const FramePlan& plan) {
     const FrameRates rates = frameRates(plan);
-    std::string text = fmt::format("{} triangles with --method multirate\n", ratedTriangles(plan, rates));
+    const LensCells& cells = rates.cells;
+    if (cells.blur > 0)
+        return fmt::format(
+            "--method multirate blurs each sample's image as its part of the lens would, by σ = {:.3g} of the CoC: "
+            "{:.2g} px "
+            "of the largest\n",
+            cells.blur, cells.blur * plan.largestBlur);
+    std::string text = fmt::format("{} triangles with --method multirate, which blurs no sample's image: {}\n",
+                                   ratedTriangles(plan, rates), cells.reason);
     for (std::size_t i = 0; i < plan.objects.size(); ++i) {
         const ObjectPlan& object = plan.objects[i];
         const ObjectRates& rate = rates.objects[i];
@@ -165,7 +177,7 @@ std::string planJson(const FramePlan& plan) {
     const FrameRates rates = frameRates(plan);
     json objects = json::array();
     for (std::size_t i = 0; i < plan.objects.size(); ++i)
-        objects.push_back(objectJson(plan.objects[i], rates.objects[i]));
+        objects.push_back(objectJson(plan.objects[i], rates.objects[i], rates.cells));
     json leftOut = json::array();
     for (const LeftOut& entry : plan.leftOut) leftOut.push_back({{"what", entry.what}, {"reason", entry.reason}});
     const json document = {{"image", {{"width", plan.view.width}, {"height", plan.view.height}}},
@@ -186,6 +198,7 @@ std::string planJson(const FramePlan& plan) {
                              {"sizeThreshold", plan.thresholds.size},
                              {"lightThreshold", plan.thresholds.light}}},
                            {"shadows", shadowsJson(plan.shadows)},
+                           {"lensCells", {{"blur", rates.cells.blur}, {"reason", rates.cells.reason}}},
                            {"objects", std::move(objects)},
                            {"leftOut", std::move(leftOut)},
                            {"triangles",

@@ -67,6 +67,13 @@ std::vector<LensSample> groupImages(const FramePlan& block, std::uint32_t groupS
                        (count + groupSize - 1) / groupSize, block.settings.seed);
 }
 
+void moveToCells(FramePlan& block, const LensCells& cells) {
+    for (LensSample& sample : block.samples) {
+        sample.lens = cells.middles[sample.index - cells.firstSample];
+        sample.pixel += glm::vec2(cells.pixelShift);
+    }
+}
+
 // How many of the block's groups share an object, whose share is `share`: round(f·n) after n groups.
 std::uint32_t sharedGroups(double share, const RatedBlock& block) {
     const std::uint32_t before = firstGroup(block.samples, block.groupSize);
@@ -154,9 +161,14 @@ std::uint32_t groupSamples(std::uint32_t count) {
     return std::clamp(count / leastLensGroups, 1u, mostGroupSamples);
 }
 
-FrameRates frameRates(const FramePlan& plan) {
+FrameRates frameRates(const FramePlan& plan, bool cells) {
     FrameRates rates;
     rates.objects.resize(plan.objects.size());
+    if (cells) rates.cells = lensCells(plan);
+    if (rates.cells.blur > 0) {
+        for (ObjectRates& object : rates.objects) object.reason = "its images are blurred as those of lens cells";
+        return rates;
+    }
     std::vector<ContactBounds> bounds;
     std::vector<double> blurs;
     for (std::size_t i = 0; i < plan.objects.size(); ++i) {
@@ -184,6 +196,10 @@ double imagesPerSample(const FramePlan& plan, const ObjectRates& rates) {
 RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint32_t first, std::uint32_t count) {
     assert(first % rateBlock == 0 && count <= rateBlock && rates.objects.size() == plan.objects.size());
     RatedBlock block{samplesOf(plan, first, count), {}, 1, 0, {}};
+    if (rates.cells.blur > 0) {
+        moveToCells(block.samples, rates.cells);
+        return block;
+    }
     const std::uint32_t size = groupSamples(count);
     if (plan.settings.keepAll || !plan.usesLens || size == 1) return block;
 

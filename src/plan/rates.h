@@ -1,5 +1,6 @@
 #pragma once
-// Lens rates: how many lens samples share one image of an object (method "multirate").
+// Lens rates: how many lens samples share one image of an object (method "multirate", where images aren't blurred as
+// lens cells; where they are, fewer samples do as well for all objects, see lens_cells.h).
 //
 // An object in focus looks alike from neighbouring points of the lens. So the samples of each block of 64 are put into
 // groups of neighbours on the lens, 16 groups of 4 samples, and what is hardly blurred is drawn once for a group. All
@@ -26,6 +27,7 @@
 #include <vector>
 
 #include "plan/frame_plan.h"
+#include "plan/lens_cells.h"
 
 namespace defocus {
 
@@ -53,6 +55,7 @@ struct ObjectRates {
 // Of all objects of a plan, in its order.
 struct FrameRates {
     std::vector<ObjectRates> objects;
+    LensCells cells;
 };
 
 // A block of a frame's samples as multirate draws it.
@@ -72,7 +75,8 @@ struct RatedBlock {
 // Returns the samples of a group in a block of `count` samples; 1: none is large enough to share.
 std::uint32_t groupSamples(std::uint32_t count);
 
-FrameRates frameRates(const FramePlan& plan);
+// `cells`: whether images are blurred as lens cells, as far as the frame allows it. Nothing shares then.
+FrameRates frameRates(const FramePlan& plan, bool cells = true);
 
 // Returns how many images of an object multirate draws for a sample of `plan`, on average over whole blocks: 1 where it
 // shares none, down to 1/4.

@@ -300,7 +300,7 @@ void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, cons
 void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32_t count) {
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, marksBlended_ ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_CULL_FACE);
     if (scene_->material(item.material).doubleSided) {  // the far side first
         glCullFace(GL_FRONT);

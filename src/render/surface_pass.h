@@ -40,6 +40,9 @@ public:
     // drawn. Of many such objects, only the nearest see each other. `objects` has all that transmit, or none.
     void drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors,
                          const ObjectSet& objects = {});
+    // Whether alpha-blended surfaces add their alpha to what is there, so that it is above 1 where they lie over what
+    // is opaque.
+    void markBlended(bool marks) { marksBlended_ = marks; }
     [[nodiscard]] bool hasTranslucent() const { return !translucent_.empty(); }
     // Only the depth of the alpha-blended and transmitting surfaces, and what the shader writes beside the colour.
     void drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects = {});
@@ -124,6 +127,7 @@ private:
     std::vector<GpuPoses> poses_;  // as many as objects
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
+    bool marksBlended_ = false;
     std::vector<Draw> translucent_;  // alpha-blended or transmitting, the farthest first
     std::size_t transmittingObjects_ = 0;
     bool blursBackdrop_ = false;  // some transmitting surface is rough

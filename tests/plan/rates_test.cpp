@@ -16,15 +16,16 @@
 namespace defocus {
 namespace {
 
-// Five spheres of which only some are blurred so little that they share.
+// Five spheres of which only some are blurred so little that they share, before nothing.
 std::unique_ptr<SmallWorld> hardlyBlurred() {
     auto small = fiveSpheres();
     small->view.lens.fStop = 1.1;
+    small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};  // no lens cells
     return small;
 }
 
 RatedBlock blockOf(const FramePlan& plan, std::uint32_t first, std::uint32_t count) {
-    return ratedBlock(plan, frameRates(plan), first, count);
+    return ratedBlock(plan, frameRates(plan, false), first, count);
 }
 
 // By object and level: how much of a sample's pixels show it.
@@ -110,7 +111,7 @@ TEST(Rates, onlyWhatIsHardlyBlurredShares) {
     }
     EXPECT_GE(sharing, 1u);
     EXPECT_LT(sharing, plan.objects.size());
-    EXPECT_LT(ratedTriangles(plan, frameRates(plan)), plan.trianglesDrawn);
+    EXPECT_LT(ratedTriangles(plan, frameRates(plan, false)), plan.trianglesDrawn);
 }
 
 // What all groups share is drawn as in a frame of a quarter of the samples.
@@ -136,7 +137,7 @@ TEST(Rates, theShareFollowsTheBlurWithoutJumps) {
         small->view.lens.blurScale = blur;
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
         if (!plan.usesLens) continue;
-        const FrameRates rates = frameRates(plan);
+        const FrameRates rates = frameRates(plan, false);
         for (std::size_t i = 0; i < plan.objects.size(); ++i) {
             const ObjectPlan& object = plan.objects[i];
             const double share = rates.objects[i].lensShare;
@@ -185,7 +186,7 @@ TEST(Rates, blocksOfAPartShareAsInTheWholeFrame) {
     for (double f = 1; f < 20; f *= 1.02) {
         small->view.lens.fStop = f;
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
-        const FrameRates rates = frameRates(plan);
+        const FrameRates rates = frameRates(plan, false);
         const bool partly = std::ranges::any_of(
             rates.objects, [&](const ObjectRates& object) { return object.lensShare > 0.3 && object.lensShare < 0.7; });
         if (!partly) continue;
@@ -213,7 +214,7 @@ TEST(Rates, aFewSamplesKeepTheirPixelOffsets) {
     const FramePlan plan = planFrame(small->world, small->view, settingsFor(31));
     const RatedBlock block = blockOf(plan, 0, 31);
     EXPECT_TRUE(block.groups.samples.empty());
-    EXPECT_EQ(ratedTriangles(plan, frameRates(plan)), plan.trianglesDrawn);
+    EXPECT_EQ(ratedTriangles(plan, frameRates(plan, false)), plan.trianglesDrawn);
 }
 
 TEST(Rates, keepAllSharesNothing) {
@@ -224,7 +225,7 @@ TEST(Rates, keepAllSharesNothing) {
     const RatedBlock block = blockOf(plan, 0, 64);
     EXPECT_EQ(block.groupsShare, 0u);
     for (std::size_t i = 0; i < 64; ++i) EXPECT_EQ(block.samples.samples[i].lens, plan.samples[i].lens);
-    EXPECT_EQ(ratedTriangles(plan, frameRates(plan)), plan.trianglesDrawn);
+    EXPECT_EQ(ratedTriangles(plan, frameRates(plan, false)), plan.trianglesDrawn);
 }
 
 // What a group can't stand for is drawn for each sample, and the plan says why.
@@ -233,7 +234,7 @@ TEST(Rates, whatDiffersFromSampleToSampleIsNotShared) {
     const auto reasons = [&] {
         const FramePlan plan = planFrame(small->world, small->view, settingsFor(64));
         EXPECT_EQ(blockOf(plan, 0, 64).groups.objects.size(), 0u);
-        const FrameRates rates = frameRates(plan);
+        const FrameRates rates = frameRates(plan, false);
         std::string all;
         for (std::size_t i = 0; i < plan.objects.size(); ++i) {
             const std::string& reason = rates.objects[i].reason;

@@ -144,9 +144,9 @@ TEST_F(Aberrations, multirateSharesNoImages) {
     view.lens.fStop = 0.5;
     RenderSettings settings = fullDetail(256);
     settings.keepAll = false;
-    EXPECT_GT(frameRates(planFrame(world, view, settings)).objects.at(0).lensShare, 0.5);
+    EXPECT_GT(frameRates(planFrame(world, view, settings), false).objects.at(0).lensShare, 0.5);
     view.lens.coma = 3;
-    EXPECT_EQ(frameRates(planFrame(world, view, settings)).objects.at(0).lensShare, 0);
+    EXPECT_EQ(frameRates(planFrame(world, view, settings), false).objects.at(0).lensShare, 0);
 }
 
 // A gradient through a lens that is focused infinitely far away: the mean over the samples of what each ray sees.

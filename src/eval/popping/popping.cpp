@@ -204,7 +204,8 @@ std::vector<Image> masksOf(World& world, const std::vector<MovementFrame>& movem
 
 struct ModeState {
     FramePlan plan;
-    Image image;  // display values
+    Image image;      // display values
+    Image reference;  // the same at full detail
 };
 
 PoppingFrame frameOf(const Renderers& renderers, PoppingMode mode, const ModeState& before, const ModeState& now,
@@ -225,19 +226,20 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
                                           const std::function<void()>& step) {
     std::vector<PoppingFrame> frames;
     std::array<ModeState, poppingModes.size()> before;
-    Image referenceBefore;
     for (std::size_t t = 0; t < movement.size(); ++t) {
         const View& view = movement[t].view;
         poseWorld(world, movement[t]);
-        const Image reference =
-            displayColours(rendered(*renderers.accumulation, planOf(world, view, options, samples, LodMode::off)));
+        const FramePlan fullDetail = planOf(world, view, options, samples, LodMode::off);
+        const Image accumulated = displayColours(rendered(*renderers.accumulation, fullDetail));
         for (std::size_t m = 0; m < poppingModes.size(); ++m) {
             const PoppingMode mode = poppingModes[m];
             ModeState now;
             now.plan = planOf(world, view, options, samples, levelsOf(mode));
             now.image = displayColours(rendered(renderers.of(mode), now.plan));
+            now.reference = mode == PoppingMode::multirate ? displayColours(rendered(*renderers.multirate, fullDetail))
+                                                           : accumulated;
             if (t > 0) {
-                const Image expected = carriedOn(before[m].image, reference, referenceBefore);
+                const Image expected = carriedOn(before[m].image, now.reference, before[m].reference);
                 PoppingFrame frame = frameOf(renderers, mode, before[m], now, expected, masks[t]);
                 frame.samples = samples;
                 frame.frame = static_cast<int>(t);
@@ -245,7 +247,6 @@ std::vector<PoppingFrame> measureMovement(World& world, const Renderers& rendere
             }
             before[m] = std::move(now);
         }
-        referenceBefore = reference;
         step();
     }
     return frames;

@@ -4,7 +4,7 @@
 // same with the sample at the boundary split over its pixels (continuous); and fractional levels drawn by the method
 // "multirate", whose lens rates change too.
 //
-// The truth is full detail at the SAME lens samples. So the noise cancels, and full detail itself measures 0. Let I be
+// The truth is full detail at the SAME lens samples, which multirate has of its own. So the noise cancels, and full detail itself measures 0. Let I be
 // a frame of the mode and R the same frame at full detail, both display-encoded:
 //   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). The bench takes its RMSE, and the FLIP between I_t and the frame that it
 //           should have become, I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. Besides pops, it contains all other

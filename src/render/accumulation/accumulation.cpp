@@ -52,6 +52,7 @@ public:
     void start(const FramePlan& plan) override {
         clock_.beginSetup();
         plan_ = plan;
+        if (shared_) shared_->prepareFrame(plan_);
         prepareTarget();
         samplesBefore_ = 0;
         stats_.trianglesDrawn = 0;
@@ -68,6 +69,7 @@ public:
         clock_.beginSetup();
         samplesBefore_ = samples();
         plan_ = plan;
+        if (shared_) shared_->prepareFrame(plan_);
         prepareFrame();
     }
 
@@ -111,7 +113,7 @@ public:
 private:
     void prepareFrame() {
         scene_.prepare(plan_);
-        if (shared_) shared_->prepareFrame(plan_);
+        if (shared_) sum_->blurCells(shared_->cells());
         prepareDraws(0);
         clock_.beginFrame();
     }
@@ -124,11 +126,13 @@ private:
         frame_.upload(scene_.world(), draws(), sum_->info().layers);
         shadows_->prepare(draws(), frame_);
         surfaces_->prepare(draws(), frame_, &*shadows_);
+        surfaces_->markBlended(blursCells());
         stats_.peakBytes = std::max<std::uint64_t>(
             stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + shadows_->bytes() + sum_->bytes() +
                                   (shared_ ? shared_->bytes() : 0));
     }
 
+    [[nodiscard]] bool blursCells() const { return shared_ && shared_->cells().classes() > 0; }
     [[nodiscard]] const FramePlan& draws() const { return shared_ ? block_ : plan_; }
 
     // The sums and the pass that fills them, made anew only when size or format change.
@@ -137,7 +141,7 @@ private:
         const LayerWindow window = layerWindow(plan_);
         const LayerSumInfo info{.width = window.layerWidth,
                                 .height = window.layerHeight,
-                                .layers = chosenWave(plan_, options_, wave_, format, shared_ != nullptr),
+                                .layers = chosenWave(plan_, options_, wave_, format, shared_ && !blursCells()),
                                 .format = format,
                                 .shaderFolder = options_.shaderFolder,
                                 .sumWidth = window.width,
@@ -161,10 +165,12 @@ private:
         sum_->reset(plan_.tile ? std::optional(window) : std::nullopt);
     }
 
-    // Simpler skies are composed when layers are added, unless something shows them through itself.
+    // Simpler skies are composed when layers are added, unless something shows them through itself, or alpha says where
+    // something blended lies over them.
     [[nodiscard]] bool drawsSky() const {
         const EnvironmentType type = scene_.world().environment.type;
-        return !plan_.needsAlpha && (type == EnvironmentType::map || plan_.usesTransmission);
+        return !plan_.needsAlpha &&
+               (type == EnvironmentType::map || plan_.usesTransmission || (blursCells() && plan_.usesBlending));
     }
 
     static void timed(GpuTimer& timer, const auto& pass) {

@@ -43,7 +43,17 @@ LayerSum::LayerSum(const LayerSumInfo& info)
 void LayerSum::reset(const std::optional<LayerWindow>& window) {
     samples_ = 0;
     window_ = window;
+    cells_.reset();
     assert(!window || (window->width == sumWidth() && window->height == sumHeight()));
+}
+
+void LayerSum::blurCells(const LensCells& cells) {
+    assert(samples_ % blockSamples == 0);
+    cellBlur_ = cells.blur;
+    if (cells.classes() == 0)
+        cells_.reset();
+    else if (!cells_ || !cells_->fits(cells))
+        cells_.emplace(cells, sumWidth(), sumHeight(), info_.shaderFolder);
 }
 
 void LayerSum::beginWave() {
@@ -66,10 +76,11 @@ void LayerSum::beginWave() {
 }
 
 void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
-    if (!addLayers_ || addDefines_ != frame.defines()) {
-        addDefines_ = frame.defines();
-        ShaderDefines defines = addDefines_;
-        for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
+    ShaderDefines defines = frame.defines();
+    for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
+    if (cells_) defines.insert(defines.end(), cells_->defines().begin(), cells_->defines().end());
+    if (!addLayers_ || addDefines_ != defines) {
+        addDefines_ = defines;
         addLayers_ = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     }
     glDisable(GL_SCISSOR_TEST);
@@ -78,6 +89,7 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
     layers_.attach(0);
     block_.sum[block_.current].attach(1);
     block_.compensation[block_.current].attach(2);
+    if (cells_) cells_->bindForAdding(addLayers_, depth_, cellBlur_);
     glProgramUniform1i(addLayers_.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(samples_ % blockSamples));
     glProgramUniform2i(addLayers_.name(), 2, window_ ? window_->left : 0, window_ ? window_->bottom : 0);
@@ -86,25 +98,34 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
     countsInAlpha_ = frame.countsInAlpha();
     samples_ += count;
     if (samples_ % blockSamples == 0) {
-        addBlockTo(frame_, samples_ == blockSamples);
+        block_.current = latestBlock(true);
+        addBlockTo(frame_, block_.current, samples_ == blockSamples);
         frame_.flip();
     }
 }
 
-void LayerSum::addBlockTo(Sum& frame, bool startsFrame) {
+int LayerSum::latestBlock(bool asAdded) {
+    if (!cells_ || !asAdded) return block_.current;
+    const int other = 1 - block_.current;
+    cells_->blurInto(block_.target[other], block_.sum[block_.current]);
+    return other;
+}
+
+void LayerSum::addBlockTo(Sum& frame, int block, bool startsFrame) {
     frame.target[1 - frame.current].bind();
-    block_.sum[block_.current].attach(0);
-    block_.compensation[block_.current].attach(1);
+    block_.sum[block].attach(0);
+    block_.compensation[block].attach(1);
     frame.sum[frame.current].attach(2);
     frame.compensation[frame.current].attach(3);
     glProgramUniform1i(addBlock_.name(), 0, startsFrame ? 1 : 0);
     fullscreen_.draw(addBlock_);
 }
 
-BlockSum LayerSum::block() const {
+BlockSum LayerSum::block() {
     if (samples_ == 0) fail("the accumulation holds no sample yet");
-    return {(samples_ - 1) % blockSamples + 1, readBack(block_.sum[block_.current], 4),
-            readBack(block_.compensation[block_.current], 4)};
+    const int latest = latestBlock(samples_ % blockSamples != 0);
+    return {(samples_ - 1) % blockSamples + 1, readBack(block_.sum[latest], 4),
+            readBack(block_.compensation[latest], 4)};
 }
 
 void LayerSum::addBlock(const BlockSum& block) {
@@ -113,7 +134,7 @@ void LayerSum::addBlock(const BlockSum& block) {
     upload(block_.compensation[block_.current], block.compensation);
     samples_ += block.samples;
     if (samples_ % blockSamples == 0) {
-        addBlockTo(frame_, samples_ == blockSamples);
+        addBlockTo(frame_, block_.current, samples_ == blockSamples);
         frame_.flip();
     }
 }
@@ -126,7 +147,7 @@ const GlTexture& LayerSum::meanTexture() {
     if (samples_ == 0) fail("the accumulation holds no sample yet");
     // An unfinished block is added to a copy: the frame's own sum goes on at the block border.
     const bool unfinished = samples_ % blockSamples != 0;
-    if (unfinished) addBlockTo(frame_, samples_ < blockSamples);
+    if (unfinished) addBlockTo(frame_, latestBlock(true), samples_ < blockSamples);
     const int latest = unfinished ? 1 - frame_.current : frame_.current;
 
     if (!mean_) {
@@ -143,7 +164,7 @@ const GlTexture& LayerSum::meanTexture() {
 }
 
 std::size_t LayerSum::bytes() const {
-    std::size_t total = layers_.bytes() + depth_.bytes() + mean_.bytes();
+    std::size_t total = layers_.bytes() + depth_.bytes() + mean_.bytes() + (cells_ ? cells_->bytes() : 0);
     for (const Sum* sum : {&block_, &frame_})
         for (int i = 0; i < 2; ++i) total += sum->sum[i].bytes() + sum->compensation[i].bytes();
     return total;

@@ -11,6 +11,7 @@
 #include "gl/fullscreen.h"
 #include "gl/target.h"
 #include "image/image.h"
+#include "render/accumulation/cell_sums.h"
 #include "render/frame_uniforms.h"
 #include "render/layer_format.h"
 #include "render/layer_window.h"
@@ -36,6 +37,8 @@ public:
     // Forgets everything summed. `window`: which pixels of the layers are drawn and summed from now on, as many as the
     // sums have; none: all of them.
     void reset(const std::optional<LayerWindow>& window = {});
+    // Blurs the lens cells of all further blocks; those before must be whole. After reset() there are none.
+    void blurCells(const LensCells& cells);
     // Clears the layers to nothing (black, transparent, infinitely far) and makes them the render target.
     void beginWave();
     // The layers as a target, which beginWave makes current.
@@ -48,7 +51,7 @@ public:
     void endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count);
     [[nodiscard]] std::uint32_t samples() const { return samples_; }
     // The block that the last wave belongs to, as far as it is summed. At least one sample.
-    [[nodiscard]] BlockSum block() const;
+    [[nodiscard]] BlockSum block();
     // Goes on with a block that was summed elsewhere, as if its waves had been drawn here: the same bits. The samples
     // so far must be whole blocks; `block` holds RGBA of this size and 1 … 64 samples. Only the frame's last block may
     // have less than 64.
@@ -70,7 +73,9 @@ private:
         Target target[2];
         int current = 0;  // holds the latest values
     };
-    void addBlockTo(Sum& frame, bool startsFrame);
+    // Which copy of block_ holds the block's sum, once its cells are blurred if it holds them as they were added.
+    int latestBlock(bool asAdded);
+    void addBlockTo(Sum& frame, int block, bool startsFrame);
 
     [[nodiscard]] int sumWidth() const { return info_.sumWidth > 0 ? info_.sumWidth : info_.width; }
     [[nodiscard]] int sumHeight() const { return info_.sumHeight > 0 ? info_.sumHeight : info_.height; }
@@ -86,6 +91,8 @@ private:
     Target meanTarget_;
     Program addLayers_;
     ShaderDefines addDefines_;  // that addLayers_ was built with
+    std::optional<CellSums> cells_;
+    double cellBlur_ = 0;
     Program addBlock_;
     Program resolve_;
     Fullscreen fullscreen_;

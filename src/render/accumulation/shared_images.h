@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "plan/frame_plan.h"
+#include "plan/lens_cells.h"
 #include "render/accumulation/layer_sum.h"
 #include "render/surface_pass.h"
 
@@ -21,6 +22,8 @@ public:
     virtual void releaseTarget() = 0;
     // What follows is of this plan, which must outlive the drawing.
     virtual void prepareFrame(const FramePlan& plan) = 0;
+    // Of this plan. Where images are blurred as lens cells, nothing is shared.
+    [[nodiscard]] virtual const LensCells& cells() const = 0;
     // Begins the block of the plan's samples [first, first + count); `first` is a multiple of 64. Returns what these
     // samples draw by themselves: they are its samples, in an order of their own.
     virtual FramePlan prepareBlock(std::uint32_t first, std::uint32_t count) = 0;

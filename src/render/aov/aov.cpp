@@ -25,7 +25,8 @@ TexelBuffer rateTexels(const World& world, const FramePlan& plan) {
     const FrameRates rates = frameRates(plan);
     for (std::size_t i = 0; i < plan.objects.size(); ++i)
         texels[static_cast<std::size_t>(plan.objects[i].object)] =
-            static_cast<float>(imagesPerSample(plan, rates.objects[i]));
+            static_cast<float>(imagesPerSample(plan, rates.objects[i]) *
+                               std::pow(pixelRate(rates.cells, plan.objects[i].coc.smallest), 2));
     return {texels, GL_R32F, 1, "the objects' rates"};
 }
 

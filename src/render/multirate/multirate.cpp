@@ -19,6 +19,8 @@ static_assert(rateBlock == blockSamples);
 // What groups of neighbouring lens samples share.
 class GroupImages final : public SharedImages {
 public:
+    explicit GroupImages(bool cells) : usesCells_(cells) {}
+
     void prepareTarget(GpuScene& scene, const SurfacePassInfo& info, const LayerSum& sum) override {
         scene_ = &scene;
         sum_ = &sum;
@@ -30,8 +32,10 @@ public:
 
     void prepareFrame(const FramePlan& plan) override {
         plan_ = &plan;
-        rates_ = frameRates(plan);
+        rates_ = frameRates(plan, usesCells_);
     }
+
+    [[nodiscard]] const LensCells& cells() const override { return rates_.cells; }
 
     FramePlan prepareBlock(std::uint32_t first, std::uint32_t count) override {
         block_ = ratedBlock(*plan_, rates_, first, count);
@@ -69,6 +73,7 @@ public:
     }
 
 private:
+    bool usesCells_;
     GpuScene* scene_ = nullptr;
     const LayerSum* sum_ = nullptr;
     const FramePlan* plan_ = nullptr;
@@ -82,10 +87,27 @@ private:
     std::optional<GroupLayers> layers_;
 };
 
+std::vector<MethodSetting> multirateSettings() {
+    return {{.name = "cells",
+             .standard = "on",
+             .description = "blur each sample's image as its part of the lens would; off: what is hardly blurred is "
+                            "drawn once for several neighbouring samples instead",
+             .choices = {"on", "off"}}};
+}
+
+std::unique_ptr<Renderer> makeMultirate(const World& world, const RendererOptions& options) {
+    const MethodSettings settings = completeSettings("multirate", multirateSettings(), options.settings);
+    return makeSharingAccumulation(world, options, std::make_unique<GroupImages>(settings.at("cells") == "on"));
+}
+
 }  // namespace
 
-std::unique_ptr<Renderer> makeMultirateRenderer(const World& world, const RendererOptions& options) {
-    return makeSharingAccumulation(world, options, std::make_unique<GroupImages>());
+Method multirateMethod() {
+    return {.name = "multirate",
+            .description = "the same, each image blurred as its part of the lens would blur it: fewer samples do",
+            .sumsBlocks = true,
+            .settings = multirateSettings(),
+            .make = makeMultirate};
 }
 
 }  // namespace defocus

@@ -34,7 +34,8 @@ TEST_F(Multirate, keepingEverythingGivesTheBitsOfAccumulation) {
         RenderSettings settings = ratedSettings(100, lod);
         ASSERT_GT(sharingObjects(*small, settings), 0u);
         settings.keepAll = true;
-        EXPECT_TRUE(sameBits(drawnBy("accumulation", *small, settings), drawnBy("multirate", *small, settings)));
+        for (const char* method : {sharing, "multirate"})
+            EXPECT_TRUE(sameBits(drawnBy("accumulation", *small, settings), drawnBy(method, *small, settings)));
     }
 }
 
@@ -48,7 +49,7 @@ TEST_F(Multirate, waveSizeChangesNoBit) {
                 RendererOptions options;
                 options.wave = k;
                 options.layerFormat = format;
-                const Image image = drawnBy("multirate", *small, ratedSettings(samples, LodMode::continuous), options);
+                const Image image = drawnBy(sharing, *small, ratedSettings(samples, LodMode::continuous), options);
                 if (first.empty()) first = image;
                 EXPECT_TRUE(sameBits(first, image)) << "K = " << k << ": " << largestDifference(first, image);
             }
@@ -61,17 +62,15 @@ TEST_F(Multirate, geometryShaderLayersGiveTheSameImage) {
     RendererOptions options;
     options.geometryShaderLayers = true;
     const RenderSettings settings = ratedSettings(64);
-    EXPECT_LT(
-        largestDifference(drawnBy("multirate", *small, settings), drawnBy("multirate", *small, settings, options)),
-        1e-3);
+    EXPECT_LT(largestDifference(drawnBy(sharing, *small, settings), drawnBy(sharing, *small, settings, options)), 1e-3);
 }
 
 // Blocks that other machines draw, and blocks that are added later, are those of the whole frame.
 TEST_F(Multirate, blocksAreThoseOfTheWholeFrame) {
     const auto small = partlyShared();
     const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
-    const auto whole = methodNamed("multirate").make(small->world, {});
-    const auto part = methodNamed("multirate").make(small->world, {});
+    const auto whole = rendererOf(sharing, small->world);
+    const auto part = rendererOf(sharing, small->world);
     whole->start(plan);
     part->start(samplesOf(plan, 0, 64));
     while (part->advance()) {
@@ -84,19 +83,19 @@ TEST_F(Multirate, blocksAreThoseOfTheWholeFrame) {
     while (whole->advance()) {
     }
     EXPECT_TRUE(sameBits(whole->image(), part->image()));
-    EXPECT_EQ(whole->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan)));
-    EXPECT_EQ(part->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan)));
+    EXPECT_EQ(whole->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan, false)));
+    EXPECT_EQ(part->stats().trianglesDrawn, ratedTriangles(plan, frameRates(plan, false)));
 }
 
 TEST_F(Multirate, apertureZeroIsThePinhole) {
     const auto small = partlyShared();
     RenderSettings settings = ratedSettings(64);
     small->view.lens.dofEnabled = false;
-    const Image pinhole = drawnBy("multirate", *small, settings);
+    const Image pinhole = drawnBy(sharing, *small, settings);
     EXPECT_TRUE(sameBits(pinhole, drawnBy("accumulation", *small, settings)));
     small->view.lens.dofEnabled = true;
     small->view.lens.blurScale = 0;
-    EXPECT_TRUE(sameBits(pinhole, drawnBy("multirate", *small, settings)));
+    EXPECT_TRUE(sameBits(pinhole, drawnBy(sharing, *small, settings)));
 }
 
 // A wall that fills the frame: whatever is shared, every sample shows it once.
@@ -114,19 +113,12 @@ TEST_F(Multirate, constantSceneStaysConstant) {
     exact.layerFormat = LayerFormat::rgba32f;
     for (const std::uint32_t n : {1u, 7u, 32u, 64u, 65u, 200u}) {
         ASSERT_EQ(sharingObjects(small, ratedSettings(n)), 1u);
-        const Image image = drawnBy("multirate", small, ratedSettings(n), exact);
+        const Image image = drawnBy(sharing, small, ratedSettings(n), exact);
         const glm::vec3 expected(0.1f, 0.7f, 1.0f / 3);
         for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
             for (glm::length_t c = 0; c < 3; ++c)
                 ASSERT_NEAR(image.pixels[i * 4 + static_cast<std::size_t>(c)], expected[c], 1e-6 * expected[c]) << n;
     }
-}
-
-Image reference(const SmallWorld& small) {
-    RenderSettings settings = ratedSettings(4096);
-    settings.sequence = Sequence::halton;
-    settings.firstSample = 1u << 20;
-    return drawnBy("accumulation", small, settings);
 }
 
 // Bright pickets, not upright, 2 m away, and a dark wall behind them that ends within the frame.
@@ -159,7 +151,7 @@ TEST_F(Multirate, whatAllShareIsTheAccumulationOfAQuarterOfTheSamples) {
     exact.layerFormat = LayerFormat::rgba32f;
     for (const std::uint32_t n : {64u, 256u}) {
         const Image quarter = drawnBy("accumulation", *small, ratedSettings(n / 4), exact);
-        EXPECT_LT(largestDifference(quarter, drawnBy("multirate", *small, ratedSettings(n), exact)), 1e-5) << n;
+        EXPECT_LT(largestDifference(quarter, drawnBy(sharing, *small, ratedSettings(n), exact)), 1e-5) << n;
     }
 }
 
@@ -168,10 +160,10 @@ TEST_F(Multirate, whatAllShareIsTheAccumulationOfAQuarterOfTheSamples) {
 TEST_F(Multirate, convergesToTheReference) {
     const auto small = fenceAndWall(3, 2.02, 0.15);
     ASSERT_EQ(sharingObjects(*small, ratedSettings(64)), 12u);
-    const Image truth = reference(*small);
+    const Image truth = convergedImage(*small);
     std::vector<double> errors;
     for (const std::uint32_t n : {64u, 256u, 1024u}) {
-        errors.push_back(compareImages(truth, drawnBy("multirate", *small, ratedSettings(n))).rmse);
+        errors.push_back(compareImages(truth, drawnBy(sharing, *small, ratedSettings(n))).rmse);
         const double alone = compareImages(truth, drawnBy("accumulation", *small, ratedSettings(n))).rmse;
         EXPECT_LT(errors.back(), 3 * alone) << n;
     }
@@ -187,11 +179,11 @@ TEST_F(Multirate, aSharpFenceBeforeABlurredWallAndABlurredOneBeforeASharpWallHav
         ASSERT_EQ(sharingObjects(*small, ratedSettings(64)), sharpInFront ? 12u : 1u);
         for (const ObjectPlan& object : planFrame(small->world, small->view, ratedSettings(64)).objects)
             ASSERT_TRUE(object.coc.largest < 1 || object.coc.largest > 2 * leastShareBlur);
-        const Image truth = reference(*small);
+        const Image truth = convergedImage(*small);
         const auto worst = [&](const char* method) {
             return compareImages(truth, drawnBy(method, *small, ratedSettings(1024))).maxError;
         };
-        EXPECT_LT(worst("multirate"), worst("accumulation") + 2.0 / 255) << sharpInFront;
+        EXPECT_LT(worst(sharing), worst("accumulation") + 2.0 / 255) << sharpInFront;
     }
 }
 
@@ -234,7 +226,7 @@ TEST_F(Multirate, panelsThatTouchShowNoLineBetweenThem) {
             return largest;
         };
         EXPECT_LT(worst("accumulation"), 1.0 / 255);
-        EXPECT_LT(worst("multirate"), worst("accumulation") + 2.0 / 255);
+        EXPECT_LT(worst(sharing), worst("accumulation") + 2.0 / 255);
     }
 }
 
@@ -254,8 +246,8 @@ TEST_F(Multirate, aBlurredLightKeepsItsEnergyAndItsSpread) {
     RendererOptions exact;
     exact.layerFormat = LayerFormat::rgba32f;
     const FramePlan plan = planFrame(world, view, ratedSettings(64));
-    ASSERT_EQ(frameRates(plan).objects[0].lensShare, 1);
-    const Image image = imageOf(*methodNamed("multirate").make(world, exact), plan);
+    ASSERT_EQ(frameRates(plan, false).objects[0].lensShare, 1);
+    const Image image = imageOf(*rendererOf(sharing, world, exact), plan);
     double energy = 0;
     double second = 0;
     for (int y = 0; y < 64; ++y)

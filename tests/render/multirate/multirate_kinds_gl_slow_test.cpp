@@ -18,7 +18,7 @@ TEST(MultirateKinds, everyKindOfSurfaceAndLensStaysWhatItWas) {
         const RenderSettings settings = ratedSettings(256);
         EXPECT_GT(sharingObjects(small, settings), 0u) << what;
         const Difference difference =
-            compareImages(drawnBy("accumulation", small, settings), drawnBy("multirate", small, settings));
+            compareImages(drawnBy("accumulation", small, settings), drawnBy(sharing, small, settings));
         EXPECT_LT(difference.rmse, 0.012) << what;
         EXPECT_LT(std::abs(difference.mae), 0.004) << what;
     };

@@ -21,9 +21,27 @@ inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode
     return settings;
 }
 
+// `method` with its settings, as a command names it.
+inline std::unique_ptr<Renderer> rendererOf(const char* method, const World& world, RendererOptions options = {}) {
+    const MethodUse use = parseMethodUse(method);
+    options.settings = use.settings;
+    return use.method->make(world, options);
+}
+
 inline Image drawnBy(const char* method, const SmallWorld& small, const RenderSettings& settings,
                      const RendererOptions& options = {}) {
-    return imageOf(*methodNamed(method).make(small.world, options), planFrame(small.world, small.view, settings));
+    return imageOf(*rendererOf(method, small.world, options), planFrame(small.world, small.view, settings));
+}
+
+// Samples share, as they do where images aren't blurred as lens cells.
+inline constexpr const char* sharing = "multirate:cells=off";
+
+// By other samples than the images that are held against it.
+inline Image convergedImage(const SmallWorld& small) {
+    RenderSettings settings = ratedSettings(4096);
+    settings.sequence = Sequence::halton;
+    settings.firstSample = 1u << 20;
+    return drawnBy("accumulation", small, settings);
 }
 
 // Some of the spheres share, and some don't.
@@ -38,7 +56,7 @@ inline std::unique_ptr<SmallWorld> partlyShared() {
 inline std::size_t sharingObjects(const SmallWorld& small, const RenderSettings& settings) {
     const FramePlan plan = planFrame(small.world, small.view, settings);
     return static_cast<std::size_t>(
-        std::ranges::count_if(frameRates(plan).objects, [](const ObjectRates& o) { return o.lensShare > 0; }));
+        std::ranges::count_if(frameRates(plan, false).objects, [](const ObjectRates& o) { return o.lensShare > 0; }));
 }
 
 }  // namespace defocus

@@ -1,0 +1,75 @@
+#include "render/accumulation/cell_sums.h"
+
+#include <string>
+
+namespace defocus {
+
+namespace {
+
+GlTexture image(TextureFormat format, int width, int height) {
+    GlTexture texture({.format = format, .width = width, .height = height});
+    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+}  // namespace
+
+CellSums::CellSums(const LensCells& cells, int width, int height, const std::filesystem::path& shaderFolder)
+    : inFront_(cells.inFront),
+      behind_(cells.behind),
+      defines_({{"LENS_CELLS", "1"},
+                {"CELLS_IN_FRONT", std::to_string(cells.inFront)},
+                {"CELLS_BEHIND", std::to_string(cells.behind)},
+                {"LEAST_CELL_VARIANCE", std::to_string(leastCellVariance)}}),
+      sums_({.format = TextureFormat::rgba32f, .width = width, .height = height, .layers = cells.classes()}) {
+    for (int classIndex = 0; classIndex < cells.classes(); ++classIndex) {
+        ClassMeans& means = means_.emplace_back();
+        means.side = 2 << (classIndex < inFront_ ? classIndex : classIndex - inFront_);
+        const auto size = [&](int pixels) { return (pixels + means.side - 1) / means.side; };
+        means.mean = image(TextureFormat::rgba32f, size(width), size(height));
+        means.open = image(TextureFormat::r32f, size(width), size(height));
+        means.target = Target({&means.mean, &means.open});
+    }
+    const auto pass = [&](const char* fragment) {
+        return Program({{fullscreenShader, fragment}, defines_, shaderFolder});
+    };
+    average_ = pass("accumulation/cell_means.frag");
+    blur_ = pass("accumulation/blur_cells.frag");
+}
+
+void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur) const {
+    layerDepths.attach(6);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glBindImageTexture(0, sums_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32F);
+    glProgramUniform1f(addLayers.name(), 3, static_cast<float>(blur));
+}
+
+void CellSums::blurInto(const Target& target, const GlTexture& sum) {
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    sums_.attach(0);
+    sum.attach(1);
+    for (GLuint classIndex = 0; classIndex < means_.size(); ++classIndex) {
+        const ClassMeans& means = means_[classIndex];
+        means.target.bind();
+        glProgramUniform1i(average_.name(), 0, static_cast<GLint>(classIndex));
+        glProgramUniform1i(average_.name(), 1, means.side);
+        fullscreen_.draw(average_);
+    }
+    for (GLuint classIndex = 0; classIndex < means_.size(); ++classIndex) {
+        const bool front = classIndex < static_cast<GLuint>(inFront_);
+        const GLuint k = front ? classIndex : classIndex - static_cast<GLuint>(inFront_);
+        means_[classIndex].mean.attach(2 + classIndex);
+        if (k + 1 < static_cast<GLuint>(front ? inFront_ : behind_))
+            means_[classIndex].open.attach((front ? 10 : 13) + k);
+    }
+    target.bind();
+    fullscreen_.draw(blur_);
+}
+
+std::size_t CellSums::bytes() const {
+    std::size_t total = sums_.bytes();
+    for (const ClassMeans& means : means_) total += means.mean.bytes() + means.open.bytes();
+    return total;
+}
+
+}  // namespace defocus

@@ -1,0 +1,289 @@
+// Images blurred as lens cells (plan/lens_cells.h).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bokeh.h"
+#include "gl/context.h"
+#include "image/metrics.h"
+#include "image/tone_map.h"
+#include "likeness.h"
+#include "lod/pyramid/pyramid.h"
+#include "plan/lens_cells.h"
+#include "plan/sample_range.h"
+#include "render/multirate/partly_shared.h"
+#include "small_world.h"
+
+namespace defocus {
+namespace {
+
+class LensCellImages : public testing::Test {
+protected:
+    static void SetUpTestSuite() { context_ = createHeadlessContext(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<GlContext> context_;
+};
+std::unique_ptr<GlContext> LensCellImages::context_;
+
+LensCells lensCellsOf(const SmallWorld& small, const RenderSettings& settings) {
+    return lensCells(planFrame(small.world, small.view, settings));
+}
+
+// Spheres before and behind the focus, with classes of σ = 1 and 2 px on both sides at 64 samples.
+std::unique_ptr<SmallWorld> blurredSpheres() {
+    auto small = fiveSpheres();
+    small->view.lens.fStop = 0.25;
+    return small;
+}
+
+TEST_F(LensCellImages, waveSizeChangesNoBit) {
+    const auto small = blurredSpheres();
+    for (const std::uint32_t samples : {64u, 200u}) {
+        const RenderSettings settings = ratedSettings(samples, LodMode::continuous);
+        ASSERT_GT(lensCellsOf(*small, settings).classes(), 1);
+        for (const LayerFormat format : {LayerFormat::rgba16f, LayerFormat::rgba32f, LayerFormat::rgb9e5}) {
+            Image first;
+            for (const std::uint32_t k : {1u, 3u, 64u}) {
+                RendererOptions options;
+                options.wave = k;
+                options.layerFormat = format;
+                const Image image = drawnBy("multirate", *small, settings, options);
+                if (first.empty()) first = image;
+                EXPECT_TRUE(sameBits(first, image)) << "K = " << k << ": " << largestDifference(first, image);
+            }
+        }
+    }
+}
+
+// Asking for an image within a block leaves the sum as it is.
+TEST_F(LensCellImages, blocksAreThoseOfTheWholeFrame) {
+    const auto small = blurredSpheres();
+    const FramePlan plan = planFrame(small->world, small->view, ratedSettings(192, LodMode::fractional));
+    RendererOptions few;
+    few.wave = 16;
+    const auto whole = rendererOf("multirate", small->world, few);
+    const auto part = rendererOf("multirate", small->world, few);
+    whole->start(plan);
+    part->start(samplesOf(plan, 0, 64));
+    while (part->advance()) EXPECT_EQ(part->image().width, small->view.width);
+    for (const std::uint32_t first : {64u, 128u}) {
+        part->continueWith(samplesOf(plan, first, 64));
+        while (part->advance()) part->image();
+    }
+    while (whole->advance()) {
+    }
+    EXPECT_TRUE(sameBits(whole->image(), part->image()));
+}
+
+// A light of 4 px far behind the focus, on black.
+struct FarLight {
+    View view;
+    World world;
+    double blur = 0;  // px
+};
+
+FarLight farLight(double fStop) {
+    FarLight light;
+    light.view = bokehView(320, 320);
+    light.view.lens.fStop = fStop;
+    light.world = flatWorld(rectangleScene(light.view, {{158, 158, 162, 162, 6}}, {64, 64, 64}), blackBackground());
+    light.world.pyramids = buildPyramids(light.world.scene->meshes);
+    light.blur = blurDiameter(light.view, 6);
+    return light;
+}
+
+Image imageOfLight(const char* method, const FarLight& light, std::uint32_t samples) {
+    RendererOptions exact;
+    exact.layerFormat = LayerFormat::rgba32f;
+    return imageOf(*rendererOf(method, light.world, exact), planFrame(light.world, light.view, ratedSettings(samples)));
+}
+
+// The standard deviation over the mean, well inside the disk.
+double ripple(const Image& image, const FarLight& light) {
+    double sum = 0;
+    double squares = 0;
+    int count = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            if (std::hypot(x + 0.5 - 160, y + 0.5 - 160) > 0.7 * light.blur / 2) continue;
+            sum += image.at(x, y)[0];
+            squares += std::pow(image.at(x, y)[0], 2);
+            ++count;
+        }
+    return std::sqrt(squares / count - std::pow(sum / count, 2)) / (sum / count);
+}
+
+// Where few samples leave copies of a light, their cells fill the disk.
+TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
+    const FarLight light = farLight(0.1846);
+    ASSERT_NEAR(light.blur, 40, 0.5);
+    for (const std::uint32_t n : {32u, 64u})
+        EXPECT_LT(ripple(imageOfLight("multirate", light, n), light),
+                  0.5 * ripple(imageOfLight("accumulation", light, n), light))
+            << n;
+}
+
+// With blurs of σ = 0.4 to 6 px: the energy of the disk, its place and its size.
+TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
+    for (const double fStop : {0.8, 0.4, 0.25, 0.17, 0.1, 0.06}) {
+        const FarLight light = farLight(fStop);
+        const Image image = imageOfLight("multirate", light, 64);
+        double energy = 0;
+        double second = 0;
+        glm::dvec2 middle(0);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const double value = image.at(x, y)[0];
+                const glm::dvec2 off(x + 0.5 - 160, y + 0.5 - 160);
+                energy += value;
+                middle += value * off;
+                second += value * glm::dot(off, off);
+            }
+        EXPECT_NEAR(energy, 64 * 16, 0.005 * 64 * 16) << light.blur;
+        EXPECT_LT(glm::length(middle / energy), 0.15) << light.blur;
+        // A disk has c²/16 along an axis, the square 4²/12, and a pixel 1/12 twice: where it lies and what it gathers.
+        const double expected = 2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12);
+        EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.2) << light.blur;
+    }
+}
+
+// Whatever lies before or behind the focus, one colour stays one.
+TEST_F(LensCellImages, constantSceneStaysConstant) {
+    SmallWorld small;
+    small.scene.materials.push_back(unlitMaterial({0.1f, 0.7f, 1.0f / 3, 1}));
+    small.scene.meshes.push_back(quad(0));
+    const auto put = [&](double x, double depth, double half) {
+        place(small, 0, glm::scale(glm::translate(glm::dmat4(1), glm::dvec3(x, 0, -depth)), glm::dvec3(half)));
+    };
+    put(-0.2, 1.2, 0.2);
+    put(0.2, 2, 0.2);
+    put(0, 6, 20);
+    small.world.environment = blackBackground();
+    small.view.width = 96;
+    small.view.height = 64;
+    small.view.lens.fStop = 0.2;
+    small.view.lens.focusDistance = 2;
+    finish(small);
+    RendererOptions exact;
+    exact.layerFormat = LayerFormat::rgba32f;
+    for (const std::uint32_t n : {16u, 64u, 100u}) {
+        ASSERT_GT(lensCellsOf(small, ratedSettings(n)).inFront, 0);
+        ASSERT_GT(lensCellsOf(small, ratedSettings(n)).behind, 0);
+        const Image image = drawnBy("multirate", small, ratedSettings(n), exact);
+        const glm::vec3 expected(0.1f, 0.7f, 1.0f / 3);
+        for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
+            for (glm::length_t c = 0; c < 3; ++c)
+                ASSERT_NEAR(image.pixels[i * 4 + static_cast<std::size_t>(c)], expected[c], 1e-5 * expected[c]) << n;
+    }
+}
+
+struct FenceColors {
+    glm::vec4 fence;
+    glm::vec4 wall;
+    glm::vec3 background;
+};
+
+// Pickets 2 m away and a wall of pickets behind them that ends within the frame.
+std::unique_ptr<SmallWorld> fenceBeforeWall(double focus, const FenceColors& colors) {
+    auto small = std::make_unique<SmallWorld>();
+    small->scene.materials.push_back(unlitMaterial(colors.fence));
+    if (colors.fence.a < 1) small->scene.materials[0].alphaMode = AlphaMode::blend;
+    small->scene.materials.push_back(unlitMaterial(colors.wall));
+    small->scene.meshes.push_back(quad(0));
+    small->scene.meshes.push_back(quad(1));
+    const auto at = [](double x, double y, double depth) {
+        return glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(x, y, -depth)), 0.2, glm::dvec3(0, 0, 1));
+    };
+    for (int i = 0; i < 12; ++i) place(*small, 0, glm::scale(at((i - 5.5) * 0.12, 0, 2), glm::dvec3(0.03, 9, 1)));
+    for (int i = 0; i < 4; ++i) place(*small, 1, glm::scale(at((i - 1.5) * 0.5, 0.3, 3), glm::dvec3(0.13, 0.9, 1)));
+    small->world.environment = {EnvironmentType::uniform, colors.background, {}, {}, nullptr, 1};
+    small->view.width = 160;
+    small->view.height = 96;
+    small->view.lens.fStop = 0.15;
+    small->view.lens.focusDistance = focus;
+    finish(*small);
+    return small;
+}
+
+// The largest difference of display values where `covered` is nothing or all: outlines that are in focus lie elsewhere.
+double largestBesideOutlines(const Image& truth, const Image& image, const Image& covered) {
+    double largest = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double share = covered.at(x, y)[0];
+            if (share > 1e-6 && share < 1 - 1e-6) continue;
+            for (int c = 0; c < 3; ++c)
+                largest =
+                    std::max<double>(largest, std::abs(srgbEncode(image.at(x, y)[c]) - srgbEncode(truth.at(x, y)[c])));
+        }
+    return largest;
+}
+
+// A sharp fence before a blurred wall, a sharp wall behind a blurred fence, and a sharp fence that is half transparent:
+// beside and within sharp outlines no pixel is farther from the truth than with the accumulation by more than 2/255.
+TEST_F(LensCellImages, nothingShinesThroughOutlines) {
+    const FenceColors colors{{0.9f, 0.8f, 0.3f, 1}, {0.05f, 0.2f, 0.5f, 1}, {0.3f, 0.1f, 0.1f}};
+    FenceColors glass = colors;
+    glass.fence.a = 0.5f;
+    for (const auto& [focus, drawn] : {std::pair{2.0, colors}, {3.0, colors}, {2.0, glass}}) {
+        const auto small = fenceBeforeWall(focus, drawn);
+        const bool fenceIsSharp = focus == 2;
+        const auto outlines = fenceIsSharp ? fenceBeforeWall(focus, {glm::vec4(1), {0, 0, 0, 1}, glm::vec3(0)})
+                                           : fenceBeforeWall(focus, {{0, 0, 0, 1}, glm::vec4(1), glm::vec3(0)});
+        if (!fenceIsSharp) outlines->view.lens.dofEnabled = false;
+        const Image covered = drawnBy("accumulation", *outlines, ratedSettings(1024));
+        const Image truth = convergedImage(*small);
+        for (const std::uint32_t n : {16u, 64u}) {
+            const LensCells cells = lensCellsOf(*small, ratedSettings(n));
+            ASSERT_GT(fenceIsSharp ? cells.behind : cells.inFront, 0);
+            const Image alone = drawnBy("accumulation", *small, ratedSettings(n));
+            const Image blurred = drawnBy("multirate", *small, ratedSettings(n));
+            EXPECT_LT(largestBesideOutlines(truth, blurred, covered),
+                      largestBesideOutlines(truth, alone, covered) + 2.0 / 255)
+                << focus << ' ' << drawn.fence.a << ' ' << n;
+            EXPECT_LT(compareImages(truth, blurred).rmse, 1.05 * compareImages(truth, alone).rmse) << focus << ' ' << n;
+        }
+    }
+}
+
+// As the lens opens bit by bit, from no blur that reaches a class to three of them, no step changes the image by much
+// more than its neighbours do.
+TEST_F(LensCellImages, nothingPopsWhereClassesBegin) {
+    const auto small = blurredSpheres();
+    std::vector<double> changes;
+    Image before;
+    int most = 0;
+    for (double fStop = 2; fStop > 0.15; fStop *= 0.98) {
+        small->view.lens.fStop = fStop;
+        most = std::max(most, lensCellsOf(*small, ratedSettings(16)).behind);
+        Image image = drawnBy("multirate", *small, ratedSettings(16));
+        if (!before.empty()) changes.push_back(compareImages(before, image).rmse);
+        before = std::move(image);
+    }
+    ASSERT_GE(most, 2);
+    ASSERT_EQ(lensCellsOf(*small, ratedSettings(16)).behind, most);
+    for (std::size_t i = 2; i + 2 < changes.size(); ++i) {
+        const double around = (changes[i - 2] + changes[i - 1] + changes[i + 1] + changes[i + 2]) / 4;
+        EXPECT_LT(changes[i], 2 * around) << i;
+    }
+}
+
+// The blur of the cells vanishes: no image is farther from the truth than the accumulation's, few samples are far
+// nearer, and many err less.
+TEST_F(LensCellImages, convergesToTheReference) {
+    const auto small = blurredSpheres();
+    const Image truth = convergedImage(*small);
+    std::vector<double> errors;
+    for (const std::uint32_t n : {16u, 64u, 256u, 1024u}) {
+        errors.push_back(compareImages(truth, drawnBy("multirate", *small, ratedSettings(n))).rmse);
+        EXPECT_LT(errors.back(), 1.05 * compareImages(truth, drawnBy("accumulation", *small, ratedSettings(n))).rmse)
+            << n;
+    }
+    EXPECT_LT(errors[0], 0.6 * compareImages(truth, drawnBy("accumulation", *small, ratedSettings(16))).rmse);
+    for (std::size_t i = 1; i < errors.size(); ++i) EXPECT_LT(errors[i], 0.7 * errors[i - 1]) << i;
+}
+
+}  // namespace
+}  // namespace defocus
