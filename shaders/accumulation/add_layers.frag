@@ -44,10 +44,10 @@ void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc)
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
     float variance = cellBlur * cellBlur * c * c - LEAST_CELL_VARIANCE;
     if (variance <= 0.0) return;
-    float inFront = c < 0.0 ? 1.0 : 0.0;
-    for (int k = 0; k < CELLS_IN_FRONT; ++k) sums[k] += inFront * shareOfClass(variance, k, CELLS_IN_FRONT) * value;
-    for (int k = 0; k < CELLS_BEHIND; ++k)
-        sums[CELLS_IN_FRONT + k] += (1.0 - inFront) * shareOfClass(variance, k, CELLS_BEHIND) * value;
+    if (c < 0.0)
+        for (int k = 0; k < CELLS_IN_FRONT; ++k) sums[k] += shareOfClass(variance, k, CELLS_IN_FRONT) * value;
+    else
+        for (int k = 0; k < CELLS_BEHIND; ++k) sums[CELLS_IN_FRONT + k] += shareOfClass(variance, k, CELLS_BEHIND) * value;
 }
 #endif
 
