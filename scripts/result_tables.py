@@ -274,6 +274,21 @@ def popping():
     return above + table(header, cells) + below
 
 
+# ---- multirate ------------------------------------------------------------------------------------------------------
+
+def rates():
+    """What each of multirate's rates gives, alone and with levels, over the number of lens samples."""
+    above, below = source_of("multirate-rates")
+    named = {("accumulation", ""): "none", ("multirate", "cells=off "): "shared images", ("multirate", ""): "cells"}
+    cells = []
+    for row in sorted(results_of("multirate-rates")["rows"], key=lambda row: row["samples"]):
+        rate = named[row["method"], "cells=off " if row["setting"].startswith("cells=off ") else ""]
+        levels = "no" if row["setting"].endswith("lod=off") else "yes"
+        cells.append([str(row["samples"]), rate, levels, f"{row['milliseconds']['median'] / 1000:.2f} s",
+                      f"{10 ** (-row['psnr'] / 20):.4f}", f"{row['ssim']:.4f}", f"{row['flip']:.4f}"])
+    return above + table(["lens samples", "rate", "levels", "frame", "RMSE", "SSIM", "FLIP"], cells) + below
+
+
 # ---- pyramids -------------------------------------------------------------------------------------------------------
 
 def cache():
@@ -466,6 +481,6 @@ def lens_levels():
 
 
 TABLES = {"speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
-          "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "pyramids": pyramids, "truth": truth, "shadows": shadows,
+          "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "rates": rates, "pyramids": pyramids, "truth": truth, "shadows": shadows,
           "stability": stability, "honesty": honesty, "sequences": sequences, "parts": parts,
           "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_levels}
