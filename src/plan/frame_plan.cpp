@@ -309,6 +309,7 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
     const bool shadows = drawsShadows(world, settings);
     std::vector<ObjectPlan> mayCast;
+    plan.objects.reserve(world.pose.objects.size());
     for (std::size_t i = 0; i < world.pose.objects.size(); ++i) {
         ObjectPlan object = placedObject(world, plan, i, viewFromWorld);
         std::string reason = reasonToLeaveOut(world, plan, object);

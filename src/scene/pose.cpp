@@ -223,6 +223,7 @@ Pose unmeasuredPoseAt(const Scene& scene, double time, int clip) {
         if (scene.nodes[i].parent < 0) walkDown(scene, static_cast<int>(i), visited, place);
 
     // Objects and lights in the order of their nodes.
+    pose.objects.reserve(scene.nodes.size());
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         if (!drawn[i]) continue;
         placeObjects(scene, state, static_cast<int>(i), cocScales[i], pose);

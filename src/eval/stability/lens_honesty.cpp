@@ -69,9 +69,10 @@ std::vector<std::string> honestyMethods() {
         for (const MethodSetting& setting : method.settings) {
             if (setting.ofTheScene) continue;
             const std::vector<std::string> most = {fmt::format("{:g}", setting.most)};
+            const std::string also = setting.onlyWith.empty() ? "" : setting.onlyWith + ",";
             for (const std::string& choice : setting.choices.empty() ? most : setting.choices)
                 if (choice != setting.standard)
-                    list.push_back(fmt::format("{}:{}={}", method.name, setting.name, choice));
+                    list.push_back(fmt::format("{}:{}{}={}", method.name, also, setting.name, choice));
         }
     }
     return list;

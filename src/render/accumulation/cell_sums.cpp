@@ -1,5 +1,7 @@
 #include "render/accumulation/cell_sums.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 namespace defocus {
@@ -20,7 +22,7 @@ CellSums::CellSums(const LensCells& cells, int width, int height, const std::fil
       defines_({{"LENS_CELLS", "1"},
                 {"CELLS_IN_FRONT", std::to_string(cells.inFront)},
                 {"CELLS_BEHIND", std::to_string(cells.behind)},
-                {"LEAST_CELL_VARIANCE", std::to_string(leastCellVariance)}}),
+                {"LEAST_CELL_VARIANCE", fmt::format("{:.4f}", leastCellVariance)}}),
       sums_({.format = TextureFormat::rgba32f, .width = width, .height = height, .layers = cells.classes()}) {
     for (int classIndex = 0; classIndex < cells.classes(); ++classIndex) {
         ClassMeans& means = means_.emplace_back();

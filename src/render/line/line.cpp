@@ -282,7 +282,8 @@ Method lineMethod() {
          .description = "Segments of a line that the published buffer holds",
          .choices = {},
          .least = 2,
-         .most = 64},
+         .most = 64,
+         .onlyWith = "resolve=published"},
         {.name = "shading-step",
          .standard = "4",
          .description =

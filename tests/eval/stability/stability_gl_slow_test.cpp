@@ -7,6 +7,7 @@
 #include "eval/stability/lens_honesty.h"
 #include "eval/stability/stability.h"
 #include "gl/context.h"
+#include "render/methods.h"
 
 namespace defocus {
 namespace {
@@ -36,6 +37,19 @@ TEST(LensHonesty, theAccumulationFollowsTheLens) {
         ++count;
     });
     EXPECT_GT(count, 10);
+}
+
+// Each method with each of its settings: a setting that needs another one comes with it.
+TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
+    const auto context = createHeadlessContext();
+    World world;
+    world.scene = std::make_shared<const Scene>();
+    for (const std::string& name : honestyMethods()) {
+        const MethodUse use = parseMethodUse(name);
+        RendererOptions options;
+        options.settings = use.settings;
+        EXPECT_NO_THROW(use.method->make(world, options)) << name;
+    }
 }
 
 }  // namespace
