@@ -1,6 +1,7 @@
 #pragma once
 // Images that several lens samples of a block share, as the frame loop of the accumulation sees them: they are drawn
-// once, and the samples' layers start from them instead of from nothing.
+// once, and the samples' layers start from them instead of from nothing. Or the samples are lens cells, and share
+// nothing.
 
 #include <cstdint>
 

@@ -2,6 +2,7 @@
 // What the tests of multirate rendering draw, and with which settings.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -42,6 +43,18 @@ inline Image convergedImage(const SmallWorld& small) {
     settings.sequence = Sequence::halton;
     settings.firstSample = 1u << 20;
     return drawnBy("accumulation", small, settings);
+}
+
+// The largest difference of a pixel from one colour, as a share of it.
+inline double relativeDifferenceFrom(const Image& image, const glm::vec3& color) {
+    double largest = 0;
+    for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
+        for (glm::length_t c = 0; c < 3; ++c) {
+            const double off =
+                std::abs(double{image.pixels[i * 4 + static_cast<std::size_t>(c)]} / double{color[c]} - 1);
+            if (!(off <= largest)) largest = off;  // NaN, too
+        }
+    return largest;
 }
 
 // Some of the spheres share, and some don't.
