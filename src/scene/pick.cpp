@@ -83,18 +83,44 @@ double nearestCrossing(const Mesh& mesh, const Bounds& bounds, const glm::dmat4&
                            [&](std::uint32_t vertex) { return glm::dvec3(mesh.vertices.positions[vertex]); });
 }
 
+// A ball in the world.
+struct Ball {
+    glm::dvec3 centre;
+    double radius;
+};
+
+Ball ballAround(const Bounds& bounds, const glm::dmat4& worldFromBounds) {
+    const glm::dvec3 half = 0.5 * bounds.size();
+    double radius = 0;
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+        radius += half[axis] * glm::length(glm::dvec3(worldFromBounds[axis]));
+    return {glm::dvec3(worldFromBounds * glm::dvec4(bounds.centre(), 1)), radius};
+}
+
+// Certain that the ray, whose direction has the length 1, passes the ball by.
+bool misses(const Ray& ray, const Ball& ball) {
+    constexpr double rounding = 1e-12;
+    const glm::dvec3 toCentre = ball.centre - ray.origin;
+    const double along = std::max(0.0, glm::dot(toCentre, ray.direction));
+    const double square = glm::dot(toCentre, toCentre);
+    return square - along * along > ball.radius * ball.radius * (1 + rounding) + rounding * square;
+}
+
 // An object's triangles, ready for any number of rays.
 class Target {
 public:
     Target(const Mesh& mesh, const Bounds& meshBounds, const Object& object)
         : mesh_(mesh), bounds_(meshBounds), object_(object), deformed_(deformed(object)) {
-        if (!deformed_) return;
-        positions_ = posedPositions(mesh, object);
-        bounds_ = {};
-        for (const glm::dvec3& position : positions_) bounds_.extend(position);
+        if (deformed_) {
+            positions_ = posedPositions(mesh, object);
+            bounds_ = {};
+            for (const glm::dvec3& position : positions_) bounds_.extend(position);
+        }
+        ball_ = ballAround(bounds_, deformed_ ? glm::dmat4(1) : object.worldFromObject);
     }
 
     [[nodiscard]] double nearestCrossing(const Ray& world, double nearest) const {
+        if (misses(world, ball_)) return nearest;
         if (!deformed_) return defocus::nearestCrossing(mesh_, bounds_, object_.worldFromObject, world, nearest);
         if (!reaches(world, bounds_, nearest)) return nearest;
         return defocus::nearestCrossing(mesh_, world, nearest,
@@ -104,6 +130,7 @@ public:
 private:
     const Mesh& mesh_;
     Bounds bounds_;  // of the mesh; of a deformed object, in the world
+    Ball ball_{};
     const Object& object_;
     bool deformed_;
     std::vector<glm::dvec3> positions_;  // of a deformed object, in the world
