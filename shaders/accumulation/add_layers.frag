@@ -42,12 +42,12 @@ const float BLENDED_ALPHA = 1.001;
 // Adds what a pixel of a layer shows to the classes of its blur.
 void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
-    float variance = cellBlur * cellBlur * c * c - LEAST_CELL_VARIANCE;
-    if (variance <= 0.0) return;
-    if (c < 0.0)
-        for (int k = 0; k < CELLS_IN_FRONT; ++k) sums[k] += shareOfClass(variance, k, CELLS_IN_FRONT) * value;
-    else
-        for (int k = 0; k < CELLS_BEHIND; ++k) sums[CELLS_IN_FRONT + k] += shareOfClass(variance, k, CELLS_BEHIND) * value;
+    float variance = value.a < BLENDED_ALPHA ? max(0.0, cellBlur * cellBlur * c * c - LEAST_CELL_VARIANCE) : 0.0;
+    float inFront = c < 0.0 ? variance : 0.0;
+    float behind = variance - inFront;
+    value.a = 1.0;
+    for (int k = 0; k < CELLS_IN_FRONT; ++k) sums[k] += (1.0 - reachOfClass(inFront, k)) * value;
+    for (int k = 0; k < CELLS_BEHIND; ++k) sums[CELLS_IN_FRONT + k] += reachOfClass(behind, k) * value;
 }
 #endif
 
@@ -123,7 +123,7 @@ void main() {
         addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
 #endif
 #ifdef LENS_CELLS
-        if (value.a < BLENDED_ALPHA) addToCells(cells, vec4(value.rgb, 1.0), ivec3(layerPixel, layer), ndc);
+        addToCells(cells, value, ivec3(layerPixel, layer), ndc);
 #endif
     }
 #ifdef LENS_CELLS

@@ -1,6 +1,7 @@
 #include "gl/target.h"
 
 #include <array>
+#include <numeric>
 
 #include "core/error.h"
 
@@ -33,28 +34,45 @@ Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture& dep
 
 Target::Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth,
                std::optional<std::uint32_t> layer) {
+    create();
+    for (const GlTexture* color : colors) addColor(*color, layer);
+    finish(depth);
+}
+
+Target Target::ofLayers(const GlTexture& array) {
+    Target target;
+    target.create();
+    for (int layer = 0; layer < array.info().layers; ++layer) target.addColor(array, static_cast<std::uint32_t>(layer));
+    target.finish(nullptr);
+    return target;
+}
+
+void Target::create() {
     GLuint name = 0;
     glCreateFramebuffers(1, &name);
     handle_ = GlHandle<destroyFramebuffer>(name);
+}
+
+void Target::addColor(const GlTexture& color, std::optional<std::uint32_t> layer) {
+    const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colors_++);
+    if (layer)
+        glNamedFramebufferTextureLayer(name(), attachment, color.name(), 0, static_cast<GLint>(*layer));
+    else
+        glNamedFramebufferTexture(name(), attachment, color.name(), 0);
+    width_ = color.info().width;
+    height_ = color.info().height;
+}
+
+void Target::finish(const GlTexture* depth) {
     std::array<GLenum, 8> drawBuffers{};
-    GLsizei count = 0;
-    for (const GlTexture* color : colors) {
-        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(count);
-        if (layer)
-            glNamedFramebufferTextureLayer(name, attachment, color->name(), 0, static_cast<GLint>(*layer));
-        else
-            glNamedFramebufferTexture(name, attachment, color->name(), 0);
-        drawBuffers[static_cast<std::size_t>(count++)] = attachment;
-        width_ = color->info().width;
-        height_ = color->info().height;
-    }
-    glNamedFramebufferDrawBuffers(name, count, drawBuffers.data());
+    std::iota(drawBuffers.begin(), drawBuffers.end(), GL_COLOR_ATTACHMENT0);
+    glNamedFramebufferDrawBuffers(name(), colors_, drawBuffers.data());
     if (depth != nullptr) {
-        glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+        glNamedFramebufferTexture(name(), GL_DEPTH_ATTACHMENT, depth->name(), 0);
         width_ = depth->info().width;
         height_ = depth->info().height;
     }
-    const GLenum status = glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER);
+    const GLenum status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) fail("render target of {} x {} px: {}", width_, height_, inWords(status));
 }
 

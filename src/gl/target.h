@@ -15,6 +15,8 @@ public:
     Target() = default;
     // At most 8 colours; none for depth alone. Throws Error in words when the driver can't render to this combination.
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
+    // Each layer of an array texture, at most 8, is a colour.
+    static Target ofLayers(const GlTexture& array);
     // Layer `layer` alone of array textures; `depth` has no layers.
     Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer);
 
@@ -24,8 +26,12 @@ public:
 
 private:
     Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth, std::optional<std::uint32_t> layer);
+    void create();
+    void addColor(const GlTexture& color, std::optional<std::uint32_t> layer);
+    void finish(const GlTexture* depth);
 
     GlHandle<destroyFramebuffer> handle_;
+    GLsizei colors_ = 0;
     int width_ = 0;
     int height_ = 0;
 };

@@ -175,7 +175,7 @@ LensCells lensCells(const FramePlan& plan) {
 }
 
 double cellClassVariance(int k) {
-    return std::exp2(2 * k + 2) / 3 + 1.0 / 6;
+    return std::exp2(2 * k) / 3 + 1.0 / 6;
 }
 
 double pixelRate(const LensCells& cells, double coc) {

@@ -36,7 +36,7 @@ using MethodSettings = std::map<std::string, std::string>;
 struct RendererOptions {
     LayerFormat layerFormat = LayerFormat::automatic;
     std::uint32_t wave = 0;                  // K, lens samples drawn at once; 0: as many as waveBytes allow
-    std::uint64_t waveBytes = 128ull << 20;  // memory for a wave's layers
+    std::uint64_t waveBytes = 160ull << 20;  // memory for a wave's layers
     bool geometryShaderLayers = false;       // pick layers in a geometry shader even where the vertex shader may
     std::filesystem::path shaderFolder;      // overrides the embedded shaders; empty: none
     MethodSettings settings;                 // of the method (Method::settings); what is not said is standard

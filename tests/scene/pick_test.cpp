@@ -77,8 +77,7 @@ TEST(Pick, flattenedObjectsAreSeen) {
 // keeps it.
 TEST(Pick, agreesWithTheBoxItself) {
     const glm::dmat4 crooked(glm::dmat3(0.5, 2, 0, -0.3, 0.1, 1, 7, 0.2, 0.4));
-    for (const glm::dmat4& place :
-         {glm::dmat4(1), glm::translate(glm::dmat4(1), glm::dvec3(40, -3, 9)) * crooked}) {
+    for (const glm::dmat4& place : {glm::dmat4(1), glm::translate(glm::dmat4(1), glm::dvec3(40, -3, 9)) * crooked}) {
         std::mt19937 random(7);
         std::uniform_real_distribution<double> any(-3, 3);
         const Scene scene = cubes({place});

@@ -21,8 +21,8 @@ namespace defocus {
 
 namespace {
 
-// As many layers as the memory allows, at most a block. What samples share takes at most half as many again, each with
-// the shadow maps of several samples.
+// Layers for the fewest equal parts of a block that the memory allows. What samples share takes at most half as many
+// again, each with the shadow maps of several samples.
 std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, std::uint32_t asked, LayerFormat format,
                          bool shares) {
     const LayerWindow window = layerWindow(plan);
@@ -32,9 +32,11 @@ std::uint32_t chosenWave(const FramePlan& plan, const RendererOptions& options, 
                                          static_cast<std::uint32_t>(window.layerHeight) * layerPixelBytes(format) *
                                          (plan.usesTransmission ? 2 : 1) +  // with the backdrop
                                      shadowBytes;
-    const std::uint64_t wanted = asked > 0 ? asked : options.waveBytes / layerBytes * (shares ? 2 : 3) / 3;
-    const std::uint64_t most = std::min<std::uint64_t>(blockSamples, plan.samples.size());
-    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most));
+    const std::uint64_t block = std::min<std::uint64_t>(blockSamples, plan.samples.size());
+    if (asked > 0) return static_cast<std::uint32_t>(std::min<std::uint64_t>(asked, block));
+    const std::uint64_t fitting = std::max<std::uint64_t>(1, options.waveBytes / layerBytes * (shares ? 2 : 3) / 3);
+    const std::uint64_t waves = (block + fitting - 1) / fitting;
+    return static_cast<std::uint32_t>((block + waves - 1) / waves);
 }
 
 bool sameSizes(const LayerSumInfo& a, const LayerSumInfo& b) {

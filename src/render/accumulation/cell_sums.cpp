@@ -8,8 +8,8 @@ namespace defocus {
 
 namespace {
 
-GlTexture image(TextureFormat format, int width, int height) {
-    GlTexture texture({.format = format, .width = width, .height = height});
+GlTexture meanImages(int width, int height) {
+    GlTexture texture({.format = TextureFormat::rgba32f, .width = width, .height = height, .layers = 2});
     texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     return texture;
 }
@@ -26,17 +26,21 @@ CellSums::CellSums(const LensCells& cells, int width, int height, const std::fil
       sums_({.format = TextureFormat::rgba32f, .width = width, .height = height, .layers = cells.classes()}) {
     for (int classIndex = 0; classIndex < cells.classes(); ++classIndex) {
         ClassMeans& means = means_.emplace_back();
-        means.side = 2 << (classIndex < inFront_ ? classIndex : classIndex - inFront_);
-        const auto size = [&](int pixels) { return (pixels + means.side - 1) / means.side; };
-        means.mean = image(TextureFormat::rgba32f, size(width), size(height));
-        means.open = image(TextureFormat::r32f, size(width), size(height));
-        means.target = Target({&means.mean, &means.open});
+        means.side = 1 << (classIndex < inFront_ ? classIndex : classIndex - inFront_);
+        const auto size = [&](int pixels) {
+            return means.side == 1 ? pixels + 1 : (pixels + means.side - 1) / means.side;
+        };
+        means.images = meanImages(size(width), size(height));
+        means.target = Target::ofLayers(means.images);
     }
-    const auto pass = [&](const char* fragment) {
-        return Program({{fullscreenShader, fragment}, defines_, shaderFolder});
+    const auto pass = [&](const char* fragment, const ShaderDefines& defines) {
+        return Program({{fullscreenShader, fragment}, defines, shaderFolder});
     };
-    average_ = pass("accumulation/cell_means.frag");
-    blur_ = pass("accumulation/blur_cells.frag");
+    average_ = pass("accumulation/cell_means.frag", defines_);
+    ShaderDefines nearest = defines_;
+    nearest.emplace_back("NEAREST", "1");
+    averageNearest_ = pass("accumulation/cell_means.frag", nearest);
+    blur_ = pass("accumulation/blur_cells.frag", defines_);
 }
 
 void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur) const {
@@ -52,25 +56,21 @@ void CellSums::blurInto(const Target& target, const GlTexture& sum) {
     sum.attach(1);
     for (GLuint classIndex = 0; classIndex < means_.size(); ++classIndex) {
         const ClassMeans& means = means_[classIndex];
+        const Program& average = static_cast<int>(classIndex) == inFront_ - 1 ? averageNearest_ : average_;
         means.target.bind();
-        glProgramUniform1i(average_.name(), 0, static_cast<GLint>(classIndex));
-        glProgramUniform1i(average_.name(), 1, means.side);
-        fullscreen_.draw(average_);
+        glProgramUniform1i(average.name(), 0, static_cast<GLint>(classIndex));
+        glProgramUniform1i(average.name(), 1, means.side);
+        fullscreen_.draw(average);
     }
-    for (GLuint classIndex = 0; classIndex < means_.size(); ++classIndex) {
-        const bool front = classIndex < static_cast<GLuint>(inFront_);
-        const GLuint k = front ? classIndex : classIndex - static_cast<GLuint>(inFront_);
-        means_[classIndex].mean.attach(2 + classIndex);
-        if (k + 1 < static_cast<GLuint>(front ? inFront_ : behind_))
-            means_[classIndex].open.attach((front ? 10 : 13) + k);
-    }
+    for (GLuint classIndex = 0; classIndex < means_.size(); ++classIndex)
+        means_[classIndex].images.attach(2 + classIndex);
     target.bind();
     fullscreen_.draw(blur_);
 }
 
 std::size_t CellSums::bytes() const {
     std::size_t total = sums_.bytes();
-    for (const ClassMeans& means : means_) total += means.mean.bytes() + means.open.bytes();
+    for (const ClassMeans& means : means_) total += means.images.bytes();
     return total;
 }
 

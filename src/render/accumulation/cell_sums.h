@@ -36,9 +36,8 @@ public:
 private:
     // Of a class, and of the samples open to it, around the middles of squares of pixels.
     struct ClassMeans {
-        int side = 2;  // px
-        GlTexture mean;
-        GlTexture open;
+        int side = 1;      // px
+        GlTexture images;  // layer 0: the class; layer 1, red: the samples
         Target target;
     };
 
@@ -47,7 +46,7 @@ private:
     ShaderDefines defines_;
     GlTexture sums_;  // a layer a class, as shaders/include/cells.glsl orders them
     std::vector<ClassMeans> means_;
-    Program average_, blur_;
+    Program average_, averageNearest_, blur_;
     Fullscreen fullscreen_;
 };
 

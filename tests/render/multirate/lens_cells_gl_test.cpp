@@ -228,7 +228,7 @@ TEST_F(LensCellImages, nothingShinesThroughOutlines) {
         const auto small = fenceBeforeWall(focus, drawn);
         const bool fenceIsSharp = focus == 2;
         const auto outlines = fenceIsSharp ? fenceBeforeWall(focus, {glm::vec4(1), {0, 0, 0, 1}, glm::vec3(0)})
-                                           : fenceBeforeWall(focus, {{0, 0, 0, 1}, glm::vec4(1), glm::vec3(0)});
+                                           : fenceBeforeWall(focus, {glm::vec4(0), glm::vec4(1), glm::vec3(0)});
         if (!fenceIsSharp) outlines->view.lens.dofEnabled = false;
         const Image covered = drawnBy("accumulation", *outlines, ratedSettings(1024));
         const Image truth = convergedImage(*small);
