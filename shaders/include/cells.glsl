@@ -11,5 +11,5 @@ float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0
 
 // How much of what a pixel shows, blurred by `variance`, belongs to class k or to one that is blurred more.
 float reachOfClass(float variance, int k) {
-    return clamp((variance - classVariance(k - 1)) / (classVariance(k) - classVariance(k - 1)), 0.0, 1.0);
+    return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }
