@@ -869,14 +869,20 @@ def verdict(case):
     return "within" if case["passed"] else "<b>beyond</b>"
 
 
+def honesty_cells(row):
+    if row.get("leftOut"):
+        return [html.escape(row["method"]), "", "", "", "", "", f"left out: {html.escape(row['leftOut'])}"]
+    return [html.escape(row["method"]), html.escape(row["varied"]), f"{row['expectedDiameter']:.2f}",
+            f"{row['measuredDiameter']:.2f}", f"{row['measuredDiameter'] - row['expectedDiameter']:+.2f}",
+            f"{row['energy']:.4f}", "follows" if row.get("followsLens") else "differs"]
+
+
 def stability_section(results):
     cases = [[html.escape(case["area"]), html.escape(case["case"]), html.escape(case["errorOf"]), html.escape(case["against"]),
               "" if case["limit"] is None else f"{case['limit']:.3g}",
               "" if case.get("leftOut") else "∞" if case["error"] is None else f"{case['error']:.3g}", verdict(case)]
              for case in results["cases"]]
-    honesty = [[html.escape(row["method"]), html.escape(row["varied"]), f"{row['expectedDiameter']:.2f}",
-                f"{row['measuredDiameter']:.2f}", f"{row['measuredDiameter'] - row['expectedDiameter']:+.2f}",
-                f"{row['energy']:.4f}", "follows" if row.get("followsLens") else "differs"] for row in results["lensHonesty"]]
+    honesty = [honesty_cells(row) for row in results["lensHonesty"]]
     return ["<h2>Stiff and extreme cases</h2>",
             table(["area", "case", "error", "against", "limit", "measured", "verdict"], cases, 4),
             "<h3>Blur against the lens</h3>",

@@ -380,6 +380,9 @@ def honesty():
     rows = []
     for method in dict.fromkeys(row["method"] for row in results["lensHonesty"]):
         cases = [row for row in results["lensHonesty"] if row["method"] == method]
+        if cases[-1].get("leftOut"):
+            rows.append([f"`{method}`", f"left out: {cases[-1]['leftOut']}", ""])
+            continue
         worst = max((row["measuredDiameter"] - row["expectedDiameter"] for row in cases), key=abs)
         rows.append([f"`{method}`", f"{worst:+.2f} px", f"{sum(row['followsLens'] for row in cases)} of {len(cases)}"])
     return warning(results) + table(["method", "largest error of the disk's diameter", "cases within half a pixel and 5 % of the energy"],

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/error.h"
 #include "eval/stability/board_scene.h"
 #include "image/moments.h"
 
@@ -81,13 +82,19 @@ std::vector<std::string> honestyMethods() {
 void measureHonesty(const std::vector<std::string>& methods, const std::function<void(const HonestyRow&)>& visit,
                     const Progress& progress) {
     const std::vector<Case> list = cases();
-    std::uint64_t done = 0;
-    for (const std::string& method : methods) {
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+        const std::string& method = methods[m];
         const bool usesLensSamples = parseMethodUse(method).method->usesLensSamples;
-        for (const Case& subject : list) {
-            report(progress, "lenses", done++, list.size() * methods.size());
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const Case& subject = list[i];
+            report(progress, "lenses", m * list.size() + i, list.size() * methods.size());
             if (subject.aboutSamples && !usesLensSamples) continue;
-            visit(measured(method, subject));
+            try {
+                visit(measured(method, subject));
+            } catch (const Error& error) {
+                visit({.method = method, .varied = subject.varied, .leftOut = error.what()});
+                break;
+            }
         }
     }
 }

@@ -17,11 +17,12 @@ inline constexpr double honestDiameter = 0.5;  // px by which a disk that follow
 inline constexpr double honestEnergy = 0.05;
 
 struct HonestyRow {
-    std::string method;   // with its settings, written as for parseMethodUse
-    std::string varied;   // what changed, such as "f/2.8"
-    double expected = 0;  // px, the diameter by the formula
-    double measured = 0;  // px, the diameter by the second moment
-    double energy = 0;    // as a share of the sharp light's
+    std::string method;        // with its settings, written as for parseMethodUse
+    std::string varied;        // what changed, such as "f/2.8"
+    double expected = 0;       // px, the diameter by the formula
+    double measured = 0;       // px, the diameter by the second moment
+    double energy = 0;         // as a share of the sharp light's
+    std::string leftOut = {};  // why this driver can't draw it, with no figures; empty if it can
     [[nodiscard]] bool followsLens() const;
 };
 
@@ -30,7 +31,8 @@ struct HonestyRow {
 std::vector<std::string> honestyMethods();
 
 // Measures all rows of each method. The light is a square of 3 px on a black wall at its depth. The measured diameter
-// is that of a uniform disk with the same second moment as the image. Needs a current GL context.
+// is that of a uniform disk with the same second moment as the image. A method that the driver can't draw has one row,
+// which says why. Needs a current GL context.
 void measureHonesty(const std::vector<std::string>& methods, const std::function<void(const HonestyRow&)>& visit,
                     const Progress& progress = {});
 

@@ -49,6 +49,7 @@ std::string honestyHeader() {
 }
 
 std::string honestyLine(const HonestyRow& row) {
+    if (!row.leftOut.empty()) return fmt::format("{:<18} left out: {}\n", row.method, row.leftOut);
     return fmt::format("{:<18} {:<18} {:>11.2f} {:>12.2f} {:>8.2f} {:>8.4f}  {}\n", row.method, row.varied,
                        row.expected, row.measured, row.measured - row.expected, row.energy,
                        row.followsLens() ? "follows" : "differs");
@@ -61,13 +62,17 @@ std::string honestySummary(std::span<const HonestyRow> rows) {
         std::size_t end = first;
         while (end < rows.size() && rows[end].method == rows[first].method) ++end;
         const std::span<const HonestyRow> use = rows.subspan(first, end - first);
+        first = end;
+        if (!use.back().leftOut.empty()) {
+            text += fmt::format("{:<30} left out: {}\n", use.back().method, use.back().leftOut);
+            continue;
+        }
         const auto& worst = *std::ranges::max_element(
             use, {}, [](const HonestyRow& row) { return std::abs(row.measured - row.expected); });
         const auto [least, most] = std::ranges::minmax(use | std::views::transform(&HonestyRow::energy));
         const auto following = std::ranges::count_if(use, &HonestyRow::followsLens);
         text += fmt::format("{:<30} {:>11.2f} {:>15} {:>15}  {} of {}\n", worst.method, worst.measured - worst.expected,
                             worst.varied, fmt::format("{:.3f} to {:.3f}", least, most), following, use.size());
-        first = end;
     }
     return text;
 }
@@ -86,13 +91,18 @@ std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const Ho
                                      {"leftOut", row.leftOut},
                                      {"passed", !row.leftOut && !row.failed()}});
     document["lensHonesty"] = ordered_json::array();
-    for (const HonestyRow& row : honesty)
+    for (const HonestyRow& row : honesty) {
+        if (!row.leftOut.empty()) {
+            document["lensHonesty"].push_back({{"method", row.method}, {"leftOut", row.leftOut}});
+            continue;
+        }
         document["lensHonesty"].push_back({{"method", row.method},
                                            {"varied", row.varied},
                                            {"expectedDiameter", jsonNumber(row.expected)},
                                            {"measuredDiameter", jsonNumber(row.measured)},
                                            {"energy", jsonNumber(row.energy)},
                                            {"followsLens", row.followsLens()}});
+    }
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -39,7 +39,7 @@ CellSums::CellSums(const LensCells& cells, int width, int height, const std::fil
     average_ = pass("accumulation/cell_means.frag", defines_);
     ShaderDefines nearest = defines_;
     nearest.emplace_back("NEAREST", "1");
-    averageNearest_ = pass("accumulation/cell_means.frag", nearest);
+    if (inFront_ > 0) averageNearest_ = pass("accumulation/cell_means.frag", nearest);
     blur_ = pass("accumulation/blur_cells.frag", defines_);
 }
 

@@ -6,6 +6,7 @@
 
 #include "eval/stability/lens_honesty.h"
 #include "eval/stability/stability.h"
+#include "eval/stability/text.h"
 #include "gl/context.h"
 #include "render/methods.h"
 
@@ -49,6 +50,21 @@ TEST(LensHonesty, everyMethodThatItNamesCanBeMade) {
         RendererOptions options;
         options.settings = use.settings;
         EXPECT_NO_THROW(use.method->make(world, options)) << name;
+    }
+}
+
+// Segments that the driver's shared memory can't hold, as llvmpipe's can't, are said, and the others go on.
+TEST(LensHonesty, whatADriverCannotDrawIsLeftOut) {
+    const auto context = createHeadlessContext();
+    std::vector<HonestyRow> rows;
+    measureHonesty({"line:resolve=published,segments=64", "circular"},
+                   [&](const HonestyRow& row) { rows.push_back(row); });
+    ASSERT_FALSE(rows.empty());
+    EXPECT_TRUE(rows.front().leftOut.empty() || rows[1].method == "circular");
+    EXPECT_TRUE(rows.back().leftOut.empty());
+    EXPECT_EQ(rows.back().method, "circular");
+    if (!rows.front().leftOut.empty()) {
+        EXPECT_NE(honestySummary(rows).find("left out: " + rows.front().leftOut), std::string::npos);
     }
 }
 
