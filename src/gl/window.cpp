@@ -92,6 +92,7 @@ Window::Window(const WindowOptions& options) {
     device_ = currentDevice();
     software_ = currentIsSoftware();
     installCallbacks();
+    readSizes();
 }
 
 Window::~Window() {
@@ -146,6 +147,7 @@ std::vector<WindowEvent> Window::poll(double seconds) {
         glfwWaitEventsTimeout(seconds);
     else
         glfwPollEvents();
+    readSizes();
     return std::exchange(events_, {});
 }
 
@@ -188,16 +190,20 @@ void Window::setFullscreen(bool on) {
     glfwSetWindowMonitor(window_, screen, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-glm::ivec2 Window::size() const {
-    glm::ivec2 result(0);
-    glfwGetWindowSize(window_, &result.x, &result.y);
-    return result;
-}
-
-glm::ivec2 Window::framebufferSize() const {
-    glm::ivec2 result(0);
-    glfwGetFramebufferSize(window_, &result.x, &result.y);
-    return result;
+void Window::readSizes() {
+    constexpr int mostTries = 8;
+    const auto windowSize = [&] {
+        glm::ivec2 result(0);
+        glfwGetWindowSize(window_, &result.x, &result.y);
+        return result;
+    };
+    glm::ivec2 before;
+    int tries = 0;
+    do {
+        before = windowSize();
+        glfwGetFramebufferSize(window_, &framebufferSize_.x, &framebufferSize_.y);
+        size_ = windowSize();
+    } while (size_ != before && ++tries < mostTries);
 }
 
 double Window::contentScale() const {

@@ -77,9 +77,10 @@ public:
     // Covers the screen that it is on, or goes back to where it was.
     void setFullscreen(bool on);
 
-    [[nodiscard]] glm::ivec2 size() const;             // window units
-    [[nodiscard]] glm::ivec2 framebufferSize() const;  // px; 0 x 0 while minimised
-    [[nodiscard]] double contentScale() const;         // window units to one of the interface, 1 on a plain screen
+    // Of the latest poll(), both of one moment.
+    [[nodiscard]] glm::ivec2 size() const { return size_; }                        // window units
+    [[nodiscard]] glm::ivec2 framebufferSize() const { return framebufferSize_; }  // px; 0 x 0 while minimised
+    [[nodiscard]] double contentScale() const;  // window units to one of the interface, 1 on a plain screen
 
     // Clears the window's framebuffer to display values and makes it the render target.
     void beginFrame(const glm::vec3& color);
@@ -95,11 +96,14 @@ public:
 
 private:
     void installCallbacks();
+    // A window that is just being given another size can have the old one in one answer and the new one in the next.
+    void readSizes();
     WindowEvent& add(WindowEvent::Type type);
 
     GLFWwindow* window_ = nullptr;
     std::vector<WindowEvent> events_;
     glm::dvec2 mouse_{0.0};
+    glm::ivec2 size_{0}, framebufferSize_{0};
     glm::ivec2 windowedPosition_{0}, windowedSize_{0};  // to which it goes back from the whole screen
     std::string device_;
     bool software_ = false;

@@ -17,10 +17,14 @@ namespace {
 
 constexpr double fontSize = 15;  // units
 
+// The backend makes the font's texture once, with its other resources.
 void loadFont(double scale) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    const bool hadTexture = atlas.IsBuilt();
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
     atlas.Clear();
     addViewFont(atlas, fontSize * scale);
+    if (hadTexture) ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 ImVec4 grey(float value, float alpha = 1) {
@@ -102,10 +106,7 @@ ViewInterface::~ViewInterface() {
 }
 
 void ViewInterface::applyLook(bool dark, double scale) {
-    if (scale != scale_) {
-        loadFont(scale);
-        ImGui_ImplOpenGL3_DestroyFontsTexture();
-    }
+    if (scale != scale_) loadFont(scale);
     ImGuiStyle style;
     setColors(style, dark);
     style.WindowPadding = {12, 10};

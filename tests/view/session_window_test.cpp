@@ -275,12 +275,27 @@ TEST_F(View, keysSwitchWhatTheyName) {
     EXPECT_EQ(state().at("dark"), false);
 }
 
+TEST_F(View, interfaceGrowsAndShrinksWhileItRuns) {
+    openTwoQuads();
+    const auto hasScale = [&](double scale) { return reaches([&](const json& s) { return s.at("scale") == scale; }); };
+    key("ctrl+equal");
+    EXPECT_TRUE(hasScale(1.125)) << textOf("stderr");
+    key("ctrl+0");
+    EXPECT_TRUE(hasScale(1)) << textOf("stderr");
+    key("ctrl+minus");
+    EXPECT_TRUE(hasScale(0.875)) << textOf("stderr");
+    key("ctrl+q");
+    EXPECT_EQ(ended(), 0);
+}
+
 TEST_F(View, survivesEverySizeAndScenesThatKeepComing) {
     openTwoQuads();
-    for (const char* size : {"1 1", "700 1", "1 300", "640 480"}) {
-        act(std::string("search --onlyvisible --name defocus windowsize ") + size);
-        EXPECT_TRUE(running()) << size;
-    }
+    // In turn and again, as frames must also meet them between two questions to the display.
+    for (int turn = 0; turn < 3; ++turn)
+        for (const char* size : {"1 1", "700 1", "1 300", "640 480"}) {
+            act(std::string("search --onlyvisible --name defocus windowsize ") + size);
+            ASSERT_TRUE(running()) << size << '\n' << textOf("stderr");
+        }
     act("search --onlyvisible --name defocus windowunmap windowmap mousemove 100 100");
     EXPECT_TRUE(reaches([](const json& s) { return s.at("picture").at(3) == 480; })) << state();
     ASSERT_TRUE(running());
