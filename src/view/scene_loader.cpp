@@ -101,6 +101,7 @@ std::optional<LoadedScene> SceneLoader::take() {
         if ((*job)->cancelled) continue;
         if ((*job)->done) {
             result = std::move((*job)->result);
+            (*job)->taken = true;
         } else {
             const std::scoped_lock lock((*job)->mutex);
             if (!(*job)->draft) continue;
@@ -110,7 +111,8 @@ std::optional<LoadedScene> SceneLoader::take() {
         if (!result->frame) break;
         for (auto older = std::next(job); older != jobs_.rend(); ++older) (*older)->cancelled = true;
     }
-    std::erase_if(jobs_, [](const std::unique_ptr<Job>& job) { return job->done.load(); });
+    // What has ended since it was looked at above waits for the next call.
+    std::erase_if(jobs_, [](const std::unique_ptr<Job>& job) { return job->done && (job->taken || job->cancelled); });
     return result;
 }
 

@@ -53,6 +53,7 @@ private:
         std::atomic<bool> cancelled = false;
         std::atomic<bool> done = false;
         bool draftTaken = false;
+        bool taken = false;
         mutable std::mutex mutex;  // of what follows
         std::string stage = "opening";
         double share = 0;

@@ -107,7 +107,7 @@ protected:
         ::_exit(95);
     }
 
-    // Ends by itself within `seconds`: its exit code, else −1.
+    // Ends by itself within `seconds`: its exit code, else −1, and it is stopped.
     int ended(double seconds = 180) {
         for (double waited = 0; waited < seconds; waited += 0.05) {
             int status = 0;
@@ -117,6 +117,8 @@ protected:
             }
             pause(0.05);
         }
+        stop(program_);
+        program_ = -1;
         return -1;
     }
     [[nodiscard]] bool running() const { return alive(); }
