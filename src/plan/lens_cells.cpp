@@ -18,7 +18,7 @@ namespace {
 // σ of the blur as a share of a disk's diameter, times √N. Cells that were disks would have 1/4. Two fifths more
 // closes the gaps between them.
 constexpr double cellWidth = 0.35;
-constexpr std::uint32_t fewestSamples = 8;  // fewer don't divide a lens
+constexpr std::uint32_t fewestSamples = 4;  // fewer don't divide a lens
 constexpr std::uint32_t mostPointsOfCell = 16;
 constexpr std::uint32_t mostPoints = 1u << 14;  // of all cells
 

@@ -196,7 +196,7 @@ TEST(LensCells, framesThatDoNotAllowThemSayWhy) {
         EXPECT_NE(planTable(planFrame(small->world, small->view, settingsFor(samples))).find(reason),
                   std::string::npos);
     };
-    expectNone("few samples", 4);
+    expectNone("few samples", 3);
     small->view.lens.axialChromaticAberration = 0.3;
     expectNone("wavelength");
     small->view.lens.axialChromaticAberration = 0;

@@ -119,34 +119,63 @@ double ripple(const Image& image, const FarLight& light) {
 TEST_F(LensCellImages, gapsBetweenCopiesAreFilled) {
     const FarLight light = farLight(0.1846);
     ASSERT_NEAR(light.blur, 40, 0.5);
-    for (const std::uint32_t n : {32u, 64u})
+    for (const std::uint32_t n : {4u, 32u, 64u})
         EXPECT_LT(ripple(imageOfLight("multirate", light, n), light),
                   0.5 * ripple(imageOfLight("accumulation", light, n), light))
             << n;
+}
+
+struct LightDisk {
+    double energy = 0;
+    double offMiddle = 0;  // px
+    double radius = 0;     // px, root mean square
+};
+
+LightDisk diskOf(const Image& image) {
+    LightDisk disk;
+    double second = 0;
+    glm::dvec2 middle(0);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const double value = image.at(x, y)[0];
+            const glm::dvec2 off(x + 0.5 - 160, y + 0.5 - 160);
+            disk.energy += value;
+            middle += value * off;
+            second += value * glm::dot(off, off);
+        }
+    disk.offMiddle = glm::length(middle / disk.energy);
+    disk.radius = std::sqrt(second / disk.energy);
+    return disk;
+}
+
+constexpr double farLightEnergy = 64 * 16;
+
+// A disk has c²/16 along an axis, the square 4²/12, and a pixel 1/12 twice: where it lies and what it gathers.
+double expectedRadius(const FarLight& light) {
+    return std::sqrt(2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12));
 }
 
 // With blurs of σ = 0.4 to 6 px: the energy of the disk, its place and its size.
 TEST_F(LensCellImages, aBlurredLightKeepsItsEnergyAndItsSpread) {
     for (const double fStop : {0.8, 0.4, 0.25, 0.17, 0.1, 0.06}) {
         const FarLight light = farLight(fStop);
-        const Image image = imageOfLight("multirate", light, 64);
-        double energy = 0;
-        double second = 0;
-        glm::dvec2 middle(0);
-        for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) {
-                const double value = image.at(x, y)[0];
-                const glm::dvec2 off(x + 0.5 - 160, y + 0.5 - 160);
-                energy += value;
-                middle += value * off;
-                second += value * glm::dot(off, off);
-            }
-        EXPECT_NEAR(energy, 64 * 16, 0.005 * 64 * 16) << light.blur;
-        EXPECT_LT(glm::length(middle / energy), 0.15) << light.blur;
-        // A disk has c²/16 along an axis, the square 4²/12, and a pixel 1/12 twice: where it lies and what it gathers.
-        const double expected = 2 * (light.blur * light.blur / 16 + 16.0 / 12 + 2.0 / 12);
-        EXPECT_NEAR(std::sqrt(second / energy), std::sqrt(expected), 0.2) << light.blur;
+        const LightDisk disk = diskOf(imageOfLight("multirate", light, 64));
+        EXPECT_NEAR(disk.energy, farLightEnergy, 0.005 * farLightEnergy) << light.blur;
+        EXPECT_LT(disk.offMiddle, 0.15) << light.blur;
+        EXPECT_NEAR(disk.radius, expectedRadius(light), 0.2) << light.blur;
     }
+}
+
+// Few samples too, as well as the copies' places, rounded to pixels, allow: each errs by 1/√12 px along an axis.
+TEST_F(LensCellImages, ofFewSamplesTheLightIsAsWide) {
+    for (const std::uint32_t n : {4u, 5u, 7u})
+        for (const double fStop : {0.4, 0.25, 0.1846}) {
+            const FarLight light = farLight(fStop);
+            const LightDisk disk = diskOf(imageOfLight("multirate", light, n));
+            EXPECT_NEAR(disk.energy, farLightEnergy, 0.02 * farLightEnergy) << n << " " << light.blur;
+            EXPECT_LT(disk.offMiddle, 2 * std::sqrt(2.0 / 12 / n)) << n << " " << light.blur;
+            EXPECT_NEAR(disk.radius, expectedRadius(light), 0.05 * expectedRadius(light)) << n << " " << light.blur;
+        }
 }
 
 // Whatever lies before or behind the focus, one colour stays one.
