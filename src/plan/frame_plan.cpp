@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "lod/pyramid/blurred_error.h"
 #include "plan/blurred_patches.h"
 #include "plan/motion.h"
@@ -162,6 +163,48 @@ std::string reasonToLeaveOut(const World& world, const FramePlan& plan, const Ob
     return "";
 }
 
+// Puts value order[i] into place i. Each is moved once, along the permutation's cycles.
+void arrange(std::vector<ObjectPlan>& values, std::vector<std::size_t> order) {
+    for (std::size_t begin = 0; begin < order.size(); ++begin) {
+        if (order[begin] == begin) continue;
+        ObjectPlan first = std::move(values[begin]);
+        std::size_t place = begin;
+        std::size_t from = std::exchange(order[place], place);
+        while (from != begin) {
+            values[place] = std::move(values[from]);
+            place = from;
+            from = std::exchange(order[place], place);
+        }
+        values[place] = std::move(first);
+    }
+}
+
+// The objects that may be seen, nearest first: what is drawn first hides the rest. `all`, where it isn't null: the
+// others too, in the order of the pose.
+void placeObjects(FramePlan& plan, const World& world, std::vector<ObjectPlan>* all) {
+    const glm::dmat4 viewFromWorld = glm::inverse(plan.view.worldFromCamera);
+    std::vector<ObjectPlan>& objects = plan.objects;
+    objects.resize(world.pose.objects.size());
+    std::vector<std::string> reasons(objects.size());
+    parallelFor(objects.size(), [&](std::size_t i) {
+        objects[i] = placedObject(world, plan, i, viewFromWorld);
+        reasons[i] = reasonToLeaveOut(world, plan, objects[i]);
+    });
+    if (all != nullptr) *all = objects;
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (!reasons[i].empty()) {
+            plan.leftOut.push_back({"object " + objects[i].name, std::move(reasons[i])});
+            continue;
+        }
+        if (order.size() < i) objects[order.size()] = std::move(objects[i]);
+        order.push_back(order.size());
+    }
+    objects.resize(order.size());
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return objects[i].nearestDepth; });
+    arrange(objects, std::move(order));
+}
+
 // The blur of whatever is drawn, the background included where it isn't the same everywhere.
 double largestBlur(const FramePlan& plan, const World& world) {
     double largest = 0;
@@ -305,21 +348,9 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     plan.frameFirst = settings.firstSample;
     plan.frameSamples = settings.firstSample + settings.sampleCount;
 
-    // Place every object and drop those that cannot be seen.
-    const glm::dmat4 viewFromWorld = glm::inverse(view.worldFromCamera);
     const bool shadows = drawsShadows(world, settings);
     std::vector<ObjectPlan> mayCast;
-    plan.objects.reserve(world.pose.objects.size());
-    for (std::size_t i = 0; i < world.pose.objects.size(); ++i) {
-        ObjectPlan object = placedObject(world, plan, i, viewFromWorld);
-        std::string reason = reasonToLeaveOut(world, plan, object);
-        if (shadows) mayCast.push_back(object);
-        if (reason.empty())
-            plan.objects.push_back(std::move(object));
-        else
-            plan.leftOut.push_back({"object " + object.name, std::move(reason)});
-    }
-
+    placeObjects(plan, world, shadows ? &mayCast : nullptr);
     planMoments(plan, world, mayCast);
     if (shadows) plan.shadows = planShadows(world, plan, mayCast);
 
@@ -327,15 +358,12 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     leaveOutLens(plan, world);
     plan.usesOwnBlur = plan.usesLens && hasOwnBlur(plan, world);
     plan.usesCocControls = plan.usesLens && (plan.usesOwnBlur || !plan.coc.thinLens());
-    for (ObjectPlan& object : plan.objects) {
+    parallelFor(plan.objects.size(), [&](std::size_t i) {
+        ObjectPlan& object = plan.objects[i];
         chooseLevels(object, world.pyramids[static_cast<std::size_t>(object.mesh)], plan);
         chooseRefinement(object, world, plan);
         if (!settings.keepAll) leaveOutClusters(object, world, plan);
-    }
-
-    // Nearest first: what is drawn first hides the rest.
-    std::ranges::sort(plan.objects, {},
-                      [](const ObjectPlan& object) { return std::pair(object.nearestDepth, object.object); });
+    });
     noteUnusedPaths(plan, world);
     noteLevels(plan, world);
     return plan;
