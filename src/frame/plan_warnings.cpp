@@ -10,15 +10,14 @@
 #include "core/number_text.h"
 #include "defocus/settings.h"
 #include "lens/lens_fields.h"
+#include "plan/lens_cells.h"
 #include "render/automatic_samples.h"
 
 namespace defocus {
 
 namespace {
 
-constexpr double visibleShare = 0.02;  // of the image's width: a blur that shows at a glance
-constexpr double mostGap = 16;         // px between the images of a point that a disk may show
-constexpr double goodGap = 8;
+constexpr double visibleShare = 0.02;    // of the image's width: a blur that shows at a glance
 constexpr std::size_t mostIgnored = 20;  // lines
 
 // 1, 2 or 5 times a power of ten, near `value`.
@@ -41,10 +40,24 @@ std::string nothingBlurred(const FramePlan& plan) {
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
-std::string copiesShow(const FramePlan& plan, double blur, std::uint64_t samples) {
-    const auto count = static_cast<double>(samples);
-    const double needed = std::numbers::pi / 4 * blur * blur / (goodGap * goodGap);
-    const double scale = plan.view.lens.blurScale * goodGap / blur * std::sqrt(4 * count / std::numbers::pi);
+// Between the images of a point, as a number that rises with them.
+struct Gaps {
+    double size = 0;
+    double most = 16;  // that a disk may show
+    double good = 8;
+};
+
+Gaps gapsOf(const FramePlan& plan, const Method& method, double blur, std::uint64_t samples) {
+    if (const LensCells cells = method.blursCells ? lensCells(plan) : LensCells{}; cells.blur > 0) {
+        const double widest = std::sqrt(cellClassVariance(mostCellClasses - 1));  // σ, px
+        return {cells.blur * blur, widest, 0.7 * widest};
+    }
+    return {blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)))};
+}
+
+std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std::uint64_t samples) {
+    const double needed = static_cast<double>(samples) * std::pow(gaps.size / gaps.good, 2);
+    const double scale = plan.view.lens.blurScale * gaps.good / gaps.size;
     const std::string more = needed <= mostSamples
                                  ? fmt::format("about {} samples fill it, ",
                                                grouped(64 * static_cast<std::uint64_t>(std::ceil(needed / 64))))
@@ -67,9 +80,9 @@ std::vector<std::string> planWarnings(const FramePlan& plan, const Method& metho
     if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
     if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
     const double blur = largestBoundedBlur(plan);
-    const double gap = blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)));
-    if (method.usesLensSamples && std::isfinite(blur) && gap > mostGap)
-        lines.push_back(copiesShow(plan, blur, samples));
+    if (!method.usesLensSamples || !std::isfinite(blur)) return lines;
+    if (const Gaps gaps = gapsOf(plan, method, blur, samples); gaps.size > gaps.most)
+        lines.push_back(copiesShow(plan, blur, gaps, samples));
     return lines;
 }
 

@@ -15,6 +15,7 @@ namespace defocus {
 // - `method` draws transmitting materials opaque, and there are some;
 // - each lens sample of `method` is an image of its own, and an object's blur is so large for
 //   the number of samples that they show as copies: N points spread over a disk of c px lie about c·√(π/(4N)) px apart.
+//   Lens cells (plan/lens_cells.h) fill that, as far as their widest blur reaches.
 // `samples`: of the whole frame, where the plan is that of its last block; 0: the plan's.
 std::vector<std::string> planWarnings(const FramePlan& plan, const Method& method, std::uint64_t samples = 0);
 

@@ -25,10 +25,11 @@ std::unique_ptr<SmallWorld> quadsAt(const std::vector<double>& depths) {
     return small;
 }
 
-std::vector<std::string> warningsOf(const SmallWorld& small, std::uint32_t samples = 64) {
+std::vector<std::string> warningsOf(const SmallWorld& small, std::uint32_t samples = 64,
+                                    const char* method = "accumulation") {
     RenderSettings settings;
     settings.sampleCount = samples;
-    return planWarnings(planFrame(small.world, small.view, settings), methodNamed("accumulation"));
+    return planWarnings(planFrame(small.world, small.view, settings), methodNamed(method));
 }
 
 double numberAfter(const std::string& text, const std::string& words) {
@@ -100,6 +101,19 @@ TEST(PlanWarnings, copiesAreNamedWithANumberOfSamplesAndAScaleThatFill) {
     EXPECT_TRUE(warningsOf(*small, static_cast<std::uint32_t>(enough)).empty());
     small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
     EXPECT_TRUE(warningsOf(*small, 32).empty());
+}
+
+// They fill gaps as wide as they are blurred.
+TEST(PlanWarnings, lensCellsNeedFewerSamples) {
+    const auto small = quadsAt({0.5, 4});
+    small->view.lens.fStop = 0.2;
+    ASSERT_FALSE(warningsOf(*small, 64).empty());
+    EXPECT_TRUE(warningsOf(*small, 64, "multirate").empty());
+    const std::vector<std::string> lines = warningsOf(*small, 8, "multirate");
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_TRUE(warningsOf(*small, static_cast<std::uint32_t>(numberAfter(lines[0], "about ")), "multirate").empty());
+    small->view.lens.blurScale = numberAfter(lines[0], "--blur-scale ");
+    EXPECT_TRUE(warningsOf(*small, 8, "multirate").empty());
 }
 
 TEST(PlanWarnings, anObjectAroundTheCameraSaysNothingOfItsBlur) {

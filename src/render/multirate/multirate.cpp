@@ -106,6 +106,7 @@ Method multirateMethod() {
     return {.name = "multirate",
             .description = "the same, each image blurred as its part of the lens would blur it: fewer samples do",
             .sumsBlocks = true,
+            .blursCells = true,
             .settings = multirateSettings(),
             .make = makeMultirate};
 }
