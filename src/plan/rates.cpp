@@ -69,6 +69,7 @@ std::vector<LensSample> groupImages(const FramePlan& block, std::uint32_t groupS
 
 void moveToCells(FramePlan& block, const LensCells& cells) {
     for (LensSample& sample : block.samples) {
+        assert(sample.index - cells.firstSample < cells.middles.size());
         sample.lens = cells.middles[sample.index - cells.firstSample];
         sample.pixel += glm::vec2(cells.pixelShift);
     }
