@@ -16,7 +16,7 @@ TEST(SceneLoader, handsOverWhatItOpenedOnce) {
     SceneLoader loader;
     Request absent;
     absent.scene = "absent.glb";
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 200; ++i) {
         loader.open(absent);
         const std::optional<LoadedScene> loaded = waitedFor(loader);
         ASSERT_TRUE(loaded) << "round " << i;
