@@ -117,7 +117,7 @@ protected:
             }
             pause(0.05);
         }
-        stop(program_);
+        if (program_ > 0) stop(program_);  // −1, where it could not be started, would stop every process
         program_ = -1;
         return -1;
     }
