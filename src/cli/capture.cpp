@@ -149,13 +149,13 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
 
 // Of the first frame.
 void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-                       const std::vector<FilmFrame>& film, const Method& method, const GlobalOptions& global) {
+                       const std::vector<FilmFrame>& film, const MethodUse& use, const GlobalOptions& global) {
     const SequenceFrame frame = frameAt(arguments.shot, base, film.front().frame);
     prepared.world.pose = frame.pose;
     prepared.world.shutter = frame.shutter;
     const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
     printWarnings(unusedSettings(arguments.request, *prepared.scene, frame.view.lens), global);
-    printWarnings(planWarnings(plan, method), global);
+    printWarnings(planWarnings(plan, use), global);
 }
 
 // All frames are exposed as the shot's first one is metered, whichever of them this run renders.
@@ -256,7 +256,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     progress = {};
     printFrameWarnings(prepared, global);
     printWarnings(ignoredWarnings(*prepared.scene), global);
-    if (!allThere) printPlanWarnings(arguments, prepared, base, film, *use.method, global);
+    if (!allThere) printPlanWarnings(arguments, prepared, base, film, use, global);
     if (arguments.dryRun) return printPlan(arguments, prepared, base, film);
     if (meters) meterFilm(arguments, prepared, base, film, global);
     progress = terminalProgress(global);

@@ -35,7 +35,7 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     printFrameWarnings(frame, global);
     printWarnings(ignoredWarnings(*frame.scene), global);
     printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
-    printWarnings(planWarnings(plan, methodNamed("accumulation")), global);
+    printWarnings(planWarnings(plan, parseMethodUse("accumulation")), global);
 }
 
 }  // namespace

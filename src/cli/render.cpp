@@ -219,7 +219,7 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     printWarnings(ignoredWarnings(*frame.scene), global);
     printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
     const auto warnOfPlan = [&](const FramePlan& plan, std::uint64_t samples = 0) {
-        printWarnings(planWarnings(plan, method, samples), global);
+        printWarnings(planWarnings(plan, use, samples), global);
     };
     const bool counted = !arguments.request.stop.given() && !isAutomatic(arguments.request);
     if (counted) warnOfPlan(planFrame(frame.world, frame.view, frame.settings));

@@ -40,15 +40,20 @@ std::string nothingBlurred(const FramePlan& plan) {
         plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
 }
 
-// Between the images of a point, as a number that rises with them.
+bool blursCells(const MethodUse& use) {
+    const auto cells = use.settings.find("cells");
+    return cells != use.settings.end() && cells->second == "on";
+}
+
+// How far apart the images of a point lie, px; of lens cells, the σ that fills it.
 struct Gaps {
     double size = 0;
     double most = 16;  // that a disk may show
     double good = 8;
 };
 
-Gaps gapsOf(const FramePlan& plan, const Method& method, double blur, std::uint64_t samples) {
-    if (const LensCells cells = method.blursCells ? lensCells(plan) : LensCells{}; cells.blur > 0) {
+Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {
+    if (const LensCells cells = blursCells(use) ? lensCells(plan) : LensCells{}; cells.blur > 0) {
         const double widest = std::sqrt(cellClassVariance(mostCellClasses - 1));  // σ, px
         return {cells.blur * blur, widest, 0.7 * widest};
     }
@@ -69,7 +74,8 @@ std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std
 
 }  // namespace
 
-std::vector<std::string> planWarnings(const FramePlan& plan, const Method& method, std::uint64_t samples) {
+std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& use, std::uint64_t samples) {
+    const Method& method = *use.method;
     if (samples == 0) samples = plan.samples.size();
     std::vector<std::string> lines;
     if (plan.usesTransmission && !method.showsThrough)
@@ -81,7 +87,7 @@ std::vector<std::string> planWarnings(const FramePlan& plan, const Method& metho
     if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
     const double blur = largestBoundedBlur(plan);
     if (!method.usesLensSamples || !std::isfinite(blur)) return lines;
-    if (const Gaps gaps = gapsOf(plan, method, blur, samples); gaps.size > gaps.most)
+    if (const Gaps gaps = gapsOf(plan, use, blur, samples); gaps.size > gaps.most)
         lines.push_back(copiesShow(plan, blur, gaps, samples));
     return lines;
 }

@@ -317,7 +317,7 @@ std::vector<std::string> SceneRenderer::State::warnings() const {
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     add(ignoredWarnings(*frame_.scene));
     add(unusedSettings(request_, *frame_.scene, frame_.view.lens));
-    if (renderer_) add(planWarnings(plan(), *chosenMethod(request_).method));
+    if (renderer_) add(planWarnings(plan(), chosenMethod(request_)));
     if (tiled_) add(tiledSamplesNote(plan(), isAutomatic(request_)));
     add(clipped_);
     return lines;

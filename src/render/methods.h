@@ -53,7 +53,6 @@ struct Method {
     bool shadesAsLit = true;      // false: only unlit, opaque surfaces look as with the other methods
     bool showsThrough = true;     // false: what transmits is drawn opaque
     bool sumsBlocks = false;      // Renderer::continueWith adds to the sum: the number of samples may be left open
-    bool blursCells = false;      // images are blurred as their lens cells would be (plan/lens_cells.h)
     bool drawsTiles = false;      // FramePlan::tile is honoured; else the whole image is drawn, whatever the plan says
     bool drawsShadows = true;     // false: lights shine through whatever stands before them
     bool drawsMotion = true;      // false: everything stands still while the shutter is open

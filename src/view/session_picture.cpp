@@ -106,7 +106,7 @@ void ViewSession::updateWarnings() {
         clipping_ = clippingWarnings(picture_->image(), write);
         clippingKnownAt_ = key;
     }
-    warnings_ = planWarnings(picture_->plan(), *chosenMethod(state_.options).method, state_.mostSamples);
+    warnings_ = planWarnings(picture_->plan(), chosenMethod(state_.options), state_.mostSamples);
     if (clippingKnownAt_) warnings_.insert(warnings_.end(), clipping_.begin(), clipping_.end());
 }
 

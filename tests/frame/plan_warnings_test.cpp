@@ -29,7 +29,7 @@ std::vector<std::string> warningsOf(const SmallWorld& small, std::uint32_t sampl
                                     const char* method = "accumulation") {
     RenderSettings settings;
     settings.sampleCount = samples;
-    return planWarnings(planFrame(small.world, small.view, settings), methodNamed(method));
+    return planWarnings(planFrame(small.world, small.view, settings), parseMethodUse(method));
 }
 
 double numberAfter(const std::string& text, const std::string& words) {
@@ -109,6 +109,7 @@ TEST(PlanWarnings, lensCellsNeedFewerSamples) {
     small->view.lens.fStop = 0.2;
     ASSERT_FALSE(warningsOf(*small, 64).empty());
     EXPECT_TRUE(warningsOf(*small, 64, "multirate").empty());
+    EXPECT_EQ(warningsOf(*small, 64, "multirate:cells=off"), warningsOf(*small, 64));
     const std::vector<std::string> lines = warningsOf(*small, 8, "multirate");
     ASSERT_EQ(lines.size(), 1u);
     EXPECT_TRUE(warningsOf(*small, static_cast<std::uint32_t>(numberAfter(lines[0], "about ")), "multirate").empty());
@@ -129,7 +130,7 @@ TEST(PlanWarnings, methodsThatDrawGlassOpaqueSaySo) {
     const auto small = quadsAt({4, 8});
     RenderSettings settings;
     const auto linesOf = [&](const char* method) {
-        return planWarnings(planFrame(small->world, small->view, settings), methodNamed(method));
+        return planWarnings(planFrame(small->world, small->view, settings), parseMethodUse(method));
     };
     EXPECT_TRUE(linesOf("stochastic").empty());
     small->scene.materials[0].unlit = false;

@@ -106,7 +106,6 @@ Method multirateMethod() {
     return {.name = "multirate",
             .description = "the same, each image blurred as its part of the lens would blur it: fewer samples do",
             .sumsBlocks = true,
-            .blursCells = true,
             .settings = multirateSettings(),
             .make = makeMultirate};
 }
