@@ -31,7 +31,8 @@ protected:
 };
 
 // What the process held while it rendered the frames from 90 to 110, and while it rendered the last 20: the median of
-// its memory, and the fewest handles, as files of frames are open now and then.
+// its memory, and the fewest handles. A file of a frame may be open whenever one looks, so a few handles more say nothing;
+// one lost in every twentieth frame would be ten more.
 TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     const int frames = roundsOr("DEFOCUS_SOAK_FRAMES", 300);
     nlohmann::json document = shot();
@@ -71,7 +72,7 @@ TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     fmt::print("{} frames: {:.1f} MB about frame 100, {:.1f} MB at the end; {} and {} handles\n", frames, before, after,
                fewestBefore, fewestAfter);
     EXPECT_LE(after, 1.02 * before);
-    EXPECT_LE(fewestAfter, fewestBefore);
+    EXPECT_LT(fewestAfter, fewestBefore + 5);
 }
 
 // Each builds or reads the same pyramids; all draw the same picture, and nothing half is left.
