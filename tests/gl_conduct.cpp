@@ -30,7 +30,7 @@
 
 #include "core/error.h"
 #include "gl/context.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <sys/types.h>
 
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,17 +12,17 @@
 namespace defocus {
 
 struct Held {
-    double megabytes = 0;  // resident
+    double megabytes = 0;  // resident, without pages of files, which the system drops and loads as it likes
     int handles = 0;       // open descriptors
 };
 
 inline Held heldBy(pid_t process) {
     Held held;
     const std::string folder = "/proc/" + std::to_string(process) + "/";
-    std::ifstream file(folder + "statm");
-    std::uint64_t size = 0, resident = 0;
-    file >> size >> resident;
-    held.megabytes = static_cast<double>(resident) * 4096e-6;
+    std::ifstream file(folder + "status");
+    for (std::string line; std::getline(file, line);)
+        for (const char* kind : {"RssAnon:", "RssShmem:"})
+            if (line.starts_with(kind)) held.megabytes += 1.024e-3 * std::stod(line.substr(line.find(':') + 1));
     std::error_code gone;
     using Files = std::filesystem::directory_iterator;
     held.handles = static_cast<int>(std::distance(Files(folder + "fd", gone), Files()));

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -42,14 +41,32 @@ std::optional<std::uint64_t> availableOfMachine() {
     return {};
 }
 
-// What the process's control group, and those that it is in, leave (cgroup v2; v1 keeps its own files).
+// Of a control group's memory: pages of files that nobody has read for a while, which the system drops when others need
+// their place.
+std::uint64_t droppable(const std::string& statisticsFile, std::string_view name) {
+    std::ifstream file(statisticsFile);
+    std::string word;
+    for (std::uint64_t bytes = 0; file >> word >> bytes;)
+        if (word == name) return bytes;
+    return 0;
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> leftByControlGroup(const std::string& folder, bool unified) {
+    const auto limit = numberIn(folder + (unified ? "/memory.max" : "/memory.limit_in_bytes"));
+    const auto used = numberIn(folder + (unified ? "/memory.current" : "/memory.usage_in_bytes"));
+    if (!limit || !used) return {};
+    const std::uint64_t dropped = droppable(folder + "/memory.stat", unified ? "inactive_file" : "total_inactive_file");
+    const std::uint64_t kept = *used - std::min(dropped, *used);
+    return *limit - std::min(kept, *limit);
+}
+
+namespace {
+
+// What the process's control group leaves, and those that it is in.
 std::uint64_t leftByControlGroups() {
     std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-    const auto consider = [&](const std::string& limitFile, const std::string& usedFile) {
-        const auto limit = numberIn(limitFile);
-        const auto used = numberIn(usedFile);
-        if (limit && used) least = std::min(least, *limit > *used ? *limit - *used : 0);
-    };
     std::ifstream file("/proc/self/cgroup");
     for (std::string line; std::getline(file, line);) {
         const std::size_t colon = line.rfind(':');
@@ -58,11 +75,7 @@ std::uint64_t leftByControlGroups() {
         if (!unified && line.find(":memory:") == std::string::npos) continue;
         const std::string root = unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
         for (std::string group = line.substr(colon + 1);; group.erase(group.rfind('/'))) {
-            const std::string folder = root + group + "/";
-            if (unified)
-                consider(folder + "memory.max", folder + "memory.current");
-            else
-                consider(folder + "memory.limit_in_bytes", folder + "memory.usage_in_bytes");
+            if (const auto left = leftByControlGroup(root + group, unified)) least = std::min(least, *left);
             if (group.empty() || group.rfind('/') == std::string::npos) break;
         }
     }

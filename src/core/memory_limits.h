@@ -2,6 +2,7 @@
 // How much memory there is, and how much this process has.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,10 @@ namespace defocus {
 
 // Bytes that the machine, and the control group that the process is in, would still give. 0 where nobody says.
 std::uint64_t freeMemory();
+
+// Bytes that the control group of this folder leaves under its limit, pages of files that may be dropped not counted as
+// used; none without a limit. `unified`: cgroup v2, whose files have other names.
+std::optional<std::uint64_t> leftByControlGroup(const std::string& folder, bool unified);
 
 // Bytes of the process that are in main memory now.
 std::uint64_t residentMemory();

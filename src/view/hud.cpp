@@ -148,20 +148,17 @@ void drawFocusPoints(const HudContext& context, const ViewState& state) {
 // Where somebody clicked to focus: corners of a frame that closes in, as a camera's focus point does, and the distance
 // in words. A small cross where nothing is.
 void drawMarker(const HudContext& context, ViewState& state) {
-    if (!state.marker) return;
-    const double age = context.now - state.marker->since;
-    if (age > markerDuration) {
-        state.marker.reset();
-        return;
-    }
-    const glm::dvec3 p = glm::inverse(state.camera.worldFromCamera) * glm::dvec4(state.marker->point, 1);
+    const double age = context.now - state.marker.since;
+    state.marker.shown &= age <= markerDuration;
+    if (!state.marker.shown) return;
+    const glm::dvec3 p = glm::inverse(state.camera.worldFromCamera) * glm::dvec4(state.marker.point, 1);
     if (!(p.z < 0)) return;
     const glm::dvec2 tangents = tanHalfFov(state, context.area);
     const ImVec2 at = corner(context, 0.5 - 0.5 * p.x / (p.z * tangents.x), 0.5 + 0.5 * p.y / (p.z * tangents.y));
     const auto alpha = static_cast<float>(std::clamp((markerDuration - age) / 0.7, 0.0, 1.0));
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = context.scale;
-    const bool hit = !state.marker->name.empty();
+    const bool hit = !state.marker.name.empty();
     const float closing = hit ? 10 * static_cast<float>(1 - eased(age / 0.25)) : 0;
     const float half = ((hit ? 13.0f : 6.0f) + closing) * s;
     const float arm = 6 * s;
@@ -181,7 +178,7 @@ void drawMarker(const HudContext& context, ViewState& state) {
         }
     }
     const std::string text =
-        hit ? fmt::format("{}   {}", state.marker->name, distanceText(state.marker->distance)) : "nothing here";
+        hit ? fmt::format("{}   {}", state.marker.name, distanceText(state.marker.distance)) : "nothing here";
     const float room = corner(context, 1, 0).x - at.x - half - 8 * s;
     const bool left = labelWidth(context, text) > room;
     label(context, {at.x + (left ? -1 : 1) * (half + 6 * s), at.y}, left ? 1 : 0, 0.5f, text, white, alpha);

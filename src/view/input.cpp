@@ -313,9 +313,11 @@ void ViewInput::release(const WindowEvent& event, const InputContext& context, V
     const auto surface = pickedSurface(*context.frame, state, context.area, event.position);
     const glm::dvec2 tangents = tanHalfFov(state, context.area);
     const glm::dvec3 ray = rayThrough(state.camera, context.area.normalized(event.position), tangents.x, tangents.y);
+    const auto mark = [&](const glm::dvec3& point, const std::string& name, double distance) {
+        state.marker = {true, state.marker.number + 1, point, context.now, name, distance};
+    };
     if (!surface) {
-        if (!event.control)
-            state.marker = {state.camera.position() + state.camera.pivotDistance * ray, context.now, "", 0};
+        if (!event.control) mark(state.camera.position() + state.camera.pivotDistance * ray, "", 0);
         return;
     }
     const glm::dvec3 point = state.camera.position() + surface->depth * ray;
@@ -328,7 +330,7 @@ void ViewInput::release(const WindowEvent& event, const InputContext& context, V
     const double distance = surface->depth * focusTerm(state, context.area, event.position);
     pullFocus(state, distance, context.now);
     const std::string& name = context.frame->world.pose.objects[static_cast<std::size_t>(surface->object)].name;
-    state.marker = {point, context.now, name.empty() ? "a surface" : name, distance};
+    mark(point, name.empty() ? "a surface" : name, distance);
     state.camera.pivotDistance = surface->depth;
     const bool samePlace = glm::length(event.position - lastClickAt_) < clickRadius;
     if (lastClick_ >= 0 && context.now - lastClick_ < doubleClick && samePlace) actions.frameSelection = true;

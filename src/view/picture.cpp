@@ -191,6 +191,7 @@ void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget)
 void ViewPicture::beginGrowing(const PictureRequest& request) {
     growing_ = true;
     grows_ = true;
+    ++begun_;
     passTotals_.clear();
     presentedSamples_ = firstShownSample - 1;
     first_->begin(request.view, settingsOf(request.settings, request.first), request.mostSamples, request.targetError);

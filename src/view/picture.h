@@ -75,8 +75,9 @@ public:
     [[nodiscard]] std::uint32_t wave() const { return first_ ? first_->stats().wave : 0; }  // samples drawn at once
     // Of the latest frame: passes by timer queries, set-up by the clock.
     [[nodiscard]] const std::vector<PassShare>& passes() const { return passes_; }
-    // Times that things have changed since the scene was there.
+    // Times since the scene was there that things have changed, and that a still image was begun.
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -119,6 +120,7 @@ private:
     std::vector<PassShare> passes_, passTotals_;
     double setupTotal_ = 0;
     std::uint64_t changes_ = 0;
+    std::uint64_t begun_ = 0;
 };
 
 }  // namespace defocus

@@ -181,7 +181,7 @@ double ViewSession::waitingTime() const {
     if (export_ || state_.animation.playing || state_.pull || state_.poppingSince || !picture_->finished() ||
         options_.frames > 0)
         return 0;
-    if (loader_.busy() || state_.marker) return 0.03;
+    if (loader_.busy() || state_.marker.shown) return 0.03;
     return state_.messages.empty() && !desktopDialog_.running() ? 0.25 : 0.1;
 }
 

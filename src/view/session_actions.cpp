@@ -126,7 +126,7 @@ void ViewSession::keepViews(const ViewActions& actions) {
     state_.lens.apertureImage = aperture;
     state_.followsCamera = false;
     state_.pull.reset();
-    state_.marker.reset();
+    state_.marker.shown = false;
 }
 
 void ViewSession::tiltFocus() {
@@ -243,6 +243,7 @@ void ViewSession::writeStats() {
     statsWrittenAt_ = now();
     const PictureArea picture = area();
     const glm::dvec3 position = state_.camera.position();
+    const FocusMarker& marker = state_.marker;
     nlohmann::ordered_json passes = {{"interface", interfaceMilliseconds_}};
     if (picture_)
         for (const PassShare& pass : picture_->passes()) passes[pass.name] = pass.milliseconds;
@@ -262,6 +263,7 @@ void ViewSession::writeStats() {
         {"converged", picture_ && picture_->converged()},
         {"moving", picture_ && picture_->moving()},
         {"changes", picture_ ? picture_->changes() : 0},
+        {"begun", picture_ ? picture_->begun() : 0},
         {"frameMilliseconds", frameMilliseconds_},
         {"passMilliseconds", passes},
         {"inputMilliseconds",
@@ -291,7 +293,8 @@ void ViewSession::writeStats() {
                      : nullptr},
         {"warnings", warnings_},
         {"drawn", {plan.view.width, plan.view.height, plan.samples.size()}},
-        {"marker", state_.marker ? json{{"name", state_.marker->name}, {"distance", state_.marker->distance}} : json()},
+        {"marker",
+         {{"shown", marker.shown}, {"number", marker.number}, {"name", marker.name}, {"distance", marker.distance}}},
         {"undoSteps", history_.undoSteps()},
         {"redoSteps", history_.redoSteps()},
         {"exposure", shownExposure(state_)},

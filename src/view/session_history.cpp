@@ -78,7 +78,7 @@ void ViewSession::restore(const std::optional<ViewEdit>& edit, const char* other
     state_.display.exposure = edit->exposure;
     state_.meters = edit->meters;
     state_.display.toneMap = edit->toneMap;
-    state_.marker.reset();
+    state_.marker.shown = false;
     state_.focusPoints.clear();
     if (!frame_->scene->clips.empty()) poseScene();
 }

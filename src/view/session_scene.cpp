@@ -87,7 +87,7 @@ void ViewSession::adoptScene(LoadedScene scene) {
     makePicture();
     window_.setTitle(frame_->sceneName + " – defocus");
     state_.meters = scene.options.exposureAuto;
-    state_.marker.reset();
+    state_.marker.shown = false;
     meterDue_ = false;
     nodeBlurs_.clear();
     for (const Node& node : frame_->scene->nodes) nodeBlurs_.push_back(node.cocScale);

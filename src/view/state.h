@@ -35,12 +35,14 @@ struct Message {
     double until = 0;  // s, of the window's clock
 };
 
-// Where somebody clicked to focus; fades away.
+// Where somebody clicked to focus last; fades away.
 struct FocusMarker {
-    glm::dvec3 point{0.0};  // in the world
-    double since = 0;       // s, of the window's clock
-    std::string name;       // of what is there; empty: nothing is
-    double distance = 0;    // m, of the focus
+    bool shown = false;
+    std::uint64_t number = 0;  // of the click, from 1
+    glm::dvec3 point{0.0};     // in the world
+    double since = 0;          // s, of the window's clock
+    std::string name;          // of what is there; empty: nothing is
+    double distance = 0;       // m, of the focus
 };
 inline constexpr double markerDuration = 2.2;  // s
 
@@ -68,7 +70,7 @@ struct ViewState {
     int selected = -1;  // object; the one that was focused on last
     AnimationState animation;
     std::optional<FocusPull> pull;
-    std::optional<FocusMarker> marker;
+    FocusMarker marker;
     std::vector<glm::dvec3> focusPoints;  // in the world; fewer than three: the focus plane waits for the rest
 
     // How it is shown.

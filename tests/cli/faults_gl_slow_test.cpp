@@ -150,7 +150,7 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
     };
     const auto begin = std::chrono::steady_clock::now();
     ASSERT_EQ(ran(line), 0) << said();
-    const auto lasts = std::chrono::steady_clock::now() - begin;
+    auto lasts = std::chrono::steady_clock::now() - begin;
     ASSERT_TRUE(whole());
     std::mt19937 random(5);
     int killed = 0;
@@ -167,7 +167,10 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         ::kill(-child, SIGKILL);  // with the process that draws
         int status = 0;
         ::waitpid(child, &status, 0);
-        killed += WIFSIGNALED(status) ? 1 : 0;
+        if (WIFSIGNALED(status))
+            ++killed;
+        else
+            lasts /= 2;  // the first run took longer than this one: fonts were looked for, or the machine stood still
         EXPECT_TRUE(whole() || (!before && !fs::exists(folder() / "report/index.html"))) << i;
         for (const fs::directory_entry& entry : fs::directory_iterator(folder() / "report")) {
             const bool json = entry.path().extension() == ".json" && entry.path().filename().string().front() != '.';

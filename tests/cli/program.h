@@ -26,7 +26,7 @@ struct Outcome {
 
 // Lines as "pyramids: 65 %, 3 s left" come where work takes longer than a second, so that how many there are is chance.
 inline std::string withoutProgress(const std::string& text) {
-    static const std::regex line("[a-z ]+: [0-9]+ %(, [0-9:]+ (s|min|h) left)?\\n");
+    static const std::regex line("(frame [0-9]+(, [^\n]*)?|[a-z ]+): [0-9]+ %(, [0-9:]+ (s|min|h) left)?\\n");
     return std::regex_replace(text, line, "");
 }
 

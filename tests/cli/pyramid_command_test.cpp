@@ -9,12 +9,12 @@
 #include "cli/command.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "image/scratch_folder.h"
 #include "lod/invariants.h"
 #include "lod/pyramid/cache.h"
 #include "scene/gltf/gltf.h"
 #include "scene/gltf/write.h"
 #include "school/fish_school.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {

@@ -7,11 +7,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "cli/become_program.h"
 #include "cli/shots.h"
+#include "cli/traced_child.h"
 #include "image/image_io.h"
 #include "process_memory.h"
 
@@ -22,17 +21,20 @@ namespace fs = std::filesystem;
 
 class Soak : public Capture {
 protected:
-    [[nodiscard]] pid_t start(std::vector<std::string> words) const {
-        const pid_t child = ::fork();
-        if (child != 0) return child;
+    void become(std::vector<std::string> words) const {
         const int said = ::open((folder() / "said").c_str(), O_CREAT | O_APPEND | O_WRONLY, 0600);
         becomeProgram(std::move(words), folder(), cacheFolder().parent_path(), said, said);
     }
+    [[nodiscard]] pid_t start(std::vector<std::string> words) const {
+        const pid_t child = ::fork();
+        if (child == 0) become(std::move(words));
+        return child;
+    }
 };
 
-// What the process held while it rendered the frames from 90 to 110, and while it rendered the last 20: the median of
-// its memory, and the fewest handles. A file of a frame may be open whenever one looks, so a few handles more say nothing;
-// one lost in every twentieth frame would be ten more.
+// What the process held at each write of the frames from 90 to 109, and of the last 20: the median of its memory, and
+// the fewest handles. Other frames' files may be open whenever one looks, so a few handles more say nothing; one lost
+// in every twentieth frame would be ten more.
 TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     const int frames = roundsOr("DEFOCUS_SOAK_FRAMES", 300);
     nlohmann::json document = shot();
@@ -40,28 +42,24 @@ TEST_F(Soak, aLongFilmTakesNoMoreMemoryAndLeavesNoHandleOpen) {
     document["lens"] = {{"fStop", {{"keys", {{{"frame", 0}, {"value", 1.4}}, {{"frame", frames}, {"value", 2.8}}}}}}};
     document["focus"] = {{"keys", {{{"frame", 0}, {"node", "Near"}}, {{"frame", frames}, {"distance", 8}}}}};
     writeShot(document);
-    const pid_t child = start({"capture", "shot.json", "--quiet", "--size", "32x24", "-o", "frames/####.exr"});
+    TracedChild child(
+        [this] {
+            become({"capture", "shot.json", "--quiet", "--size", "32x24", "-o", "frames/####.exr"});
+        },
+        "frames");
+    if (!child.traced()) GTEST_SKIP() << "processes can't be traced here (ptrace)";
     std::vector<double> early, late;
     std::vector<int> earlyHandles, lateHandles;
     int frame = 0;
-    siginfo_t ended{};
-    while (ended.si_pid == 0) {
+    const int code = child.end(0, 0, [&](pid_t process) {
         while (fs::exists(folder() / "frames" / fmt::format("{:04}.exr", frame))) ++frame;
-        const Held held = heldBy(child);
-        if (frame >= 90 && frame < 110) {
-            early.push_back(held.megabytes);
-            earlyHandles.push_back(held.handles);
-        }
-        if (frame >= frames - 20 && frame < frames) {
-            late.push_back(held.megabytes);
-            lateHandles.push_back(held.handles);
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    ASSERT_EQ(status, 0) << bytesOf("said");
+        const bool isEarly = frame >= 90 && frame < 110;
+        if (!isEarly && frame < frames - 20) return;
+        const Held held = heldBy(process);
+        (isEarly ? early : late).push_back(held.megabytes);
+        (isEarly ? earlyHandles : lateHandles).push_back(held.handles);
+    });
+    ASSERT_EQ(code, 0) << bytesOf("said");
     ASSERT_FALSE(early.empty() || late.empty());
     const auto median = [](auto values) {
         std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));

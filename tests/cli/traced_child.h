@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 
@@ -19,7 +21,7 @@ namespace defocus {
 class TracedChild {
 public:
     // `run` is what the child does, exec among it; writes to files of the folder called `folder` count, and all that
-    // give a file another name.
+    // give a file another name, unless it is the driver that keeps a shader.
     TracedChild(const std::function<void()>& run, std::string folder) : folder_("/" + std::move(folder) + "/") {
         child_ = ::fork();
         if (child_ == 0) {
@@ -46,8 +48,9 @@ public:
     [[nodiscard]] int calls() const { return calls_; }     // that count, so far
 
     // Goes on to the child's end. Before its `call`th call that counts, from 1, is carried out, it gets `signal`.
-    // Returns its exit code, or 128 + number of the signal that ended it.
-    int end(int call = 0, int signal = 0) {
+    // Before each, while the thread that makes it stands still, `look` sees the child. Returns its exit code, or 128 +
+    // number of the signal that ended it.
+    int end(int call = 0, int signal = 0, const std::function<void(pid_t)>& look = {}) {
         while (exitCode_ < 0) {
             int status = 0;
             const pid_t thread = ::waitpid(-1, &status, __WALL);
@@ -58,7 +61,10 @@ public:
             }
             const int reason = WSTOPSIG(status);
             const bool atCall = reason == (SIGTRAP | 0x80);
-            if (atCall && counts(thread) && ++calls_ == call) ::kill(child_, signal);
+            if (atCall && counts(thread)) {
+                if (++calls_ == call) ::kill(child_, signal);
+                if (look) look(child_);
+            }
             const bool own = atCall || reason == SIGTRAP || reason == SIGSTOP;  // of tracing; others are for the child
             ::ptrace(PTRACE_SYSCALL, thread, nullptr, own ? 0 : static_cast<long>(reason));
         }
@@ -75,13 +81,22 @@ private:
         constexpr std::array moves = {SYS_renameat, SYS_renameat2};
         const auto call = static_cast<long>(info.entry.nr);
 #ifdef SYS_rename
-        if (call == SYS_rename) return true;
+        if (call == SYS_rename) return !ofTheDriver(thread, info.entry.args[1]);
 #endif
-        if (std::ranges::find(moves, call) != moves.end()) return true;
+        if (std::ranges::find(moves, call) != moves.end()) return !ofTheDriver(thread, info.entry.args[3]);
         if (std::ranges::find(writes, call) == writes.end()) return false;
         std::error_code ignored;
         const std::string link = "/proc/" + std::to_string(thread) + "/fd/" + std::to_string(info.entry.args[0]);
         return std::filesystem::read_symlink(link, ignored).string().find(folder_) != std::string::npos;
+    }
+
+    // Whether the name at this address of the thread's memory lies in Mesa's cache of shaders.
+    static bool ofTheDriver(pid_t thread, std::uint64_t address) {
+        std::ifstream memory("/proc/" + std::to_string(thread) + "/mem", std::ios::binary);
+        memory.seekg(static_cast<std::streamoff>(address));
+        std::string name;
+        std::getline(memory, name, '\0');
+        return name.find("mesa_shader_cache") != std::string::npos;
     }
 
     std::string folder_;

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <vector>
 
 #include "core/error.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {
@@ -21,6 +23,26 @@ TEST(MemoryLimits, amountsHaveDecimalAndBinaryUnits) {
 TEST(MemoryLimits, anAmountIsShownInTheUnitThatSuits) {
     EXPECT_EQ(bytesText(999), "999 B");
     EXPECT_EQ(bytesText(std::uint64_t{3} << 29), "1.5 GiB");
+}
+
+// A limit of 1,000 bytes, 900 of them used, 300 of those for files that were read some time ago.
+TEST(MemoryLimits, filesThatWereReadDoNotUseUpAControlGroup) {
+    const ScratchFolder folder;
+    const auto write = [&](const char* name, const char* text) { std::ofstream(folder / name) << text << '\n'; };
+    const auto left = [&](bool unified) { return leftByControlGroup(folder.path().string(), unified); };
+    EXPECT_FALSE(left(true) || left(false));
+    write("memory.max", "1000");
+    write("memory.current", "900");
+    EXPECT_EQ(left(true), 100u);
+    write("memory.stat", "anon 400\nfile 500\nactive_file 200\ninactive_file 300\ntotal_inactive_file 100");
+    EXPECT_EQ(left(true), 400u);
+    write("memory.limit_in_bytes", "1000");
+    write("memory.usage_in_bytes", "900");
+    EXPECT_EQ(left(false), 200u);
+    write("memory.current", "1300");  // above the limit for a moment
+    EXPECT_EQ(left(true), 0u);
+    write("memory.max", "max");
+    EXPECT_FALSE(left(true));
 }
 
 // What this process touches counts as resident, and no longer as free.

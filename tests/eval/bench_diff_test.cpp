@@ -10,7 +10,7 @@
 #include "eval/scaling/text.h"
 #include "eval/speedup/text.h"
 #include "eval/stability/text.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {

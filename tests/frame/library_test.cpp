@@ -10,7 +10,7 @@
 
 #include "cli/two_quads.h"
 #include "defocus/defocus.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {

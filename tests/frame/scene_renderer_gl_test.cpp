@@ -15,7 +15,7 @@
 #include "frame/own_context.h"
 #include "gl/context.h"
 #include "image/image_io.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {

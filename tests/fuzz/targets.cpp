@@ -24,7 +24,6 @@
 #include "image/image_io.h"
 #include "image/image_rows.h"
 #include "image/metrics.h"
-#include "image/scratch_folder.h"
 #include "lens/aperture.h"
 #include "lod/pyramid/file.h"
 #include "lod/shapes.h"
@@ -32,6 +31,7 @@
 #include "scene/gltf/builder.h"
 #include "scene/gltf/gltf.h"
 #include "scene/ground.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {

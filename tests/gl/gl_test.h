@@ -13,7 +13,7 @@
 #include "gl/fullscreen.h"
 #include "gl/read_back.h"
 #include "gl/target.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 

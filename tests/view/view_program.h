@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,9 +38,11 @@ protected:
         if (::pipe(ends) != 0) return;
         server_ = ::fork();
         if (server_ == 0) {
+            endWithTheTest();
             ::dup2(ends[1], 3);
             silence();
-            const std::vector<std::string> others = {"-displayfd", "3", "-noreset", "-nolisten", "tcp"};
+            // -r: no key repeats by itself, however long this machine takes between press and release
+            const std::vector<std::string> others = {"-displayfd", "3", "-noreset", "-r", "-nolisten", "tcp"};
             words.insert(words.begin(), "Xvfb");
             words.insert(words.end(), others.begin(), others.end());
             std::vector<char*> pointers;
@@ -85,6 +88,7 @@ protected:
         std::fflush(nullptr);  // or the child would write it once more
         program_ = ::fork();
         if (program_ != 0) return;
+        endWithTheTest();
         if (::chdir(folder_.c_str()) != 0) ::_exit(96);
         if (hasDisplay)
             ::setenv("DISPLAY", display_.c_str(), 1);
@@ -211,6 +215,8 @@ private:
         return program_ > 0 && ::waitid(P_PID, static_cast<id_t>(program_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
                info.si_pid == 0;
     }
+    // Of a child: where the test is killed, nothing of it is left, nor keeps its output open.
+    static void endWithTheTest() { ::prctl(PR_SET_PDEATHSIG, SIGKILL); }
     static void silence() {
         const int null = ::open("/dev/null", O_WRONLY);
         ::dup2(null, 1);

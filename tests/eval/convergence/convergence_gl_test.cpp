@@ -12,7 +12,7 @@
 #include "eval/convergence/crops.h"
 #include "eval/convergence/rows.h"
 #include "gl/context.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 #include "small_world.h"
 
 namespace defocus {

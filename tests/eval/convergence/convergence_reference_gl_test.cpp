@@ -11,7 +11,7 @@
 #include "frame/reference_image.h"
 #include "gl/context.h"
 #include "image/image_io.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 #include "small_world.h"
 
 namespace defocus {

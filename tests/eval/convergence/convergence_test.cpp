@@ -15,7 +15,7 @@
 #include "eval/convergence/rows.h"
 #include "eval/convergence/text.h"
 #include "frame/world_hash.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 #include "small_world.h"
 
 namespace defocus {

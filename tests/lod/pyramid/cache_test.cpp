@@ -17,10 +17,10 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "image/scratch_folder.h"
 #include "likeness.h"
 #include "lod/pyramid/file.h"
 #include "lod/shapes.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {

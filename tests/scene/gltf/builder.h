@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "image/scratch_folder.h"
 #include "scene/gltf/gltf.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 

@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "image/scratch_folder.h"
 #include "scene/gltf/gltf.h"
+#include "scratch_folder.h"
 
 namespace defocus {
 namespace {
