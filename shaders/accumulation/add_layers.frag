@@ -26,6 +26,7 @@ layout(std140, binding = 4) uniform SampleBlock {
 #include "include/cells.glsl"
 layout(binding = 6) uniform sampler2DArray layerDepths;
 layout(rgba32f, binding = 0) uniform image2DArray cellSums;
+layout(r32ui, binding = 1) uniform uimage2D heldClasses;   // of each tile
 layout(location = 3) uniform float cellBlur;   // σ of the blur of a sample's image, as a share of |c|
 #endif
 layout(location = 0) uniform int layerCount;
@@ -39,8 +40,8 @@ layout(location = 1) out vec4 compensationOut;
 // Alpha-blended surfaces add their alpha to that of what is opaque, the sky included.
 const float BLENDED_ALPHA = 1.001;
 
-// Adds what a pixel of a layer shows to the classes of its blur.
-void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
+// Adds what a pixel of a layer shows to the classes of its blur, and those to `held`.
+void addToCells(inout vec4 sums[cellClasses], inout uint held, vec4 value, ivec3 texel, vec2 ndc) {
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
     float variance = value.a < BLENDED_ALPHA ? max(0.0, cellBlur * cellBlur * c * c - LEAST_CELL_VARIANCE) : 0.0;
     float inFront = c < 0.0 ? variance : 0.0;
@@ -48,6 +49,7 @@ void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc)
     value.a = 1.0;
     for (int k = 0; k < CELLS_IN_FRONT; ++k) sums[k] += (1.0 - reachOfClass(inFront, k)) * value;
     for (int k = 0; k < CELLS_BEHIND; ++k) sums[CELLS_IN_FRONT + k] += reachOfClass(behind, k) * value;
+    held |= variance > 0.0 ? classesOf(variance, c < 0.0 ? CELLS_IN_FRONT : CELLS_BEHIND) << (c < 0.0 ? 0 : CELLS_IN_FRONT) : 0u;
 }
 #endif
 
@@ -76,7 +78,11 @@ vec3 behind(vec2 imagePlane, int layer) { return lighting.environment[0].rgb; }
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    bool startsBlock = firstInBlock == 0;
+#ifdef STARTS_BLOCK
+    const bool startsBlock = true;
+#else
+    const bool startsBlock = false;
+#endif
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
     vec4 compensation = startsBlock ? vec4(0.0) : texelFetch(compensationSoFar, pixel, 0);
     ivec2 layerPixel = pixel + firstPixel;
@@ -93,6 +99,7 @@ void main() {
 #ifdef LENS_CELLS
     vec2 ndc = imagePlane * frame.projection.xy;
     vec4 cells[cellClasses];
+    uint held = 0u;
     for (int k = 0; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
 #endif
     for (int layer = 0; layer < layerCount; ++layer) {
@@ -123,11 +130,13 @@ void main() {
         addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
 #endif
 #ifdef LENS_CELLS
-        addToCells(cells, value, ivec3(layerPixel, layer), ndc);
+        addToCells(cells, held, value, ivec3(layerPixel, layer), ndc);
 #endif
     }
 #ifdef LENS_CELLS
     for (int k = 0; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
+    ivec2 tile = pixel / cellTile;
+    if ((held & ~imageLoad(heldClasses, tile).r) != 0u) imageAtomicOr(heldClasses, tile, held);
 #endif
 #if BACKGROUND != 0
     sum.a += seen;   // whole numbers: exact

@@ -5,17 +5,20 @@
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
-layout(binding = 2) uniform sampler2DArray means[cellClasses];   // layer 0: what it shows; layer 1, red: samples open to it
+layout(binding = 2) uniform usampler2D spreadClasses;
+// Mipmap level k is of class k, layer 0 in front of the focus and layer 1 behind it: what it shows, and the samples that are open to it.
+layout(binding = 3) uniform sampler2DArray shownMeans;
+layout(binding = 4) uniform sampler2DArray openMeans;
 
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
 
 // Lays what class k of a side shows over `image`, as much as it does of what is open to it.
-void layOver(inout vec3 image, sampler2DArray means, int k) {
-    vec2 place = gl_FragCoord.xy * exp2(float(-k)) + (k == 0 ? 0.5 : 0.0);   // single pixels have means around their corners
-    place /= vec2(textureSize(means, 0).xy);
-    vec4 shown = textureLod(means, vec3(place, 0.0), 0.0);
-    float open = textureLod(means, vec3(place, 1.0), 0.0).r;
+void layOver(inout vec3 image, int k, float side) {
+    // Single pixels have means around their corners.
+    vec2 place = (gl_FragCoord.xy + (k == 0 ? 0.5 : 0.0)) / vec2(textureSize(openMeans, 0).xy);
+    vec4 shown = textureLod(shownMeans, vec3(place, side), float(k));
+    float open = textureLod(openMeans, vec3(place, side), float(k)).r;
     if (open > 1e-3) image = (shown.rgb + max(open - shown.a, 0.0) * image) / open;
 }
 
@@ -31,12 +34,18 @@ void main() {
     blurred = texelFetch(cellSums, ivec3(pixel, CELLS_IN_FRONT), 0);
 #endif
     vec3 image = vec3(0.0);
-    for (int k = CELLS_BEHIND - 1; k >= 0; --k) layOver(image, means[CELLS_IN_FRONT + k], k);
+    // Loops over the classes that are there cost less than branches around those that aren't: a software driver skips none.
+    uint spread = texelFetch(spreadClasses, pixel / cellTile, 0).r;
+    for (uint rest = spread >> CELLS_IN_FRONT; rest != 0u;) {
+        int k = findMSB(rest);
+        rest ^= 1u << k;
+        layOver(image, k, 1.0);
+    }
     if (open.a < 0.5)
         image = all.rgb / max(all.a, 1.0);
     else
         image = (max(open.rgb - blurred.rgb, 0.0) + min(blurred.a, open.a) * image) / open.a;
-    for (int k = 0; k < CELLS_IN_FRONT; ++k) layOver(image, means[k], k);
+    for (uint rest = spread & ((1u << CELLS_IN_FRONT) - 1u); rest != 0u; rest &= rest - 1u) layOver(image, findLSB(rest), 0.0);
     sumOut = vec4(image * all.a, all.a);
     compensationOut = vec4(0.0);
 }

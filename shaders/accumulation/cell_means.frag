@@ -5,11 +5,12 @@
 
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
+layout(binding = 2) uniform usampler2D spreadClasses;
 layout(location = 0) uniform int classIndex;      // NEAREST: the last one in front of the focus, which all samples are open to
 layout(location = 1) uniform int side;            // px of the squares, a power of 2
 
 layout(location = 0) out vec4 meanOut;
-layout(location = 1) out vec4 openOut;   // red
+layout(location = 1) out float openOut;
 
 // The samples that are open to the class, and those of them that don't show it.
 vec4 openTo(ivec2 pixel) {
@@ -31,6 +32,10 @@ vec4 beyond(ivec2 pixel) {
 void main() {
     ivec2 first = ivec2(gl_FragCoord.xy) * side - (side + 1) / 2;
     ivec2 last = textureSize(blockSum, 0) - 1;
+    meanOut = vec4(0.0);
+    openOut = 0.0;
+    ivec2 tile = clamp(first + side, ivec2(0), last) / cellTile;
+    if ((texelFetch(spreadClasses, tile, 0).r & 1u << classIndex) == 0u) return;
     vec4 mean = vec4(0.0);
     float open = 0.0;
     for (int y = 0; y < 2 * side; ++y) {
@@ -45,5 +50,5 @@ void main() {
     }
     float share = 1.0 / float(side * side);
     meanOut = mean * share;
-    openOut = vec4(open * share);
+    openOut = open * share;
 }

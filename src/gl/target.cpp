@@ -1,5 +1,6 @@
 #include "gl/target.h"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -47,20 +48,28 @@ Target Target::ofLayers(const GlTexture& array) {
     return target;
 }
 
+Target Target::ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level) {
+    Target target;
+    target.create();
+    for (const GlTexture* color : colors) target.addColor(*color, layer, level);
+    target.finish(nullptr);
+    return target;
+}
+
 void Target::create() {
     GLuint name = 0;
     glCreateFramebuffers(1, &name);
     handle_ = GlHandle<destroyFramebuffer>(name);
 }
 
-void Target::addColor(const GlTexture& color, std::optional<std::uint32_t> layer) {
+void Target::addColor(const GlTexture& color, std::optional<std::uint32_t> layer, int level) {
     const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colors_++);
     if (layer)
-        glNamedFramebufferTextureLayer(name(), attachment, color.name(), 0, static_cast<GLint>(*layer));
+        glNamedFramebufferTextureLayer(name(), attachment, color.name(), level, static_cast<GLint>(*layer));
     else
-        glNamedFramebufferTexture(name(), attachment, color.name(), 0);
-    width_ = color.info().width;
-    height_ = color.info().height;
+        glNamedFramebufferTexture(name(), attachment, color.name(), level);
+    width_ = std::max(color.info().width >> level, 1);
+    height_ = std::max(color.info().height >> level, 1);
 }
 
 void Target::finish(const GlTexture* depth) {

@@ -17,6 +17,8 @@ public:
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
     // Each layer of an array texture, at most 8, is a colour.
     static Target ofLayers(const GlTexture& array);
+    // Layer `layer` and mipmap level `level` alone of array textures of one size.
+    static Target ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level = 0);
     // Layer `layer` alone of array textures; `depth` has no layers.
     Target(const std::vector<const GlTexture*>& colors, const GlTexture& depth, std::uint32_t layer);
 
@@ -27,7 +29,7 @@ public:
 private:
     Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth, std::optional<std::uint32_t> layer);
     void create();
-    void addColor(const GlTexture& color, std::optional<std::uint32_t> layer);
+    void addColor(const GlTexture& color, std::optional<std::uint32_t> layer, int level = 0);
     void finish(const GlTexture* depth);
 
     GlHandle<destroyFramebuffer> handle_;

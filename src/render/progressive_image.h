@@ -21,9 +21,8 @@ public:
     void drawFrame(const View& view, const RenderSettings& settings);
     void drawFrame(FramePlan plan);
 
-    // Begins an image that grow() then carries to `most` samples (rounded up to blocks). With `thresholdsFollow` the
-    // level-of-detail thresholds are the defaults for the samples that are in the sum after each block, else those of
-    // `settings`.
+    // Begins an image that grow() then carries to `most` samples (rounded up to blocks). The level-of-detail thresholds
+    // follow the samples that are in the sum after each block.
     // With `targetError`, of methods that sum blocks, the image is finished once its estimated error is below it, and
     // the levels follow the samples that are expected until then (render/block_schedule.h).
     void begin(const View& view, const RenderSettings& settings, std::uint32_t most,

@@ -84,7 +84,10 @@ public:
         clock_.beginWave();
         drawWave(first - drawsBegin_, count);
         clock_.endWave();
-        if (first + count == total) clock_.endFrame();
+        if (first + count == total) {
+            sum_->makeMean();  // the blur of cells and the division are a part of the frame
+            clock_.endFrame();
+        }
         return first + count < total;
     }
 

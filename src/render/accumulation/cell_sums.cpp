@@ -2,76 +2,93 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace defocus {
 
 namespace {
 
-GlTexture meanImages(int width, int height) {
-    GlTexture texture({.format = TextureFormat::rgba32f, .width = width, .height = height, .layers = 2});
-    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+constexpr int tileSide = 16;  // cellTile of shaders/include/cells.glsl
+
+int tiles(int pixels) {
+    return (pixels + tileSide - 1) / tileSide;
+}
+
+// Squares of 2^k px for each k below `levels`; those of single pixels lie around their corners.
+GlTexture meanImages(TextureFormat format, int width, int height, int levels) {
+    const auto whole = [&](int pixels) { return ((pixels >> (levels - 1)) + 1) << (levels - 1); };
+    GlTexture texture(
+        {.format = format, .width = whole(width), .height = whole(height), .layers = 2, .levels = levels});
+    texture.sampling(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     return texture;
 }
 
 }  // namespace
 
-CellSums::CellSums(const LensCells& cells, int width, int height, const std::filesystem::path& shaderFolder)
-    : inFront_(cells.inFront),
-      behind_(cells.behind),
-      defines_({{"LENS_CELLS", "1"},
-                {"CELLS_IN_FRONT", std::to_string(cells.inFront)},
-                {"CELLS_BEHIND", std::to_string(cells.behind)},
-                {"LEAST_CELL_VARIANCE", fmt::format("{:.4f}", leastCellVariance)}}),
-      sums_({.format = TextureFormat::rgba32f, .width = width, .height = height, .layers = cells.classes()}) {
-    for (int classIndex = 0; classIndex < cells.classes(); ++classIndex) {
-        ClassMeans& means = means_.emplace_back();
-        means.side = 1 << (classIndex < inFront_ ? classIndex : classIndex - inFront_);
-        const auto size = [&](int pixels) {
-            return means.side == 1 ? pixels + 1 : (pixels + means.side - 1) / means.side;
-        };
-        means.images = meanImages(size(width), size(height));
-        means.target = Target::ofLayers(means.images);
-    }
-    const auto pass = [&](const char* fragment, const ShaderDefines& defines) {
-        return Program({{fullscreenShader, fragment}, defines, shaderFolder});
+CellPasses::CellPasses(const LensCells& cells, const std::filesystem::path& shaderFolder)
+    : defines({{"LENS_CELLS", "1"},
+               {"CELLS_IN_FRONT", std::to_string(cells.inFront)},
+               {"CELLS_BEHIND", std::to_string(cells.behind)},
+               {"LEAST_CELL_VARIANCE", fmt::format("{:.4f}", leastCellVariance)}}) {
+    const auto pass = [&](const char* fragment, const ShaderDefines& own) {
+        return Program({{fullscreenShader, fragment}, own, shaderFolder});
     };
-    average_ = pass("accumulation/cell_means.frag", defines_);
-    ShaderDefines nearest = defines_;
+    spread = pass("accumulation/spread_classes.frag", defines);
+    average = pass("accumulation/cell_means.frag", defines);
+    ShaderDefines nearest = defines;
     nearest.emplace_back("NEAREST", "1");
-    if (inFront_ > 0) averageNearest_ = pass("accumulation/cell_means.frag", nearest);
-    blur_ = pass("accumulation/blur_cells.frag", defines_);
+    if (cells.inFront > 0) averageNearest = pass("accumulation/cell_means.frag", nearest);
+    blur = pass("accumulation/blur_cells.frag", defines);
 }
 
-void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur) const {
+CellSums::CellSums(const LensCells& cells, int width, int height, const CellPasses& passes)
+    : inFront_(cells.inFront),
+      behind_(cells.behind),
+      passes_(&passes),
+      sums_({.format = TextureFormat::rgba32f, .width = width, .height = height, .layers = cells.classes()}),
+      held_({.format = TextureFormat::r32ui, .width = tiles(width), .height = tiles(height)}),
+      spread_(held_.info()),
+      spreadTarget_({&spread_}),
+      shownMeans_(meanImages(TextureFormat::rgba32f, width, height, std::max(inFront_, behind_))),
+      openMeans_(meanImages(TextureFormat::r32f, width, height, std::max(inFront_, behind_))) {
+    for (int k = 0; k < inFront_; ++k) meanTargets_.push_back(Target::ofLayer({&shownMeans_, &openMeans_}, 0, k));
+    for (int k = 0; k < behind_; ++k) meanTargets_.push_back(Target::ofLayer({&shownMeans_, &openMeans_}, 1, k));
+}
+
+void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur,
+                             bool startsBlock) const {
     layerDepths.attach(6);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    if (startsBlock) glClearTexImage(held_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    glBindImageTexture(1, held_.name(), 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     glBindImageTexture(0, sums_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA32F);
     glProgramUniform1f(addLayers.name(), 3, static_cast<float>(blur));
 }
 
 void CellSums::blurInto(const Target& target, const GlTexture& sum) {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    spreadTarget_.bind();
+    held_.attach(0);
+    fullscreen_.draw(passes_->spread);
     sums_.attach(0);
     sum.attach(1);
-    for (GLuint classIndex = 0; classIndex < means_.size(); ++classIndex) {
-        const ClassMeans& means = means_[classIndex];
-        const Program& average = static_cast<int>(classIndex) == inFront_ - 1 ? averageNearest_ : average_;
-        means.target.bind();
-        glProgramUniform1i(average.name(), 0, static_cast<GLint>(classIndex));
-        glProgramUniform1i(average.name(), 1, means.side);
+    spread_.attach(2);
+    for (int classIndex = 0; classIndex < inFront_ + behind_; ++classIndex) {
+        const Program& average = classIndex == inFront_ - 1 ? passes_->averageNearest : passes_->average;
+        meanTargets_[static_cast<std::size_t>(classIndex)].bind();
+        glProgramUniform1i(average.name(), 0, classIndex);
+        glProgramUniform1i(average.name(), 1, 1 << (classIndex < inFront_ ? classIndex : classIndex - inFront_));
         fullscreen_.draw(average);
     }
-    for (GLuint classIndex = 0; classIndex < means_.size(); ++classIndex)
-        means_[classIndex].images.attach(2 + classIndex);
+    shownMeans_.attach(3);
+    openMeans_.attach(4);
     target.bind();
-    fullscreen_.draw(blur_);
+    fullscreen_.draw(passes_->blur);
 }
 
 std::size_t CellSums::bytes() const {
-    std::size_t total = sums_.bytes();
-    for (const ClassMeans& means : means_) total += means.images.bytes();
-    return total;
+    return sums_.bytes() + held_.bytes() + spread_.bytes() + shownMeans_.bytes() + openMeans_.bytes();
 }
 
 }  // namespace defocus

@@ -17,14 +17,22 @@
 
 namespace defocus {
 
+// The passes over images with so many classes.
+struct CellPasses {
+    explicit CellPasses(const LensCells& cells, const std::filesystem::path& shaderFolder);
+
+    ShaderDefines defines;
+    Program spread, average, averageNearest, blur;
+};
+
 class CellSums {
 public:
-    // Of an image of `width` x `height` px; `cells` has classes.
-    CellSums(const LensCells& cells, int width, int height, const std::filesystem::path& shaderFolder);
+    // Of an image of `width` x `height` px; `cells` has classes, and `passes`, which must outlive it, are for as many.
+    CellSums(const LensCells& cells, int width, int height, const CellPasses& passes);
 
     // What shaders/accumulation/add_layers.frag needs to fill the sums.
-    [[nodiscard]] const ShaderDefines& defines() const { return defines_; }
-    void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur) const;
+    [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
+    void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock) const;
     // Writes the block's sum with blurred cells, and zeros for what it lost, to `target`. `sum` holds the block as it
     // was added.
     void blurInto(const Target& target, const GlTexture& sum);
@@ -34,19 +42,18 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // Of a class, and of the samples open to it, around the middles of squares of pixels.
-    struct ClassMeans {
-        int side = 1;      // px
-        GlTexture images;  // layer 0: the class; layer 1, red: the samples
-        Target target;
-    };
 
     int inFront_;
     int behind_;
-    ShaderDefines defines_;
+    const CellPasses* passes_;
     GlTexture sums_;  // a layer a class, as shaders/include/cells.glsl orders them
-    std::vector<ClassMeans> means_;
-    Program average_, averageNearest_, blur_;
+    GlTexture held_;  // which classes a tile holds
+    GlTexture spread_;  // of which it needs means
+    Target spreadTarget_;
+    // Around the middles of squares of pixels, of class k in mipmap level k, in front of the focus and behind it a layer
+    // each: what it shows, and the samples that are open to it.
+    GlTexture shownMeans_, openMeans_;
+    std::vector<Target> meanTargets_;  // as many as classes
     Fullscreen fullscreen_;
 };
 

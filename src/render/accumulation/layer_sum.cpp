@@ -42,18 +42,19 @@ LayerSum::LayerSum(const LayerSumInfo& info)
 
 void LayerSum::reset(const std::optional<LayerWindow>& window) {
     samples_ = 0;
+    meanIsCurrent_ = false;
     window_ = window;
-    cells_.reset();
+    blursCells_ = false;
     assert(!window || (window->width == sumWidth() && window->height == sumHeight()));
 }
 
 void LayerSum::blurCells(const LensCells& cells) {
     assert(samples_ % blockSamples == 0);
     cellBlur_ = cells.blur;
-    if (cells.classes() == 0)
-        cells_.reset();
-    else if (!cells_ || !cells_->fits(cells))
-        cells_.emplace(cells, sumWidth(), sumHeight(), info_.shaderFolder);
+    blursCells_ = cells.classes() > 0;
+    if (!blursCells_ || (cells_ && cells_->fits(cells))) return;
+    const auto passes = cellPasses_.try_emplace({cells.inFront, cells.behind}, cells, info_.shaderFolder).first;
+    cells_.emplace(cells, sumWidth(), sumHeight(), passes->second);
 }
 
 void LayerSum::beginWave() {
@@ -78,25 +79,26 @@ void LayerSum::beginWave() {
 void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uint32_t count) {
     ShaderDefines defines = frame.defines();
     for (const auto& define : layerFormatDefines(info_.format)) defines.push_back(define);
-    if (cells_) defines.insert(defines.end(), cells_->defines().begin(), cells_->defines().end());
-    if (!addLayers_ || addDefines_ != defines) {
-        addDefines_ = defines;
-        addLayers_ = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
-    }
+    if (samples_ % blockSamples == 0) defines.emplace_back("STARTS_BLOCK", "1");
+    if (blursCells_) defines.insert(defines.end(), cells_->defines().begin(), cells_->defines().end());
+    const auto [entry, isNew] = addLayers_.try_emplace(defines);
+    Program& addLayers = entry->second;
+    if (isNew) addLayers = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     glDisable(GL_SCISSOR_TEST);
     block_.target[1 - block_.current].bind();
     frame.bind(first);
     layers_.attach(0);
     block_.sum[block_.current].attach(1);
     block_.compensation[block_.current].attach(2);
-    if (cells_) cells_->bindForAdding(addLayers_, depth_, cellBlur_);
-    glProgramUniform1i(addLayers_.name(), 0, static_cast<GLint>(count));
-    glProgramUniform1i(addLayers_.name(), 1, static_cast<GLint>(samples_ % blockSamples));
-    glProgramUniform2i(addLayers_.name(), 2, window_ ? window_->left : 0, window_ ? window_->bottom : 0);
-    fullscreen_.draw(addLayers_);
+    if (blursCells_) cells_->bindForAdding(addLayers, depth_, cellBlur_, samples_ % blockSamples == 0);
+    glProgramUniform1i(addLayers.name(), 0, static_cast<GLint>(count));
+    glProgramUniform1i(addLayers.name(), 1, static_cast<GLint>(samples_ % blockSamples));
+    glProgramUniform2i(addLayers.name(), 2, window_ ? window_->left : 0, window_ ? window_->bottom : 0);
+    fullscreen_.draw(addLayers);
     block_.flip();
     countsInAlpha_ = frame.countsInAlpha();
     samples_ += count;
+    meanIsCurrent_ = false;
     if (samples_ % blockSamples == 0) {
         block_.current = latestBlock(true);
         addBlockTo(frame_, block_.current, samples_ == blockSamples);
@@ -105,7 +107,7 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
 }
 
 int LayerSum::latestBlock(bool asAdded) {
-    if (!cells_ || !asAdded) return block_.current;
+    if (!blursCells_ || !asAdded) return block_.current;
     const int other = 1 - block_.current;
     cells_->blurInto(block_.target[other], block_.sum[block_.current]);
     return other;
@@ -133,6 +135,7 @@ void LayerSum::addBlock(const BlockSum& block) {
     upload(block_.sum[block_.current], block.sum);
     upload(block_.compensation[block_.current], block.compensation);
     samples_ += block.samples;
+    meanIsCurrent_ = false;
     if (samples_ % blockSamples == 0) {
         addBlockTo(frame_, block_.current, samples_ == blockSamples);
         frame_.flip();
@@ -144,7 +147,13 @@ Image LayerSum::mean() {
 }
 
 const GlTexture& LayerSum::meanTexture() {
+    makeMean();
+    return mean_;
+}
+
+void LayerSum::makeMean() {
     if (samples_ == 0) fail("the accumulation holds no sample yet");
+    if (meanIsCurrent_) return;
     // An unfinished block is added to a copy: the frame's own sum goes on at the block border.
     const bool unfinished = samples_ % blockSamples != 0;
     if (unfinished) addBlockTo(frame_, latestBlock(true), samples_ < blockSamples);
@@ -160,7 +169,7 @@ const GlTexture& LayerSum::meanTexture() {
     frame_.compensation[latest].attach(1);
     glProgramUniform1f(resolve_.name(), 0, countsInAlpha_ ? 0.0f : static_cast<float>(samples_));
     fullscreen_.draw(resolve_);
-    return mean_;
+    meanIsCurrent_ = true;
 }
 
 std::size_t LayerSum::bytes() const {

@@ -6,7 +6,9 @@
 // block borders. The sum is divided when it is read, never in place.
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -56,9 +58,11 @@ public:
     // so far must be whole blocks; `block` holds RGBA of this size and 1 … 64 samples. Only the frame's last block may
     // have less than 64.
     void addBlock(const BlockSum& block);
+    // Makes the mean of the samples so far, at least one, unless it is made.
+    void makeMean();
     // The mean of the samples so far, RGBA. At least one.
     [[nodiscard]] Image mean();
-    // The same on the GPU, row 0 at the bottom, until the next call.
+    // The same on the GPU, row 0 at the bottom, until more is summed.
     [[nodiscard]] const GlTexture& meanTexture();
     [[nodiscard]] std::size_t bytes() const;
     [[nodiscard]] const LayerSumInfo& info() const { return info_; }
@@ -88,10 +92,13 @@ private:
     Sum block_;
     Sum frame_;
     GlTexture mean_;  // made when first asked for
+    bool meanIsCurrent_ = false;
     Target meanTarget_;
-    Program addLayers_;
-    ShaderDefines addDefines_;  // that addLayers_ was built with
-    std::optional<CellSums> cells_;
+    // By their features: while things move, these come and go.
+    std::map<ShaderDefines, Program> addLayers_;
+    std::map<std::pair<int, int>, CellPasses> cellPasses_;  // by the classes in front and behind
+    std::optional<CellSums> cells_;  // of the last block that had cells: a frame like the one before needs no others
+    bool blursCells_ = false;
     double cellBlur_ = 0;
     Program addBlock_;
     Program resolve_;
