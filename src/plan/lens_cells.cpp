@@ -158,10 +158,6 @@ LensCells lensCells(const FramePlan& plan) {
     }
     cells.inFront = classesFor(blur, inFront);
     cells.behind = classesFor(blur, behind);
-    if (cells.classes() == 0) {
-        cells.reason = "so many samples leave no gaps";
-        return cells;
-    }
     cells.blur = blur;
     cells.firstSample = plan.frameFirst;
     std::vector<LensSample> samples = lensSamples(plan.view.lens, plan.settings.sequence, plan.frameFirst,

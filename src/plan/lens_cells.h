@@ -36,8 +36,10 @@ struct LensCells {
     std::uint32_t firstSample = 0;   // LensSample::index of the first of them
     std::vector<glm::vec2> middles;  // as LensSample::lens
     glm::dvec2 pixelShift{0};        // px; brings the mean of the pixel offsets to the pixels' middle
-    int inFront = 0;                 // classes that what is in front of the focus needs
-    int behind = 0;                  // and what is behind it
+    // Classes that what is in front of the focus needs, and what is behind it. Where samples leave no gaps there are
+    // none: the middles of the cells are all that is left, so that nothing pops.
+    int inFront = 0;
+    int behind = 0;
     std::string reason;              // why images stay as they are; empty if they don't
     [[nodiscard]] int classes() const { return inFront + behind; }
 };

@@ -83,8 +83,7 @@ std::string thresholdsText(const FramePlan& plan) {
     return fmt::format("blur threshold {:.4g}, size threshold {:.4g} px", thresholds.blur, thresholds.size);
 }
 
-// How images are blurred as lens cells; or what groups of lens samples share, and why something that is hardly blurred
-// isn't shared.
+// How images are blurred as lens cells, or why they aren't.
 std::string ratesText(const FramePlan& plan) {
     const FrameRates rates = frameRates(plan);
     const LensCells& cells = rates.cells;
@@ -94,18 +93,7 @@ std::string ratesText(const FramePlan& plan) {
             "{:.2g} px "
             "of the largest\n",
             cells.blur, cells.blur * plan.largestBlur);
-    std::string text = fmt::format("{} triangles with --method multirate, which blurs no sample's image: {}\n",
-                                   ratedTriangles(plan, rates), cells.reason);
-    for (std::size_t i = 0; i < plan.objects.size(); ++i) {
-        const ObjectPlan& object = plan.objects[i];
-        const ObjectRates& rate = rates.objects[i];
-        if (rate.lensShare > 0)
-            text += fmt::format("  {}: {:.4g} % of the groups of neighbouring lens samples share an image\n",
-                                object.name, 100 * rate.lensShare);
-        else if (object.coc.largest < leastShareBlur)
-            text += fmt::format("  {}: drawn for each sample: {}\n", object.name, rate.reason);
-    }
-    return text;
+    return fmt::format("--method multirate draws this frame as the accumulation does: {}\n", cells.reason);
 }
 
 // No blur has no sign.

@@ -165,11 +165,14 @@ std::uint32_t groupSamples(std::uint32_t count) {
 FrameRates frameRates(const FramePlan& plan, bool cells) {
     FrameRates rates;
     rates.objects.resize(plan.objects.size());
-    if (cells) rates.cells = lensCells(plan);
-    if (rates.cells.blur > 0) {
-        for (ObjectRates& object : rates.objects) object.reason = "its images are blurred as those of lens cells";
+    if (cells) {
+        rates.cells = lensCells(plan);
+        const bool blurs = rates.cells.blur > 0;
+        for (ObjectRates& object : rates.objects)
+            object.reason = blurs ? "its images are blurred as those of lens cells" : rates.cells.reason;
         return rates;
     }
+    rates.shares = true;
     std::vector<ContactBounds> bounds;
     std::vector<double> blurs;
     for (std::size_t i = 0; i < plan.objects.size(); ++i) {
@@ -202,7 +205,7 @@ RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint3
         return block;
     }
     const std::uint32_t size = groupSamples(count);
-    if (plan.settings.keepAll || !plan.usesLens || size == 1) return block;
+    if (!rates.shares || plan.settings.keepAll || !plan.usesLens || size == 1) return block;
 
     block.groupSize = size;
     block.groups = block.samples;

@@ -1,6 +1,7 @@
 #pragma once
-// Lens rates: how many lens samples share one image of an object (method "multirate", where images aren't blurred as
-// lens cells; where they are, fewer samples do as well for all objects, see lens_cells.h).
+// Lens rates: how many lens samples share one image of an object (method "multirate" with cells=off). With lens cells
+// fewer samples do as well for all objects (lens_cells.h), and a frame that doesn't allow cells is drawn as the
+// accumulation draws it: what is shared errs more than what each sample draws.
 //
 // An object in focus looks alike from neighbouring points of the lens. So the samples of each block of 64 are put into
 // groups of neighbours on the lens, 16 groups of 4 samples, and what is hardly blurred is drawn once for a group. All
@@ -55,6 +56,7 @@ struct ObjectRates {
 // Of all objects of a plan, in its order.
 struct FrameRates {
     std::vector<ObjectRates> objects;
+    bool shares = false;  // with cells=off
     LensCells cells;
 };
 
@@ -75,7 +77,8 @@ struct RatedBlock {
 // Returns the samples of a group in a block of `count` samples; 1: none is large enough to share.
 std::uint32_t groupSamples(std::uint32_t count);
 
-// `cells`: whether images are blurred as lens cells, as far as the frame allows it. Nothing shares then.
+// `cells`: whether images are blurred as lens cells, as far as the frame allows it. Nothing shares then; else nothing
+// is blurred.
 FrameRates frameRates(const FramePlan& plan, bool cells = true);
 
 // Returns how many images of an object multirate draws for a sample of `plan`, on average over whole blocks: 1 where it
@@ -83,8 +86,8 @@ FrameRates frameRates(const FramePlan& plan, bool cells = true);
 double imagesPerSample(const FramePlan& plan, const ObjectRates& rates);
 
 // Returns samples [first, first + count) of `plan`, whose rates are `rates`; `first` is a multiple of 64 and `count` ≤
-// 64. With RenderSettings::keepAll, and without a lens, every sample draws everything, in the plan's own order and with
-// its own pixel offset. With lens cells it does so from the middle of its cell, with FrameRates::cells's shift.
+// 64. With RenderSettings::keepAll, without a lens, and where nothing may share, every sample draws everything, in the
+// plan's own order and with its own pixel offset. With lens cells it does so from the middle of its cell, with FrameRates::cells's shift.
 RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint32_t first, std::uint32_t count);
 
 // Returns the triangles that multirate draws for `plan`; without rates they are FramePlan::trianglesDrawn.
