@@ -396,8 +396,8 @@ const Mesh& largestMesh(const Scene& scene) {
                              [](const Mesh& a, const Mesh& b) { return a.triangleCount() < b.triangleCount(); });
 }
 
-// What each level of each scene's largest mesh keeps of level 0, by its vertex colours: mean colour, matt light under
-// six lights towards 26 directions, and the covered area from 26 directions.
+// What each level of each scene's largest mesh keeps of level 0, by its vertex colours: mean colour, matt light from
+// 26 directions, and the covered area seen along them.
 void conservedRows(const std::string& name, const Mesh& mesh) {
     constexpr std::size_t points = 60'000;
     constexpr int resolution = 1024;

@@ -183,9 +183,10 @@ FilmMemory memoryOf(const SequenceFrame& frame, World& world, Renderer& renderer
         renderer.setWave(memory.tiles.wave);
         return memory;
     }
-    TilingNeeds needs = tilingNeeds(world, plan, {0, plan.view.height}, request, options.memoryLimit);
+    TilingNeeds needs = needsBeforeUpload(world, plan, request, options.memoryLimit);
     const std::uint64_t pixels = std::uint64_t(plan.view.width) * std::uint64_t(plan.view.height);
     needs.keptBytes = (framesWaiting + 1) * pixels * bandPixelBytes;
+    if (request.memory) renderer.setWave(waveWithin(needs));
     memory.alone = request.memory && !fitsInOnePiece(needs);
     return memory;
 }

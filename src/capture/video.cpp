@@ -69,6 +69,11 @@ bool isInstalled(const std::string& program) {
     return false;
 }
 
+// A name as ffmpeg takes it for a file's, whatever is in it: "12:30.mp4" would be of a protocol.
+std::string fileName(const fs::path& path) {
+    return "file:" + path.string();
+}
+
 // ffmpeg with a pipe to its input; its output and what it says go to files.
 class Ffmpeg {
 public:
@@ -173,7 +178,7 @@ std::string complaint(const Ffmpeg& ffmpeg, const fs::path& messages) {
 void checkFilm(const fs::path& film, std::size_t frames, const fs::path& name) {
     PendingFile messages(name.string() + ".log");  // neither is kept
     PendingFile counted(name.string() + ".count");
-    Ffmpeg ffmpeg({"ffmpeg", "-v", "error", "-nostdin", "-i", film.string(), "-map", "0:v:0", "-c", "copy", "-f",
+    Ffmpeg ffmpeg({"ffmpeg", "-v", "error", "-nostdin", "-i", fileName(film), "-map", "0:v:0", "-c", "copy", "-f",
                    "null", "-progress", "pipe:1", "-"},
                   counted.temporaryPath(), messages.temporaryPath());
     if (!ffmpeg.close())
@@ -218,7 +223,7 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
                                           "-i",          "-"};
     const std::vector<std::string>& encoder = encoderOf(path);
     arguments.insert(arguments.end(), encoder.begin(), encoder.end());
-    arguments.push_back(film.temporaryPath().string());
+    arguments.push_back(fileName(film.temporaryPath()));
 
     // Frame by frame; when ffmpeg stops listening, its last words say why. It must not end us.
     const auto previous = std::signal(SIGPIPE, SIG_IGN);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <set>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -62,12 +63,33 @@ std::string shownOutput(const fs::path& output) {
     return isStandardOutput(output) ? "standard output" : output.string();
 }
 
-void checkImageOutputs(const std::vector<fs::path>& images, const std::vector<fs::path>& more) {
+namespace {
+
+// What is written to none of them is lost by what is written after it.
+void checkDistinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+    std::set<fs::path> files;
+    for (const fs::path& output : outputs) {
+        if (isStandardOutput(output)) continue;
+        std::error_code missing;
+        const fs::path file = fs::weakly_canonical(fs::absolute(output, missing), missing);
+        const bool regular = !fs::exists(file, missing) || fs::is_regular_file(file, missing);
+        if (regular && !files.insert(file).second) fail("{}: two outputs have this name", output.string());
+        for (const fs::path& input : inputs)
+            if (!input.empty() && fs::equivalent(input, output, missing))
+                fail("{}: it is read too, and would be replaced", output.string());
+    }
+}
+
+}  // namespace
+
+void checkImageOutputs(const std::vector<fs::path>& images, const std::vector<fs::path>& more,
+                       const std::vector<fs::path>& inputs) {
     std::vector<fs::path> all = images;
     all.insert(all.end(), more.begin(), more.end());
     if (std::ranges::count_if(all, isStandardOutput) > 1) fail("only one output can go to standard output");
     for (const fs::path& path : all)
         if (!isStandardOutput(path)) checkWritable(path);
+    checkDistinct(all, inputs);
     for (const fs::path& path : images) {
         checkImageExtension(isStandardOutput(path) ? "standard output" + streamExtension(path) : path.string());
         if (isStandardOutput(path) && ::isatty(STDOUT_FILENO) == 1)

@@ -18,10 +18,11 @@ bool isStandardOutput(const std::filesystem::path& output);
 // "a.exr", "standard output"
 std::string shownOutput(const std::filesystem::path& output);
 
-// Throws Error for a format that there isn't, for what can't be written, for an image to a terminal, and for two
-// outputs to standard output. `more`: others that are written beside them, such as figures.
-void checkImageOutputs(const std::vector<std::filesystem::path>& images,
-                       const std::vector<std::filesystem::path>& more = {});
+// Throws Error for a format that there isn't, for what can't be written, for an image to a terminal, for two outputs to
+// standard output or to one file, and for one that would replace an input. `more`: others that are written beside them,
+// such as figures. `inputs`: what is read; empty ones, and those that aren't there, don't count.
+void checkImageOutputs(const std::vector<std::filesystem::path>& images, const std::vector<std::filesystem::path>& more,
+                       const std::vector<std::filesystem::path>& inputs);
 
 // writeImage of a file, or of standard output.
 void writeOutput(const std::filesystem::path& output, const Image& image, const Metadata& metadata,

@@ -59,7 +59,7 @@ void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
 }
 
 void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
-    checkImageOutputs(arguments.outputs);
+    checkImageOutputs(arguments.outputs, {}, arguments.parts);
     if (isTileFile(arguments.parts.front())) return mergeTiles(arguments, global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const MergedFrame merged = mergeParts(arguments.parts);

@@ -118,7 +118,8 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
 void checkOutputs(const RenderArguments& arguments) {
     std::vector<std::filesystem::path> more = aovPaths(arguments);
     if (!arguments.stats.empty()) more.push_back(arguments.stats);
-    checkImageOutputs(arguments.outputs, more);
+    const Request& request = arguments.request;
+    checkImageOutputs(arguments.outputs, more, {request.scene, request.environment, request.lens.apertureImage});
     if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
         fail("--aov writes files beside the first output, which must be a file");
     if (!arguments.sampleRange) return;
@@ -232,6 +233,10 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     options.layerFormat = arguments.request.layerFormat;
     options.wave = arguments.request.wave;
     options.waveBytes = waveBytesWithin(limit);
+    if (method.needsGl && arguments.request.memory)
+        options.wave = waveWithin(
+            needsBeforeUpload(frame.world, planOfTiles(frame.world, frame.view, runSettings(frame, arguments.request)),
+                              arguments.request, limit));
     options.shaderFolder = global.shaderDir;
     options.settings = use.settings;
     const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
@@ -290,7 +295,8 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
     else
         for (const std::filesystem::path& path : arguments.outputs)
             writeOutput(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});
-    if (arguments.aovs.surfaces()) writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir), metadata);
+    if (arguments.aovs.surfaces())
+        writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir, use.sharesImages()), metadata);
     if (arguments.aovs.work)
         writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
     if (arguments.aovs.sweptWork) writeSweptWork(arguments, sweptWork(plan, frame.world), metadata, global.quiet);

@@ -107,9 +107,10 @@ bool drawsInTiles(const RenderArguments& arguments, const PreparedFrame& frame, 
     if (arguments.tile) return true;
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
     if (!mustDrawInTiles(frame.world, plan, arguments.request, method, limit)) {
-        if (arguments.resume)
+        // There may be more memory now than there was for the run that is resumed.
+        if (arguments.resume && !fs::is_directory(tilesFolder(arguments)))
             throw UsageError("--resume goes on with tiles, and this frame fits into memory in one piece");
-        return false;
+        if (!arguments.resume) return false;
     }
     const auto refuse = [&](const char* reason) { refuseTiles(plan, limit, reason); };
     if (arguments.sampleRange) refuse("--sample-range keeps sums of the whole image; --tile shares its rows instead");
@@ -138,7 +139,6 @@ TiledFrame renderTiles(const RenderArguments& arguments, const PreparedFrame& fr
         }
         for (const fs::path& path : found.all)
             if (std::ranges::find(kept, path) == kept.end()) fs::remove(path);
-        fs::create_directories(folder);
     } else if (arguments.resume && isTileFile(arguments.outputs.front())) {
         const TileHeader before = readTileHeader(arguments.outputs.front());
         if (before.settings == settings && before.rows == header.rows && before.height == header.height)
@@ -174,6 +174,7 @@ TiledFrame renderTiles(const RenderArguments& arguments, const PreparedFrame& fr
                 if (!writeTile(arguments.outputs.front(), header, bands, run)) stopped();
                 continue;
             }
+            fs::create_directories(folder);
             for (const Band& band : bands) {
                 if (stopAsked()) stopped();
                 header.rows = band.rows;

@@ -24,9 +24,11 @@ CLI::Option* addTruth(CLI::App& command, Request& request, const Setting& settin
     // Both ways where a camera of the file may have it on or off.
     std::string names = setting.option;
     if (setting.lensField) names += ",!--no-" + setting.option.substr(2);
-    return command.add_flag_function(
-        names, [&request, &setting](std::int64_t count) { setting.set(request, count > 0 ? "true" : "false"); },
-        setting.help);
+    return command
+        .add_flag_function(
+            names, [&request, &setting](std::int64_t count) { setting.set(request, count > 0 ? "true" : "false"); },
+            setting.help)
+        ->disable_flag_override();
 }
 
 CLI::Option* addRepeated(CLI::App& command, Request& request, const Setting& setting) {

@@ -126,7 +126,11 @@ std::string parseFault(const CLI::App& program, const CLI::ParseError& error) {
         return fmt::format("{} is given {} times; give it once", option->get_name(), option->count());
     if (unfinished && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
         return fmt::format("which command? There are: {}; {}", fmt::join(namesOf(command), ", "), helpHint(program));
-    return fmt::format("{}; {}", error.what(), helpHint(program));
+    const std::string what = error.what();
+    constexpr std::string_view ofSwitch = " was given a disallowed flag override";
+    if (what.ends_with(ofSwitch))
+        return fmt::format("--{} takes no value; {}", what.substr(0, what.size() - ofSwitch.size()), helpHint(program));
+    return fmt::format("{}; {}", what, helpHint(program));
 }
 
 int run(int argc, char** argv) {

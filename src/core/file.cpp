@@ -51,14 +51,24 @@ fs::path followed(fs::path path) {
     return path;
 }
 
+// Whether it is open in a process, as /dev/stdin is and what a shell hands over (<(command) is /dev/fd/63).
+bool isDescriptor(const fs::path& path) {
+    const auto liesInProc = [](const fs::path& file) {
+        std::error_code status;
+        const fs::path folder = fs::canonical(file.has_parent_path() ? file.parent_path() : ".", status);
+        return !status && folder.string().starts_with("/proc/");
+    };
+    std::error_code none;
+    return liesInProc(path) || (fs::is_symlink(path, none) && liesInProc(fs::read_symlink(path, none)));
+}
+
 // Whether what is written to `path` flows on (a device, a pipe, a descriptor of this process): it can't be replaced.
 bool isStream(const fs::path& path) {
     std::error_code status;
     const fs::file_type type = fs::status(path, status).type();
     if (type == fs::file_type::not_found || type == fs::file_type::directory || type == fs::file_type::none)
         return false;
-    const fs::path top = *std::next(path.begin(), path.is_absolute() ? 1 : 0);
-    return type != fs::file_type::regular || top == "dev" || top == "proc";
+    return type != fs::file_type::regular || isDescriptor(path);
 }
 
 void writeStream(const fs::path& from, const fs::path& to) {
@@ -82,6 +92,9 @@ void syncFolder(const fs::path& folder) {
 std::vector<std::byte> readFile(const fs::path& path) {
     std::error_code status;
     if (fs::is_directory(path, status)) fail("{}: is a directory, not a file", path.string());
+    // A device may never end, and a pipe may never begin.
+    if (fs::exists(path, status) && !fs::is_regular_file(path, status) && !isDescriptor(path))
+        fail("{}: is a device or a pipe, not a file", path.string());
     const FileHandle file = openFile(path, "rb");
     if (!file) fail("{}: cannot be read: {}", path.string(), reason(errno));
     std::vector<std::byte> bytes;

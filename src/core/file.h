@@ -2,8 +2,8 @@
 // Whole-file reads and writes that never leave half a file: data goes to a temporary name beside the target, is flushed
 // to the disk and renamed over the target once complete, so that a crash, a full disk or a loss of power destroys
 // nothing. Of several processes that write the same file, each has a temporary file of its own, and the last to rename
-// wins with a whole one. A link stays, and the file that it names is replaced. Devices, pipes and what lies below /dev
-// or /proc (/dev/stdout) are never replaced: the complete data is copied into them.
+// wins with a whole one. A link stays, and the file that it names is replaced. Devices, pipes and descriptors
+// (/dev/stdout) are never replaced: the complete data is copied into them.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,7 +13,8 @@
 
 namespace defocus {
 
-// The bytes of `path`. Throws Error naming the path and the reason (missing, a directory, unreadable).
+// The bytes of `path`: of a file, or of a descriptor of this process (/dev/stdin). Throws Error naming the path and the
+// reason (missing, a directory, a device, a pipe, unreadable).
 std::vector<std::byte> readFile(const std::filesystem::path& path);
 
 // `relative`, which another file names, as a path to a regular file inside `folder`. Throws Error where it is absolute,

@@ -64,7 +64,7 @@ bool surelyFits(const Request& request, std::uint64_t limit) {
     const Shadows shadows = request.settings.shadows;
     const bool maps = shadows == Shadows::on || (shadows == Shadows::automatic && request.ground);
     const bool oneCell = cellsOf(request.width, request.height).size() == 1;
-    return oneCell && !maps && limit > held && pixels * pixel <= limit - held;
+    return !request.memory && oneCell && !maps && limit > held && pixels * pixel <= limit - held;
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace defocus {
 bool mustDrawInTiles(const World& world, const FramePlan& plan, const Request& request, const Method& method,
                      std::uint64_t limit) {
     if (!method.needsGl || (!method.drawsTiles && !request.memory)) return false;
-    if (fitsInOnePiece(tilingNeeds(world, plan, {0, plan.view.height}, request, limit))) return false;
+    if (fitsInOnePiece(needsBeforeUpload(world, plan, request, limit))) return false;
     if (!method.drawsTiles)
         refuseTiles(plan, limit, fmt::format("method '{}' can't draw tiles; 'accumulation' can", method.name));
     if (request.stop.given())

@@ -9,7 +9,7 @@
 namespace defocus {
 
 // Whether the frame doesn't fit into `limit` bytes in one piece and is drawn in tiles. Throws Error, as refuseTiles
-// does, where it can't be. Needs a current GL context where the method does.
+// does, where it can't be. Nothing of it has been drawn yet. Needs a current GL context where the method does.
 bool mustDrawInTiles(const World& world, const FramePlan& plan, const Request& request, const Method& method,
                      std::uint64_t limit);
 

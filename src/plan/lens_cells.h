@@ -40,7 +40,7 @@ struct LensCells {
     // none: the middles of the cells are all that is left, so that nothing pops.
     int inFront = 0;
     int behind = 0;
-    std::string reason;              // why images stay as they are; empty if they don't
+    std::string reason;  // why images stay as they are; empty if they don't
     [[nodiscard]] int classes() const { return inFront + behind; }
 };
 

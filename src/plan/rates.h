@@ -87,7 +87,8 @@ double imagesPerSample(const FramePlan& plan, const ObjectRates& rates);
 
 // Returns samples [first, first + count) of `plan`, whose rates are `rates`; `first` is a multiple of 64 and `count` ≤
 // 64. With RenderSettings::keepAll, without a lens, and where nothing may share, every sample draws everything, in the
-// plan's own order and with its own pixel offset. With lens cells it does so from the middle of its cell, with FrameRates::cells's shift.
+// plan's own order and with its own pixel offset. With lens cells it does so from the middle of its cell, with
+// FrameRates::cells's shift.
 RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint32_t first, std::uint32_t count);
 
 // Returns the triangles that multirate draws for `plan`; without rates they are FramePlan::trianglesDrawn.

@@ -81,6 +81,11 @@ const Method& methodNamed(std::string_view name) {
     fail("no method is called '{}'; there are: {}", name, known);
 }
 
+bool MethodUse::sharesImages() const {
+    const auto cells = settings.find("cells");
+    return cells != settings.end() && cells->second == "off";
+}
+
 std::string MethodUse::text() const {
     const std::string differing = settingsText(method->settings, settings);
     return differing.empty() ? method->name : method->name + ":" + differing;

@@ -67,7 +67,8 @@ struct Method {
 struct MethodUse {
     const Method* method = nullptr;
     MethodSettings settings;
-    [[nodiscard]] std::string text() const;  // "name" or "name:setting=value,…": what differs from the standard
+    [[nodiscard]] bool sharesImages() const;  // "multirate" with cells=off
+    [[nodiscard]] std::string text() const;   // "name" or "name:setting=value,…": what differs from the standard
 };
 
 const std::vector<Method>& methods();

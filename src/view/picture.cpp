@@ -233,7 +233,7 @@ void ViewPicture::notePasses() {
 void ViewPicture::drawAovs() {
     if (!aovs_) aovs_.emplace(*world_, options_.shaderFolder);
     overlayTimer_.begin();
-    aovs_->draw(first_->plan());
+    aovs_->draw(first_->plan(), firstSide_->method.sharesImages());
     overlayTimer_.end();
     aovsCurrent_ = true;
     wireframeCurrent_ = false;

@@ -277,6 +277,45 @@ TEST_F(BadInput, apertureImagesThatPassNoLight) {
     EXPECT_EQ(fileCount(), 4u);
 }
 
+TEST_F(BadInput, devicesAndPipesAreNoFiles) {
+    ASSERT_EQ(::mkfifo((folder() / "pipe").c_str(), 0600), 0);
+    for (const char* name : {"pipe", "/dev/zero"}) {
+        using Words = std::vector<std::string>;
+        for (const Words& words : {Words{"info", name},
+                                   {"render", "quads.gltf", "--environment", name},
+                                   {"plan", "quads.gltf", "--aperture-image", name},
+                                   {"compare", name, name},
+                                   {"merge", name},
+                                   {"capture", name}}) {
+            const Outcome outcome = run(words);
+            SCOPED_TRACE(words[0] + " " + name);
+            expectOneLine(outcome, 1);
+            EXPECT_NE(outcome.err.find("device or a pipe"), std::string::npos) << outcome.err;
+        }
+        std::ofstream(folder() / "shot.json") << nlohmann::json{{"scene", name}, {"range", {0, 1}}};
+        const Outcome outcome = run({"capture", "shot.json", "--dry-run"});
+        expectOneLine(outcome, 1);
+        EXPECT_NE(outcome.err.find("device or a pipe"), std::string::npos) << outcome.err;
+    }
+}
+
+// What is read stays, and of two outputs with one name neither is lost.
+TEST_F(BadInput, outputsReplaceNeitherInputsNorEachOther) {
+    const std::string scene = textOf(folder() / "quads.gltf");
+    expectOneLine(run({"render", "quads.gltf", "-o", "a.png", "--stats", "quads.gltf"}), 1);
+    expectOneLine(run({"render", "quads.gltf", "-o", "a.exr", "--stats", "./a.exr"}), 1);
+    fs::create_hard_link(folder() / "quads.gltf", folder() / "other.exr");
+    expectOneLine(run({"render", "quads.gltf", "-o", "other.exr"}), 1);
+    expectOneLine(run({"merge", "other.exr", "-o", "other.exr"}), 1);
+    EXPECT_EQ(textOf(folder() / "quads.gltf"), scene);
+    EXPECT_FALSE(fs::exists(folder() / "a.png") || fs::exists(folder() / "a.exr"));
+}
+
+TEST_F(BadInput, switchesTakeNoValue) {
+    for (const char* word : {"--dof=1,2", "--ground=0x10", "--keep-all=1e999", "--ground=no"})
+        expectFault(2, std::string(word).substr(0, std::string(word).find('=')), {word});
+}
+
 // Neither waits for a pipe nor reads a device, nor what lies outside of the scene's folder.
 TEST_F(BadInput, apertureImagesOfTheSceneThatAreNoFilesBesideIt) {
     fs::create_directory(folder() / "scenes");

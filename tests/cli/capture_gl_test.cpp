@@ -334,6 +334,7 @@ TEST_F(Capture, filmWithoutItsEndNeverReplacesAGoodOne) {
     const FakeFfmpeg cut(folder() / "bin",
                          "ffmpeg \"$@\" || exit 1\n"
                          "for last; do :; done\n"
+                         "last=${last#file:}\n"
                          "test \"$last\" = - || truncate -s $(($(stat -c %s \"$last\") / 2)) \"$last\"\n");
     for (const char* name : {"film.mp4", "film.mkv"}) {
         std::ofstream(folder() / name) << "a good film";

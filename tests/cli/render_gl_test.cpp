@@ -323,7 +323,7 @@ TEST_F(Render, ratesAreThePixelsAndImagesThatALensSampleNeeds) {
     EXPECT_NEAR(*pixels.at(63, 21), 1 / (3 * (variance - 1.0 / 6)), 1e-4);
     EXPECT_EQ(*pixels.at(126, 48), 1);
     ASSERT_EQ(run({"render", "quads.gltf", "--size", "128x96", "--samples", "64", "-o", "a.png", "--aov", "rate",
-                   "--focus-distance", "8", "--fstop", "0.5", "--background", "none"})
+                   "--focus-distance", "8", "--fstop", "0.5", "--method", "multirate", "--cells", "off"})
                   .exitCode,
               0);
     EXPECT_TRUE(fs::exists(folder() / "a.rate.png"));

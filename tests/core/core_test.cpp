@@ -182,6 +182,33 @@ TEST_F(Files, errorsNameThePathAndTheReason) {
     EXPECT_TRUE(fs::is_empty(folder_));
 }
 
+// They may never end, or never begin. What the shell hands over does both.
+TEST_F(Files, devicesAndPipesAreNotRead) {
+    ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+    fs::create_symlink("/dev/zero", folder_ / "link");
+    for (const fs::path& path : {folder_ / "pipe", folder_ / "link", fs::path("/dev/zero")})
+        EXPECT_NE(messageOf([&] { readFile(path); }).find("a device or a pipe"), std::string::npos) << path;
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    ASSERT_EQ(::write(ends[1], "abc", 3), 3);
+    ::close(ends[1]);
+    EXPECT_EQ(readFile(fmt::format("/dev/fd/{}", ends[0])).size(), 3u);
+    ::close(ends[0]);
+}
+
+// A file system in memory, whose files are files.
+TEST_F(Files, aFileBelowDevIsReplacedAsAnyOther) {
+    const fs::path folder = fmt::format("/dev/shm/defocus-test-{}", ::getpid());
+    std::error_code status;
+    if (!fs::create_directory(folder, status)) GTEST_SKIP() << "no /dev/shm";
+    writeFile(folder / "a", std::string_view("before"));
+    fs::create_hard_link(folder / "a", folder / "b");
+    writeFile(folder / "a", std::string_view("after"));
+    EXPECT_EQ(textOf(folder / "a"), "after");
+    EXPECT_EQ(textOf(folder / "b"), "before") << "written in place";
+    fs::remove_all(folder);
+}
+
 TEST_F(Files, whatAnotherFileNamesLiesInItsFolderAndIsAFile) {
     fs::create_directory(folder_ / "below");
     writeFile(folder_ / "below" / "a.png", std::string_view("a"));

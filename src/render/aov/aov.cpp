@@ -20,9 +20,9 @@ namespace {
 constexpr GLuint ratesUnit = 18;  // of shaders/aov/aov.frag
 
 // By the objects' numbers in the world; 1 for what isn't drawn.
-TexelBuffer rateTexels(const World& world, const FramePlan& plan) {
+TexelBuffer rateTexels(const World& world, const FramePlan& plan, bool shares) {
     std::vector<float> texels(std::max<std::size_t>(world.pose.objects.size(), 1), 1);
-    const FrameRates rates = frameRates(plan);
+    const FrameRates rates = frameRates(plan, !shares);
     for (std::size_t i = 0; i < plan.objects.size(); ++i)
         texels[static_cast<std::size_t>(plan.objects[i].object)] =
             static_cast<float>(imagesPerSample(plan, rates.objects[i]) *
@@ -70,7 +70,7 @@ void AovPass::makeTargets(int width, int height) {
     wireframe_ = GlTexture();
 }
 
-void AovPass::draw(const FramePlan& plan) {
+void AovPass::draw(const FramePlan& plan, bool shares) {
     pinhole_ = pinholePlan(scene_.world(), plan, 1);
     makeTargets(plan.view.width, plan.view.height);
 
@@ -91,7 +91,7 @@ void AovPass::draw(const FramePlan& plan) {
     scene_.prepare(pinhole_);
     frame_.upload(scene_.world(), pinhole_, 1);
     surfaces_.prepare(pinhole_, frame_);
-    rates_ = rateTexels(scene_.world(), plan);
+    rates_ = rateTexels(scene_.world(), plan, shares);
     rates_.attach(ratesUnit);
     surfaces_.drawSurfaces(0, 1);
 }
@@ -117,9 +117,10 @@ void AovPass::drawWireframe() {
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder) {
+AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder,
+                     bool shares) {
     AovPass pass(world, shaderFolder);
-    pass.draw(plan);
+    pass.draw(plan, shares);
     return {readBack(pass.depth(), 1), readBack(pass.coc(), 1), readBack(pass.level(), 1), readBack(pass.rate(), 1)};
 }
 

@@ -23,8 +23,9 @@ class AovPass {
 public:
     explicit AovPass(const World& world, std::filesystem::path shaderFolder = {});
 
-    // Draws opaque, alpha-tested and blended surfaces alike, at the nearest whole level.
-    void draw(const FramePlan& plan);
+    // Draws opaque, alpha-tested and blended surfaces alike, at the nearest whole level. Rates are those of
+    // "multirate", with cells=off where it `shares` images.
+    void draw(const FramePlan& plan, bool shares = false);
     // The edges of the triangles that draw() drew and that nothing hides, coloured by λ (viridis), premultiplied.
     void drawWireframe();
 
@@ -49,7 +50,8 @@ private:
 };
 
 // Draws them once.
-AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {});
+AovImages renderAovs(const World& world, const FramePlan& plan, const std::filesystem::path& shaderFolder = {},
+                     bool shares = false);
 
 // λ from which on levels look alike in colour maps.
 inline constexpr float coarsestShownLevel = 8;
