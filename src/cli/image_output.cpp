@@ -65,7 +65,7 @@ std::string shownOutput(const fs::path& output) {
 
 namespace {
 
-// What is written to none of them is lost by what is written after it.
+// No output replaces another one, nor what is read.
 void checkDistinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
     std::set<fs::path> files;
     for (const fs::path& output : outputs) {

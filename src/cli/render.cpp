@@ -17,6 +17,7 @@
 #include "cli/image_output.h"
 #include "cli/option_text.h"
 #include "cli/render_tiles.h"
+#include "cli/stop_signal.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/message.h"
@@ -132,12 +133,18 @@ void checkOutputs(const RenderArguments& arguments) {
         fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
 }
 
+// Between two waves.
+void stepOrStop(const Progress& progress, std::uint64_t samples, std::uint64_t total) {
+    if (stopAsked()) fail("stopped after {} of {} samples: nothing is written", samples, total);
+    report(progress, "samples", samples, total);
+}
+
 Image renderImage(FrameRun& run, Renderer& renderer, const RenderArguments& arguments, const PreparedFrame& frame,
                   const Progress& progress) {
     run.start(frame.view, runSettings(frame, arguments.request), arguments.request.stop);
-    do {
-        report(progress, "samples", run.samples(), run.sampleTotal());
-    } while (run.advance());
+    stopWhenAsked();
+    do stepOrStop(progress, run.samples(), run.sampleTotal());
+    while (run.advance());
     return renderer.image();
 }
 
@@ -254,8 +261,9 @@ void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
         plan = tiled->plan;
     } else if (arguments.sampleRange) {
         plan = planFrame(frame.world, frame.view, frame.settings);
+        stopWhenAsked();
         part = renderPart(*renderer, plan, *arguments.sampleRange,
-                          [&] { report(progress, "samples", renderer->samples(), renderer->sampleTotal()); });
+                          [&] { stepOrStop(progress, renderer->samples(), renderer->sampleTotal()); });
     } else {
         image = renderImage(run, *renderer, arguments, frame, progress);
         plan = run.plan();

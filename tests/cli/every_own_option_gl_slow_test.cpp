@@ -102,8 +102,10 @@ protected:
         for (const fs::path& path : files) {
             text += path.string() + " ";
             if (path.extension() == ".exr" || path.extension() == ".png") text += pixelsIn(path);
-            if (path.parent_path().filename() == "result" && path.extension() == ".json")
-                text += withoutTimes(jsonIn(path).at("rows")).dump();
+            if (path.parent_path().filename() == "result" && path.extension() == ".json") {
+                const json result = jsonIn(path);
+                text += withoutTimes(result.at("rows")).dump() + std::to_string(result.value("runs", 0));
+            }
         }
         if (line.front() == "bench" && line.at(1) != "diff") return text;  // its table has times
         static const std::regex times("[0-9.]+ m?s\\b|\"buildSeconds\": [0-9.e-]+");

@@ -184,6 +184,25 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
         EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
 }
 
+// It would take minutes; a second is enough for it to say how far it is.
+TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
+    for (const int signal : {SIGTERM, SIGINT}) {
+        const pid_t child = ::fork();
+        if (child == 0) become({"render", "quads.gltf", "--size", "512x384", "--samples", "65536", "-o", "out.exr"});
+        siginfo_t ended{};
+        while (bytesOf("said").find("samples: ") == std::string::npos && ended.si_pid == 0)
+            ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+        ::kill(child, signal);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
+        expectSaidOneLine("of 65536 samples: nothing is written");
+        EXPECT_FALSE(fs::exists(folder() / "out.exr"));
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder()))
+            EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+    }
+}
+
 TEST_F(Faults, aFrameInTilesThatIsKilledOrStoppedGoesOn) {
     const Words line = {"render", "quads.gltf", "--quiet", "--size", "1600x1200", "--samples",
                         "3",      "--memory",   "350MiB",  "-o",     "out.exr",   "--resume"};
