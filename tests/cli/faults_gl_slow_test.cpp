@@ -187,6 +187,7 @@ TEST_F(Faults, aReportThatIsKilledIsWhole) {
 // It would take minutes; a second is enough for it to say how far it is.
 TEST_F(Faults, aRenderThatIsStoppedSaysSoAndLeavesNothing) {
     for (const int signal : {SIGTERM, SIGINT}) {
+        fs::remove(folder() / "said");
         const pid_t child = ::fork();
         if (child == 0) become({"render", "quads.gltf", "--size", "512x384", "--samples", "65536", "-o", "out.exr"});
         siginfo_t ended{};
