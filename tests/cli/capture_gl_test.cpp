@@ -328,6 +328,16 @@ private:
     std::string path_;
 };
 
+// ffmpeg takes what comes before a colon for a protocol.
+TEST_F(Capture, filmsMayHaveAnyName) {
+    if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";
+    for (const char* name : {"12:30.mp4", "pipe:1.mp4"}) {
+        const Outcome outcome = capture({"--video", name, "--range", "1:2"});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_TRUE(fs::is_regular_file(folder() / name));
+    }
+}
+
 // On a full disk ffmpeg ends with success, and its film has no end.
 TEST_F(Capture, filmWithoutItsEndNeverReplacesAGoodOne) {
     if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not installed";

@@ -132,6 +132,27 @@ TEST_F(ShortOfMemory, whatCannotBeCutIsRefusedByName) {
     expectRefused(run(inTiles({"-o", "x.exr", "--method", "circular"}, "300MiB")), 1, "'circular'");
     expectRefused(run(inTiles({"-o", "x.exr", "--aov", "depth"}, "300MiB")), 1, "--aov");
     expectRefused(run(inTiles({"-o", "x.exr"}, "1MiB")), 1, "at least");
+    EXPECT_FALSE(fs::exists(folder() / "x.tiles"));
+}
+
+// Meshes and what a driver keeps of their triangles count before they are there: 400,000 a layer, in one piece.
+TEST_F(ShortOfMemory, aHeavySceneInOnePieceKeepsToIt) {
+    const Outcome outcome =
+        run({"render", "--quiet", "--fish", "20", "--fish-triangles", "20000", "--size", "1024x768", "--samples", "16",
+             "--lod", "off", "--memory", "500MiB", "-o", "a.exr", "--stats", "stats.json"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto stats = nlohmann::json::parse(textOf(folder() / "stats.json"));
+    EXPECT_EQ(stats.at("tiles"), 1);
+    EXPECT_LE(stats.at("peakBytes").get<double>(), 1.1 * (500 << 20));
+}
+
+// Tiles of a run that was short of memory wait for one that isn't.
+TEST_F(ShortOfMemory, resumedWithMoreMemoryItGoesOn) {
+    fs::create_directory(folder() / "a.tiles");
+    ASSERT_EQ(run(line({"--resume", "-o", "a.exr"})).exitCode, 0);
+    ASSERT_EQ(run(line({"-o", "whole.exr"})).exitCode, 0);
+    EXPECT_TRUE(pixelsOf("a.exr") == pixelsOf("whole.exr"));
+    EXPECT_FALSE(fs::exists(folder() / "a.tiles"));
 }
 
 TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
