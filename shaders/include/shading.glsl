@@ -25,6 +25,8 @@ struct SurfacePoint {
     float footprint;      // Σ |∂n|² of the surface's own normal over a step of one pixel to the right and one up
 #ifdef COARSE_LEVEL
     float agreement;      // length |n| of the mean of the normals that `normal` stands for, in (0, 1]
+    float spread;         // normalSpread()
+    vec3 seen;            // seenNormal()
 #endif
 #ifdef OWN_REFLECTANCE
     float grazing;        // reflectance along the surface, F90; else it is 1
@@ -60,13 +62,37 @@ struct LightSums {
 };
 
 #ifdef COARSE_LEVEL
-// The mean of max(n·l, 0) over the normals that one stands for, whose cosine to the light is `cosine`. They have the mean |n| cosine
-// and, if they spread alike to all sides, the variance σ² = (1 − |n|²)/2 · (1 − cosine²); for a normal distribution of mean μ the mean of
-// the positive part is close to (μ + √(μ² + 2σ²/π)) / 2, which is exact for μ = 0 and for σ = 0.
-float meanCosine(float cosine, float agreement) {
-    float mean = agreement * cosine;
-    float spread = 0.31830988618 * (1.0 - agreement * agreement) * max(1.0 - cosine * cosine, 0.0);
-    return 0.5 * (mean + sqrt(mean * mean + spread));
+// The mean of max(n·l, 0) over the normals that one stands for, whose cosine to the light is `cosine`. They have the mean `mean`
+// and, if they spread alike to all sides, a variance that falls with 1 − cosine². For a normal distribution of mean μ and variance σ² the
+// mean of the positive part is close to (μ + √(μ² + 2σ²/π)) / 2. `spread` is 2σ²/π of a light from the side.
+float meanCosine(float mean, float cosine, float spread) {
+    return 0.5 * (mean + sqrt(mean * mean + spread * max(1.0 - cosine * cosine, 0.0)));
+}
+
+// The spread S at which the mean over all lights is that of one normal, 1/4, so that the piece throws back as much light as it receives:
+// |n| + S / √(|n|² − S) · arsinh √(|n|²/S − 1) = 1. The fit is good to 7e-4 of that mean.
+float normalSpread(float agreement) {
+    float lost = 1.0 - agreement;
+    float root = sqrt(lost);
+    return lost * (0.17796 + root * (1.04019 + root * (-1.37493 + root * (1.28514 - 0.72122 * root))));
+}
+
+// The mean of the normals as they are seen: those that look to the eye cover more of the picture. |n| counts them as they are seen from
+// straight above. Seen from elsewhere, the mean of n (n·v) / (n·v) has 1 − |n| of what is across the normal, about; along the surface,
+// where few are seen, it can't be longer than what |n| leaves.
+vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
+    float nv = dot(normal, toEye);
+    float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
+    float turn = (1.0 - agreement) / seen;
+    float bound = 1.23 * turn / ((1.0 + agreement) * seen) * max(1.0 - nv * nv, 0.0);
+    return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
+}
+#endif
+
+#ifdef COARSE_LEVEL
+// 2σ² for the slopes of the normals that one stands for: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
+float coarseSpread(SurfacePoint point) {
+    return 2.0 * (1.0 - point.agreement) / point.agreement;
 }
 #endif
 
@@ -78,8 +104,6 @@ float meanCosine(float cosine, float agreement) {
 // vary would still make single white pixels of few samples: it is made as wide as that in the first block, and as a share of it in the
 // next ones. Both depend on the sample's number alone, so that blocks add up to the image that is drawn at once, and vanish as samples
 // grow, so that highlights converge to what the surface reflects. It falls with the square of the pixel's size, and is 0 on flat surfaces.
-//
-// Of a coarse level: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float slopeSpread(SurfacePoint point) {
     float ofPixel = 0.25 * point.footprint;
     float ofBlock = min(ofPixel / (wave.firstOfBlock / float(BLOCK_SAMPLES) + 1.0), 0.18);
@@ -87,7 +111,7 @@ float slopeSpread(SurfacePoint point) {
     float ofSample = min(ofPixel / (SAMPLE_NUMBER + 1.0), 0.18);
     float spread = max(ofBlock - width * width, ofSample);
 #ifdef COARSE_LEVEL
-    spread += 2.0 * (1.0 - point.agreement) / point.agreement;
+    spread += coarseSpread(point);
 #endif
     return spread;
 }
@@ -98,16 +122,30 @@ float slopeSpread(SurfacePoint point) {
 //
 // What shines within the spread has the normal h, and is seen: those normals are of places in the pixel, or of level 0, which don't mask
 // each other as microfacets do. So masking is that of α, and for the spread's share the cosines are those of h, both v·h.
+//
+// Of a coarse level's normals, those that look to the eye cover more of the picture: each counts v·h times, over the mean of that. So
+// their cosine is the mean, as n·v is that of microfacets. Where the microfacets themselves are wide, α of them shine off what they
+// stand on, masked as ever.
 struct Lobe {
     float width;          // α
     float alpha;          // √(α² + 2σ²)
     float spread;         // its share, which is Beckmann's
+    float shown;          // the cosine to the eye is this
+    float shownOfH;       // and so much of v·h
 };
 
-Lobe lobeOf(SurfacePoint point, float spread) {
+Lobe lobeOf(SurfacePoint point, float nv, float spread) {
     float width = point.roughness * point.roughness;
     float alpha2 = clamp(width * width + spread, 1e-6, 1.0);
-    return Lobe(width, sqrt(alpha2), min(spread / alpha2, 1.0));
+#ifdef COARSE_LEVEL
+    float coarse = min(coarseSpread(point) * (1.0 - width) / alpha2, 1.0);
+    float share = min(coarse + (spread - coarseSpread(point)) / alpha2, 1.0);
+    float seen = meanCosine(point.agreement * nv, nv, point.spread);
+    return Lobe(width, sqrt(alpha2), share, (1.0 - share) * nv + coarse * seen, share - coarse);
+#else
+    float share = min(spread / alpha2, 1.0);
+    return Lobe(width, sqrt(alpha2), share, (1.0 - share) * nv, share);
+#endif
 }
 
 // One light of illuminance `illuminance` (over π) from the unit direction `toLight`. The half vector is known through its cosines
@@ -125,14 +163,14 @@ void addLight(inout LightSums sums, SurfacePoint point, float nv, Lobe lobe, vec
     float beckmann = exp(-max(sum2 - away, 0.0) / (away * alpha2)) / (alpha2 * away * away);
     float distribution = sum2 * sum2 * mix(ggx, beckmann, lobe.spread);
     float shownL = max(mix(cosine, vh, lobe.spread), 0.0);   // of the normals that shine
-    float shownV = max(mix(nv, vh, lobe.spread), 0.0);       // averted ones reflect nothing
+    float shownV = max(lobe.shown + lobe.shownOfH * vh, 0.0);   // averted ones reflect nothing
     float masking = max(mix(2.0 * shownL * shownV, shownL + shownV, lobe.width), 1e-4);
     float specular = shownV > 0.0 ? 0.5 * shownL * distribution / masking : 0.0;
     float g = 1.0 - vh;
     float g2 = g * g;
     g = g2 * g2 * g;
 #ifdef COARSE_LEVEL
-    float matt = meanCosine(cosine, point.agreement);
+    float matt = meanCosine(dot(point.seen, toLight), cosine, point.spread);
 #else
     float matt = max(cosine, 0.0);
 #endif
@@ -165,7 +203,7 @@ vec3 localLight(LightData light, vec4 positionRange, vec3 position, out vec3 toL
 // The normal whose cosine gives the light that matt surfaces throw back.
 vec3 mattNormal(SurfacePoint point) {
 #ifdef COARSE_LEVEL
-    return point.normal * point.agreement;
+    return point.seen;
 #else
     return point.normal;
 #endif
@@ -234,7 +272,7 @@ vec3 environmentLight(SurfacePoint point, float nv, float spread, float occlusio
 vec3 uncoatedRadiance(SurfacePoint point, vec3 position, float occlusion) {
     float nv = dot(point.normal, point.toEye);   // may be below 0: an interpolated normal can look away
     float spread = slopeSpread(point);
-    Lobe lobe = lobeOf(point, spread);
+    Lobe lobe = lobeOf(point, nv, spread);
     LightSums sums;
     sums.diffuse = sums.specular = sums.grazing = vec3(0.0);
 #ifdef OWN_REFLECTANCE

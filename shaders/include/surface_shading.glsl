@@ -217,6 +217,8 @@ vec3 shaded(vec3 baseColor) {
 #endif
 #ifdef COARSE_LEVEL
     point.agreement = clamp(surface.agreement, 0.05, 1.0);   // a sliver may extrapolate
+    point.spread = normalSpread(point.agreement);
+    point.seen = seenNormal(point.normal, point.toEye, point.agreement, point.spread);
 #endif
 #ifdef OWN_REFLECTANCE
     addReflectance(point, baseColor, metallic);

@@ -11,6 +11,7 @@ namespace defocus {
 
 struct ConservedLimits {
     double colour = 1e-3;
+    double light = 1e-3;
     double outline = 0.005;
 };
 
@@ -25,6 +26,7 @@ inline void expectConserved(const Mesh& mesh, const ConservedLimits& limits) {
         if (pyramid.levels[l].meanEdge > 0.25 * glm::length(pyramid.bounds.size())) break;
         const ConservedDifference difference = differenceOf(measured(l), level0);
         EXPECT_LE(difference.colour, limits.colour) << "level " << l;
+        EXPECT_LE(difference.light, limits.light) << "level " << l;
         EXPECT_LE(difference.outline, limits.outline) << "level " << l;
     }
 }

@@ -11,15 +11,15 @@
 #include <limits>
 #include <numbers>
 
+#include "lod/simplify/light.h"
 #include "scene/defaults.h"
 
 namespace defocus {
 
 namespace {
 
-constexpr float skyRadiance = 0.5f;      // about the mean of the default sky
-constexpr float backBias = 1e-3f;        // cells by which a face that looks away lies behind one at its place
-constexpr float leastAgreement = 0.05f;  // as the shaders bound it
+constexpr float skyRadiance = 0.5f;  // about the mean of the default sky
+constexpr float backBias = 1e-3f;    // cells by which a face that looks away lies behind one at its place
 
 // What is nearest to the eye at the middle of a cell.
 struct Hit {
@@ -73,6 +73,8 @@ struct SurfacePoint {
     float roughness = 1;
     glm::vec3 normal{0};
     float agreement = 1;  // length of the mean of the normals that `normal` stands for
+    float spread = 0;     // normalSpread()
+    glm::vec3 seen{0};    // seenNormal()
 };
 
 struct DistantLight {
@@ -91,34 +93,40 @@ std::vector<DistantLight> lightsFor(const Eye& eye) {
     return lights;
 }
 
-float meanCosine(float cosine, float agreement) {
-    const float mean = agreement * cosine;
-    const float spread =
-        std::numbers::inv_pi_v<float> * (1 - agreement * agreement) * std::max(1 - cosine * cosine, 0.0f);
-    return 0.5f * (mean + std::sqrt(mean * mean + spread));
+// The mean of the normals as they are seen.
+glm::vec3 seenNormal(const SurfacePoint& point, const glm::vec3& toEye) {
+    const float nv = glm::dot(point.normal, toEye);
+    const float seen = std::max(meanCosine(point.agreement * nv, nv, point.spread), 1e-3f);
+    const float turn = (1 - point.agreement) / seen;
+    const float bound = 1.23f * turn / ((1 + point.agreement) * seen) * std::max(1 - nv * nv, 0.0f);
+    return point.agreement * point.normal + turn / std::sqrt(1 + bound) * (toEye - nv * point.normal);
 }
 
 glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point, const glm::vec3& toEye) {
     const float cosine = glm::dot(point.normal, light.toLight);
-    const float matt = meanCosine(cosine, point.agreement);
-    const float nl = std::max(cosine, 0.0f);
+    const float matt = meanCosine(glm::dot(point.seen, light.toLight), cosine, point.spread);
     const float nv = glm::dot(point.normal, toEye);
     const float spread = 2 * (1 - point.agreement) / point.agreement;
     const float width = point.roughness * point.roughness;
     const float alpha2 = std::clamp(width * width + spread, 1e-6f, 1.0f);
+    const float share = std::min(spread * (1 - width) / alpha2, 1.0f);
     const float sum2 = std::max(2 + 2 * glm::dot(light.toLight, toEye), 1e-6f);
-    const float cosines = std::max(nl + nv, 0.0f);
-    const float base = std::max(cosines * cosines * (alpha2 - 1) + sum2, alpha2 * sum2);
-    const float masking = std::max(glm::mix(2 * nl * nv, cosines, std::sqrt(alpha2)), 1e-4f);
+    const float vh = 0.5f * std::sqrt(sum2);
+    const float cosines = std::max(cosine + nv, 0.0f);
+    const float cosines2 = cosines * cosines;
+    const float base = std::max(cosines2 * (alpha2 - 1) + sum2, alpha2 * sum2);
     const float ggx = alpha2 / (base * base);
-    const float away = std::max(cosines * cosines, 1e-4f);
+    const float away = std::max(cosines2, 1e-4f * sum2);
     const float beckmann = std::exp(-std::max(sum2 - away, 0.0f) / (away * alpha2)) / (alpha2 * away * away);
-    const float distribution = sum2 * sum2 * glm::mix(ggx, beckmann, std::min(spread / alpha2, 1.0f));
-    const float lobe = nv > 0 ? 0.5f * distribution / masking : 0;
-    const float grazing = std::pow(std::max(1 - 0.5f * std::sqrt(sum2), 0.0f), 5.0f);
+    const float distribution = sum2 * sum2 * glm::mix(ggx, beckmann, share);
+    const float shownL = std::max(glm::mix(cosine, vh, share), 0.0f);
+    const float shownV = std::max(glm::mix(nv, meanCosine(point.agreement * nv, nv, point.spread), share), 0.0f);
+    const float masking = std::max(glm::mix(2 * shownL * shownV, shownL + shownV, width), 1e-4f);
+    const float specular = shownV > 0 ? 0.5f * shownL * distribution / masking : 0;
+    const float grazing = std::pow(std::max(1 - vh, 0.0f), 5.0f);
     const glm::vec3 reflectance = point.specular * (1 - grazing) + grazing;
     return light.illuminance *
-           (point.diffuse * (1.0f - point.specular) * (matt * (1 - grazing)) + reflectance * (nl * lobe));
+           (point.diffuse * (1.0f - point.specular) * (matt * (1 - grazing)) + reflectance * specular);
 }
 
 // The share of a white sky's light that the specular part throws back.
@@ -160,11 +168,14 @@ public:
         point.specular = glm::mix(glm::vec3(finish.reflectance), color, metallic);
         point.roughness = finish.roughness * surface.y;
         if (length > 0) point.normal = (hit.back ? -1 : 1) / length * normal;
-        if (coarse_)
+        if (coarse_) {
             point.agreement = std::clamp(a * glm::length(level_.normals[corners[0]]) +
                                              hit.b * glm::length(level_.normals[corners[1]]) +
                                              hit.c * glm::length(level_.normals[corners[2]]),
-                                         leastAgreement, 1.0f);
+                                         leastShownAgreement, 1.0f);
+            point.spread = normalSpread(point.agreement);
+        }
+        point.seen = seenNormal(point, toEye_);
         glm::vec3 light = finish.emission * finish.emissionMap.at(uv0, uv1);
         if (finish.reflectance > 0 || metallic > 0) {
             light += skyLight(point, toEye_);
@@ -172,8 +183,9 @@ public:
         } else {
             light += point.diffuse * skyRadiance;
             for (const DistantLight& each : lights_)
-                light += point.diffuse * each.illuminance *
-                         meanCosine(glm::dot(point.normal, each.toLight), point.agreement);
+                light +=
+                    point.diffuse * each.illuminance *
+                    meanCosine(glm::dot(point.seen, each.toLight), glm::dot(point.normal, each.toLight), point.spread);
         }
         return light;
     }

@@ -94,7 +94,7 @@ Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v) {
 
 FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions, const VertexGroups& smoothing,
                      const TriangleSet<MeshVertexNumber>& triangles) {
-    FitSource source{vertices, positions, smoothing, {}, {}, {}, {}, {}, glm::dvec4(0), {}};
+    FitSource source{vertices, positions, smoothing, {}, {}, {}, {}, {}, glm::dvec4(0), {}, {}};
     source.shades = colorGroups(source.smoothing, vertices.colors);
     source.charts = chartGroups(vertices, positions);
     source.seams = seamVertices(source.charts, positions);
@@ -107,6 +107,7 @@ FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions,
             [&](MeshVertexNumber v) { return vertices.colors[v.value]; });
     const std::vector<std::uint32_t> corners = plainCorners(triangles);
     source.outlines = outlinesOf(vertices.positions, corners, source.bounds);
+    source.light = lightMeans({vertices.positions, vertices.normals, vertices.colors, corners, false}, pointsOfLight);
     return source;
 }
 

@@ -265,6 +265,15 @@ void conserveColor(const FitSource& source, const LevelMesh& level, LevelFit& fi
     for (glm::vec4& color : fit.colors) color += glm::vec4(source.meanColor - own);
 }
 
+void conserveLight(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
+    const auto leaderOf = [&](MeshVertexNumber v) { return source.smoothing[v]; };
+    const Grouping groups = grouped(level, source.vertices.count(), leaderOf, true);
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(groups.of.size());
+    for (const UnknownNumber g : groups.of) numbers.push_back(g.value);
+    fitLight(fit.positions, fit.colors, plainCorners(level.triangles), numbers, source.light, fit.normals);
+}
+
 }  // namespace
 
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors) {
@@ -282,6 +291,7 @@ LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<Mesh
 void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
     conserveOutline(source, level, fit);
     conserveColor(source, level, fit);
+    conserveLight(source, level, fit);
 }
 
 }  // namespace defocus

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/bounds.h"
+#include "lod/simplify/light.h"
 #include "lod/simplify/outline.h"
 #include "lod/simplify/triangle_set.h"
 #include "lod/simplify/weld.h"
@@ -32,6 +33,7 @@ struct FitSource {
     // Level 0's values of what the levels keep; see conserve().
     glm::dvec4 meanColor{0};
     std::vector<CoverGrid> outlines;
+    LightMeans light{};
 };
 
 // Prepares the fit; `triangles` are level 0's. It keeps references to the other three.
@@ -82,7 +84,8 @@ LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<Mesh
 
 // Corrects a fitted level until it keeps what a wide blur would show of level 0:
 // - the area that it covers, where it is so coarse that it may lose any: what lies at its outlines moves (outline.h);
-// - the mean colour over its area, alpha included: all colours are shifted alike.
+// - the mean colour over its area, alpha included: all colours are shifted alike;
+// - the light that it throws back if it is matt, from any direction: its normals turn a little (light.h).
 // What fitLevel promises of places and of normals that are shared still holds; a triangle turns by at most 60° more.
 void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
 

@@ -54,22 +54,23 @@ inline glm::dvec3 closestPoint(const glm::dvec3& p, const glm::dvec3& a, const g
     return a + along.x * (b - a) + along.y * (c - a);
 }
 
-// Calls visit(weights, share) for points of a triangle that is split into parts² alike: the middles of their edges,
-// which integrate quadratic functions exactly. `weights` are those of the corners, and the shares sum to 1.
+// Calls visit(weights, share) for points of a triangle that is split into parts² alike: three within each of them,
+// which integrate quadratic functions exactly (Strang and Fix 1973). No point lies on an edge, where normals of a rim's
+// two sides may cancel. `weights` are those of the corners, and the shares sum to 1.
 template <typename Visit>
 void forEachTrianglePoint(int parts, const Visit& visit) {
     const double step = 1.0 / parts;
-    const auto middles = [&](double x, double y, double size) {
-        for (const auto& [dx, dy] : {std::pair{0.5, 0.0}, std::pair{0.0, 0.5}, std::pair{0.5, 0.5}}) {
-            const double s = x + dx * size;
-            const double t = y + dy * size;
+    const auto points = [&](double x, double y, double size) {
+        for (const auto& [dx, dy] : {std::pair{1.0, 1.0}, std::pair{4.0, 1.0}, std::pair{1.0, 4.0}}) {
+            const double s = x + dx * size / 6;
+            const double t = y + dy * size / 6;
             visit(glm::dvec3(1 - s - t, s, t), step * step / 3);
         }
     };
     for (int i = 0; i < parts; ++i)
         for (int j = 0; i + j < parts; ++j) {
-            middles(i * step, j * step, step);
-            if (i + j + 1 < parts) middles((i + 1) * step, (j + 1) * step, -step);
+            points(i * step, j * step, step);
+            if (i + j + 1 < parts) points((i + 1) * step, (j + 1) * step, -step);
         }
 }
 

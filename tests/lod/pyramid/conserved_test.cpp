@@ -32,7 +32,7 @@ TEST(Conserved, ofAGreyHalfIsTheMean) {
     EXPECT_NEAR(measured.colour.x, 7.0 / 16, 1e-6);
 }
 
-TEST(Conserved, levelsOfAFishKeepColourAndOutline) {
+TEST(Conserved, levelsOfAFishKeepColourLightAndOutline) {
     const Scene scene = loadGltf(modelPath("meshes/fish.glb"));
     expectConserved(scene.meshes.front(), {});
 }

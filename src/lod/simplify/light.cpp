@@ -1,0 +1,279 @@
+#include "lod/simplify/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "lod/simplify/triangle.h"
+
+namespace defocus {
+
+namespace {
+
+using LightRow = std::array<float, lightCount>;
+
+// The lights' directions, coordinate by coordinate, which compilers compute with several at once.
+struct Lights {
+    LightRow x, y, z;
+};
+
+Lights lights() {
+    Lights result;
+    const auto directions = directionsToLights();
+    for (std::size_t l = 0; l < lightCount; ++l) {
+        result.x[l] = static_cast<float>(directions[l].x);
+        result.y[l] = static_cast<float>(directions[l].y);
+        result.z[l] = static_cast<float>(directions[l].z);
+    }
+    return result;
+}
+
+struct LitPoint {
+    glm::vec3 weights{0};  // of the triangle's corners
+    glm::vec3 normal{0};   // unit length, or 0
+    float agreement = 1;
+    float area = 0;
+    float light = 0;  // area times colour
+};
+
+// Visits points of the surface as visit(corners, point); its area.
+template <typename Visit>
+double forEachLitPoint(const LitSurface& surface, std::size_t leastPoints, const Visit& visit) {
+    const std::size_t triangles = surface.indices.size() / 3;
+    const double wanted = std::sqrt(static_cast<double>(leastPoints) / static_cast<double>(3 * triangles + 1));
+    const int parts = std::max(1, static_cast<int>(std::ceil(wanted)));
+    double areas = 0;
+    for (std::size_t i = 0; i < 3 * triangles; i += 3) {
+        const std::uint32_t* const v = &surface.indices[i];
+        const glm::dvec3 a = surface.positions[v[0]];
+        const double area = 0.5 * glm::length(glm::cross(glm::dvec3(surface.positions[v[1]]) - a,
+                                                         glm::dvec3(surface.positions[v[2]]) - a));
+        if (!(area > 0) || !std::isfinite(area)) continue;
+        areas += area;
+        float lengths[3];
+        float colors[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            lengths[k] = surface.coarse ? glm::length(surface.normals[v[k]]) : 1;
+            const glm::vec4 color = surface.colors.empty() ? glm::vec4(1) : surface.colors[v[k]];
+            colors[k] = (color.r + color.g + color.b) / 3;
+        }
+        forEachTrianglePoint(parts, [&](const glm::dvec3& at, double share) {
+            LitPoint point;
+            const glm::vec3 w = point.weights = glm::vec3(at);
+            const glm::vec3 normal =
+                w.x * surface.normals[v[0]] + w.y * surface.normals[v[1]] + w.z * surface.normals[v[2]];
+            const float length = glm::length(normal);
+            if (length > 0) point.normal = normal / length;
+            point.agreement =
+                std::clamp(w.x * lengths[0] + w.y * lengths[1] + w.z * lengths[2], leastShownAgreement, 1.0f);
+            point.area = static_cast<float>(share * area);
+            point.light = point.area * (w.x * colors[0] + w.y * colors[1] + w.z * colors[2]);
+            visit(v, point);
+        });
+    }
+    return areas;
+}
+
+using LightMatrix = std::array<LightMeans, lightCount>;
+
+// Solves a symmetric positive definite system by Cholesky's decomposition, of which the matrix takes the lower half.
+void solve(LightMatrix& matrix, LightMeans& values) {
+    for (std::size_t i = 0; i < lightCount; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            double rest = matrix[i][j];
+            for (std::size_t k = 0; k < j; ++k) rest -= matrix[i][k] * matrix[j][k];
+            matrix[i][j] = i == j ? std::sqrt(rest) : rest / matrix[j][j];
+        }
+        for (std::size_t k = 0; k < i; ++k) values[i] -= matrix[i][k] * values[k];
+        values[i] /= matrix[i][i];
+    }
+    for (std::size_t i = lightCount; i-- > 0;) {
+        for (std::size_t k = i + 1; k < lightCount; ++k) values[i] -= matrix[k][i] * values[k];
+        values[i] /= matrix[i][i];
+    }
+}
+
+// What each light's mean gains for a change of a normal along x, y and z.
+struct LightSlopes {
+    LightRow x{}, y{}, z{};
+
+    void add(float weight, const LightSlopes& other) {
+        for (std::size_t l = 0; l < lightCount; ++l) {
+            x[l] += weight * other.x[l];
+            y[l] += weight * other.y[l];
+            z[l] += weight * other.z[l];
+        }
+    }
+};
+
+// Of meanCosine(), for a point's normal that turns: those along its own direction are 0.
+LightSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
+    constexpr float leastRoot = 0.02f;  // the slope jumps where light grazes a normal that stands for itself
+    const glm::vec3& n = point.normal;
+    const float spread = normalSpread(point.agreement);
+    LightSlopes slopes;
+    for (std::size_t l = 0; l < lightCount; ++l) {
+        const float cosine = n.x * lights.x[l] + n.y * lights.y[l] + n.z * lights.z[l];
+        const float mean = point.agreement * cosine;
+        const float root = std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f));
+        values[l] = 0.5f * (mean + root);
+        const float slope =
+            0.5f * (point.agreement + (point.agreement * mean - spread * cosine) / std::max(root, leastRoot));
+        slopes.x[l] = slope * (lights.x[l] - cosine * n.x);
+        slopes.y[l] = slope * (lights.y[l] - cosine * n.y);
+        slopes.z[l] = slope * (lights.z[l] - cosine * n.z);
+    }
+    return slopes;
+}
+
+// The means, and how they follow the normals of groups.
+struct FollowingMeans {
+    LightMeans means{};
+    std::vector<float> areas;  // of each group; the whole surface has 1
+    std::vector<LightSlopes> slopes;
+};
+
+FollowingMeans followingMeans(const LitSurface& surface, std::span<const std::uint32_t> groups,
+                              std::size_t leastPoints) {
+    const Lights from = lights();
+    FollowingMeans result;
+    result.areas.assign(groups.size(), 0);
+    result.slopes.assign(groups.size(), LightSlopes{});
+    const double area = forEachLitPoint(surface, leastPoints, [&](const std::uint32_t* corners, const LitPoint& point) {
+        LightRow values;
+        const LightSlopes slopes = slopesAt(from, point, values);
+        for (std::size_t l = 0; l < lightCount; ++l) result.means[l] += double{point.light * values[l]};
+        for (glm::length_t k = 0; k < 3; ++k) {
+            const std::uint32_t group = groups[corners[k]];
+            result.areas[group] += point.weights[k] * point.area;
+            result.slopes[group].add(point.weights[k] * point.light, slopes);
+        }
+    });
+    if (!(area > 0)) return result;
+    for (double& mean : result.means) mean /= area;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        LightSlopes scaled;
+        scaled.add(static_cast<float>(1 / area), result.slopes[g]);
+        result.slopes[g] = scaled;
+        result.areas[g] *= static_cast<float>(1 / area);
+    }
+    return result;
+}
+
+// Returns the smallest change of the groups' normals that changes the means by `wanted`, about. It is the smaller, the
+// larger `damping` is, in units of the equations' mean diagonal: hardly nine of the lights are independent.
+std::vector<glm::vec3> smallestChange(const FollowingMeans& at, LightMeans wanted, double damping) {
+    LightMatrix matrix{};
+    for (std::size_t g = 0; g < at.areas.size(); ++g) {
+        if (!(at.areas[g] > 0)) continue;
+        const LightSlopes& slopes = at.slopes[g];
+        const float weight = 1 / at.areas[g];
+        for (std::size_t i = 0; i < lightCount; ++i)
+            for (std::size_t j = 0; j <= i; ++j)
+                matrix[i][j] += double{
+                    weight * (slopes.x[i] * slopes.x[j] + slopes.y[i] * slopes.y[j] + slopes.z[i] * slopes.z[j])};
+    }
+    double trace = 0;
+    for (std::size_t i = 0; i < lightCount; ++i) trace += matrix[i][i];
+    std::vector<glm::vec3> change(at.areas.size(), glm::vec3(0));
+    if (!(trace > 0)) return change;
+    for (std::size_t i = 0; i < lightCount; ++i) matrix[i][i] += damping / lightCount * trace;
+    solve(matrix, wanted);
+    for (std::size_t g = 0; g < change.size(); ++g) {
+        if (!(at.areas[g] > 0)) continue;
+        const LightSlopes& slopes = at.slopes[g];
+        for (std::size_t l = 0; l < lightCount; ++l)
+            change[g] += static_cast<float>(wanted[l]) / at.areas[g] * glm::vec3(slopes.x[l], slopes.y[l], slopes.z[l]);
+    }
+    return change;
+}
+
+// Normals after a change of their groups', as long as before.
+void turn(std::span<const glm::vec3> before, std::span<const std::uint32_t> groups, std::span<const glm::vec3> change,
+          std::span<glm::vec3> after) {
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        const float length = glm::length(before[v]);
+        const glm::vec3 changed = before[v] + length * change[groups[v]];
+        const float changedLength = glm::length(changed);
+        after[v] = changedLength > 0 && std::isfinite(changedLength) ? changed * (length / changedLength) : before[v];
+    }
+}
+
+}  // namespace
+
+std::array<glm::dvec3, lightCount> directionsToLights() {
+    std::array<glm::dvec3, lightCount> directions;
+    for (int i = 0; i < 13; ++i) {
+        const auto d = static_cast<std::size_t>(i);
+        directions[d] = glm::normalize(glm::dvec3(i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1));
+        directions[d + 13] = -directions[d];
+    }
+    return directions;
+}
+
+float normalSpread(float agreement) {
+    const float lost = 1 - agreement;
+    const float root = std::sqrt(lost);
+    return lost * (0.17796f + root * (1.04019f + root * (-1.37493f + root * (1.28514f - 0.72122f * root))));
+}
+
+float meanCosine(float mean, float cosine, float spread) {
+    return 0.5f * (mean + std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f)));
+}
+
+LightMeans lightMeans(const LitSurface& surface, std::size_t leastPoints) {
+    const Lights from = lights();
+    LightMeans means{};
+    const double area = forEachLitPoint(surface, leastPoints, [&](const std::uint32_t*, const LitPoint& point) {
+        const glm::vec3& n = point.normal;
+        const float spread = normalSpread(point.agreement);
+        LightRow values;
+        for (std::size_t l = 0; l < lightCount; ++l) {
+            const float cosine = n.x * from.x[l] + n.y * from.y[l] + n.z * from.z[l];
+            values[l] = meanCosine(point.agreement * cosine, cosine, spread);
+        }
+        for (std::size_t l = 0; l < lightCount; ++l) means[l] += double{point.light * values[l]};
+    });
+    for (double& mean : means) mean = area > 0 ? mean / area : 0;
+    return means;
+}
+
+void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
+              std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
+              std::span<glm::vec3> normals) {
+    constexpr int mostRounds = 8;
+    constexpr double enough = 5e-4;
+    std::vector<glm::vec3> best(normals.begin(), normals.end());
+    FollowingMeans atBest;
+    LightMeans wanted{};
+    double leastSquares = std::numeric_limits<double>::infinity();
+    // Strong at first, so that normals turn no further than the lights ask for, and highlights keep their place.
+    double damping = 1;
+    for (int round = 0; round < mostRounds; ++round) {
+        FollowingMeans now = followingMeans({positions, normals, colors, indices, true}, groups, pointsOfLight);
+        LightMeans rest{};
+        double squares = 0;
+        double worst = 0;
+        for (std::size_t l = 0; l < lightCount; ++l) {
+            rest[l] = target[l] - now.means[l];
+            squares += rest[l] * rest[l];
+            worst = std::max(worst, std::abs(rest[l]));
+        }
+        if (squares < leastSquares) {
+            leastSquares = squares;
+            std::copy(normals.begin(), normals.end(), best.begin());
+            atBest = std::move(now);
+            wanted = rest;
+            if (worst <= enough) break;
+            damping *= 0.3;
+        } else {
+            damping *= 10;
+        }
+        turn(best, groups, smallestChange(atBest, wanted, damping), normals);
+    }
+    std::copy(best.begin(), best.end(), normals.begin());
+}
+
+}  // namespace defocus
