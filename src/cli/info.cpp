@@ -13,6 +13,7 @@
 #include "cli/command.h"
 #include "cli/option_text.h"
 #include "cli/request_options.h"
+#include "core/message.h"
 #include "core/number_text.h"
 #include "core/parallel.h"
 #include "lens/lens_fields.h"
@@ -268,7 +269,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     const Totals totals = totalsOf(scene, objects);
     const glm::dvec3 size = pose.bounds.size();
     line("scene",
-         options.seen.scene.empty() ? scene.name : fmt::format("{} ({})", options.seen.scene.string(), scene.name));
+         options.seen.scene.empty() ? scene.name : fmt::format("{} ({})", printable(options.seen.scene.string()), scene.name));
     line("size", fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x, size.y, size.z));
     line("triangles", fmt::format("{}, {} in the scene", grouped(totals.triangles), grouped(totals.trianglesInScene)));
     line("vertices", grouped(totals.vertices));

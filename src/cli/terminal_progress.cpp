@@ -56,7 +56,7 @@ private:
     void drawBar(std::string_view stage, double share, std::optional<double> left) {
         winsize window{};
         const bool sized = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
-        printMessage("\r\x1b[K{}", progressLine(stage, share, left, sized ? window.ws_col : 80));
+        writeMessage("\r\x1b[K" + progressLine(stage, share, left, sized ? window.ws_col : 80));
         drawn_ = true;
     }
 

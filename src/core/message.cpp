@@ -12,6 +12,20 @@ void writeMessage(std::string_view text) noexcept {
     std::fflush(stderr);
 }
 
+std::string printable(std::string_view text) {
+    std::string result;
+    result.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+        const bool c0 = (byte < 0x20 && byte != '\n') || byte == 0x7F;
+        const bool c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;  // two bytes of UTF-8
+        result.push_back(c0 || c1 ? '?' : text[i]);
+        if (c1) ++i;
+    }
+    return result;
+}
+
 void claimClosedOutputs() {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
         if (::fcntl(descriptor, F_GETFD) < 0)

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -11,9 +12,12 @@ namespace defocus {
 
 void writeMessage(std::string_view text) noexcept;
 
+// Returns the text without control characters, which a terminal would obey: a '?' stands for each but ends of lines.
+std::string printable(std::string_view text);
+
 template <typename... Args>
 void printMessage(fmt::format_string<Args...> format, Args&&... args) {
-    writeMessage(fmt::format(format, std::forward<Args>(args)...));
+    writeMessage(printable(fmt::format(format, std::forward<Args>(args)...)));
 }
 
 // Call first of all: an output that the program was started without (2>&-) becomes one that can't be written to, or

@@ -34,6 +34,13 @@ TEST(Message, isLostWhereItCannotBeWritten) {
     }
 }
 
+TEST(Message, holdsNothingThatATerminalObeys) {
+    EXPECT_EQ(printable("a\x1b[31mb\x07\tc\x7f\n"), "a?[31mb??c?\n");
+    EXPECT_EQ(printable("\xC2\x9B"
+                        "31m \xC3\xA9 \xC2\xA0"),
+              "?31m \xC3\xA9 \xC2\xA0");
+}
+
 TEST(Message, closedOutputsAreNotTakenByOtherFiles) {
     const auto print = [] {
         ::close(STDOUT_FILENO);

@@ -6,9 +6,11 @@
 #include <cctype>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "core/file.h"
 #include "core/json_text.h"
+#include "core/message.h"
 
 namespace defocus::gltf {
 
@@ -69,6 +71,18 @@ Container splitGlb(const Document& document, Bytes bytes) {
     return result;
 }
 
+// Names go to terminals, and are freed of what those would obey.
+void freeNames(nlohmann::json& json) {
+    if (json.is_object())
+        if (const auto found = json.find("name"); found != json.end() && found->is_string()) {
+            auto name = printable(found->get_ref<const std::string&>());
+            std::replace(name.begin(), name.end(), '\n', '?');
+            *found = std::move(name);
+        }
+    if (json.is_structured())
+        for (nlohmann::json& part : json) freeNames(part);
+}
+
 nlohmann::json parseJson(const Document& document, Bytes bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with("\xEF\xBB\xBF")) fault(document, "not valid glTF JSON: it starts with a byte order mark");
@@ -76,6 +90,7 @@ nlohmann::json parseJson(const Document& document, Bytes bytes) {
     try {
         nlohmann::json json = nlohmann::json::parse(text.begin(), text.end());
         if (!json.is_object()) fault(document, "not glTF: its JSON is not an object");
+        freeNames(json);
         return json;
     } catch (const nlohmann::json::exception& exception) {
         const std::string message = exception.what();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/message.h"
 #include "scene/gltf/animation.h"
 #include "scene/gltf/material.h"
 #include "scene/gltf/mesh.h"
@@ -101,7 +102,7 @@ Scene readScene(gltf::Source& source, const std::filesystem::path& path, const P
     scene.skins = gltf::readSkins(source, hierarchy);
     gltf::checkSkinnedMeshes(source, hierarchy, scene.meshes, scene.skins);
     checkObjects(source, hierarchy, scene);
-    scene.name = hierarchy.sceneName.empty() ? path.stem().string() : hierarchy.sceneName;
+    scene.name = hierarchy.sceneName.empty() ? printable(path.stem().string()) : hierarchy.sceneName;
     scene.nodes = std::move(hierarchy.nodes);
     scene.roots = std::move(hierarchy.roots);
 

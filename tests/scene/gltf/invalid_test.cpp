@@ -207,6 +207,12 @@ TEST(InvalidGltf, namesCannotBreakTheLine) {
     EXPECT_TRUE(std::none_of(message.begin(), message.end(), [](unsigned char c) { return c < 0x20; }));
 }
 
+TEST(InvalidGltf, namesSayNothingToATerminal) {
+    GltfBuilder builder = triangle();
+    builder.json["nodes"][0]["name"] = "fish\x1b[31m\nred";
+    EXPECT_EQ(builder.load().nodes[0].name, "fish?[31m?red");
+}
+
 TEST(InvalidGltf, namesCannotBuryTheFault) {
     GltfBuilder builder = triangle();
     builder.json["extensionsRequired"] = {std::string(100'000, 'x')};
