@@ -27,6 +27,14 @@ std::uint64_t bitsBetween(int low, int high) {
     return (~std::uint64_t{0} >> (wordBits - (high - low))) << low;
 }
 
+constexpr int fractionBits = 32;
+constexpr std::int64_t almostOne = (std::int64_t{1} << fractionBits) - 1;
+
+std::int64_t fixedPoint(double value) {
+    constexpr double farthest = 1 << 20;
+    return static_cast<std::int64_t>(std::clamp(value, -farthest, farthest) * static_cast<double>(almostOne + 1));
+}
+
 // Where a line crosses rows; the same for both triangles at an edge.
 struct Side {
     float x, y, slope;
@@ -141,13 +149,17 @@ void EdgeFill::add(const glm::dvec2& from, const glm::dvec2& to, int triangles) 
     if (first >= end) return;
     firstRow_ = std::min(firstRow_, first);
     endRow_ = std::max(endRow_, end);
+    // Fixed point, as it goes on by the same step from row to row.
     const double slope = (high.x - low.x) / (high.y - low.y);
-    for (int row = first; row < end; ++row) {
-        const int column = firstAt(low.x + (row + 0.5 - low.y) * slope - 0.5, resolution_);
-        if (column == resolution_) continue;
+    std::int64_t x = fixedPoint(low.x + (first + 0.5 - low.y) * slope - 0.5);
+    const std::int64_t step = end - first > 1 ? fixedPoint(slope) : 0;
+    const int sign = up ? -triangles : triangles;
+    for (int row = first; row < end; ++row, x += step) {
+        const auto column = static_cast<int>(std::max<std::int64_t>((x + almostOne) >> fractionBits, 0));
+        if (column >= resolution_) continue;
         const std::size_t cell =
             static_cast<std::size_t>(row) * static_cast<std::size_t>(resolution_) + static_cast<std::size_t>(column);
-        steps_[cell] += up ? -triangles : triangles;
+        steps_[cell] += sign;
         edges_[cell / wordBits] |= std::uint64_t{1} << cell % wordBits;
     }
 }

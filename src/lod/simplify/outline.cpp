@@ -26,7 +26,8 @@ constexpr int mostGlobalRounds = 12;  // the covered area of each direction beco
 constexpr double goodEnough = 1.5e-3;
 constexpr double passable = 3.5e-3;
 constexpr std::size_t fewTriangles = 2048;
-constexpr double mostWay = 48;  // cells between an edge and level 0's outline, beyond which it is another part's
+constexpr int mostVainRounds = 4;  // after which areas aren't expected to come nearer
+constexpr double mostWay = 48;     // cells between an edge and level 0's outline, beyond which it is another part's
 constexpr int mostEdgePoints = 24;
 constexpr double stiffness = 0.1;       // of a vertex against moves that few outlines ask for, as a share of all
 constexpr double mostMoveShare = 0.25;  // of the mean length of the edges at a vertex, a round
@@ -62,10 +63,10 @@ std::vector<double> solvedSymmetric(std::vector<double> matrix, std::vector<doub
 // An edge with one or two of its faces.
 struct Edge {
     std::uint32_t a = 0, b = 0;  // places, a < b
-    std::uint32_t third[2] = {0, 0};
+    std::uint32_t third = 0;     // of the first face
     std::uint32_t face[2] = {0, 0};
-    int way[2] = {0, 0};  // 1 of a face that goes from a to b, −1 of one that goes from b to a
-    int faces = 0;        // more than two: it counts as an open one
+    std::int8_t way[2] = {0, 0};  // 1 of a face that goes from a to b, −1 of one that goes from b to a; 0 without one
+    bool closed = false;          // it has two faces; one of more counts as an open one
 };
 
 struct Edges {
@@ -82,10 +83,9 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
                 const std::uint32_t b = corners[i + (k + 1) % 3];
                 if (a == b) continue;
                 Edge edge{std::min(a, b), std::max(a, b)};
-                edge.third[0] = corners[i + (k + 2) % 3];
+                edge.third = corners[i + (k + 2) % 3];
                 edge.face[0] = static_cast<std::uint32_t>(i / 3);
                 edge.way[0] = a < b ? 1 : -1;
-                edge.faces = 1;
                 visit(edge);
             }
     };
@@ -107,11 +107,11 @@ Edges edgesOf(std::span<const std::uint32_t> corners, std::size_t placeCount) {
                 continue;
             }
             Edge& known = edges.all.back();
-            if (++known.faces > 2) {
+            known.closed = known.way[1] == 0;
+            if (!known.closed) {
                 edges.more.push_back(side);
                 continue;
             }
-            known.third[1] = side.third[0];
             known.face[1] = side.face[0];
             known.way[1] = side.way[0];
         }
@@ -196,34 +196,43 @@ public:
         move(moves);
     }
 
-    // The smallest moves after which each direction has its area, to first order. False where all have it already.
-    bool matchAreas() {
+    // The smallest moves after which each direction has its area, to first order. False where all have it already, to
+    // within `enough`, or where that leads nowhere.
+    bool matchAreas(double enough) {
         const std::size_t count = outlines_.size();
-        std::vector<glm::dvec3> gradients(count * places_.size(), glm::dvec3(0));  // of each place, one a direction
+        gradients_.assign(count * places_.size(), glm::dvec3(0));
         std::vector<double> missing(count, 0);
+        double misfit = 0;
         bool matched = true;
         for (std::size_t d = 0; d < count; ++d) {
             const double own = forEachPoint(outlines_[d], [&](const OutlinePoint& point) {
                 const glm::dvec3 outward = outlines_[d].inSpace(point.across);
-                gradients[count * point.a + d] += point.length * (1 - point.share) * outward;
-                gradients[count * point.b + d] += point.length * point.share * outward;
+                gradients_[count * point.a + d] += point.length * (1 - point.share) * outward;
+                gradients_[count * point.b + d] += point.length * point.share * outward;
             });
             missing[d] = areas_[d] - own;
-            matched = matched && std::abs(missing[d]) <= goodEnough * areas_[d];
+            matched = matched && std::abs(missing[d]) <= enough * areas_[d];
+            if (areas_[d] > 0) misfit += missing[d] * missing[d] / (areas_[d] * areas_[d]);
         }
-        if (matched) return false;
-        const std::vector<double> factors = solved(gradients, missing);
+        rounds_ = matched || misfit < leastMisfit_ ? 0 : rounds_ + 1;
+        if (rounds_ == 0) {
+            leastMisfit_ = misfit;
+            best_ = places_;
+        }
+        if (matched || rounds_ == mostVainRounds) return false;
+        const std::vector<double> factors = solved(gradients_, missing);
         std::vector<glm::dvec3> moves(places_.size(), glm::dvec3(0));
         for (std::size_t v = 0; v < moves.size(); ++v)
-            for (std::size_t d = 0; d < count; ++d) moves[v] += factors[d] * gradients[count * v + d];
+            for (std::size_t d = 0; d < count; ++d) moves[v] += factors[d] * gradients_[count * v + d];
         move(moves);
         return true;
     }
 
-    [[nodiscard]] const std::vector<glm::vec3>& places() const { return places_; }
+    // The last ones, unless the rounds have led away from better ones.
+    [[nodiscard]] const std::vector<glm::vec3>& places() const { return rounds_ > 0 ? best_ : places_; }
 
 private:
-    // Marks what the level covers; its area. Keeps where the places lie, and how the faces turn.
+    // Marks what the level covers; its area. Keeps where the places lie, and the edges that may be at its outline.
     double cover(CoverGrid& own) {
         cells_.clear();
         for (const glm::vec3& place : places_) cells_.push_back(own.cellsOf(place));
@@ -234,12 +243,16 @@ private:
             const double cross = q.x * r.y - q.y * r.x;
             turns_[face] = static_cast<std::int8_t>(std::isfinite(cross) ? (cross > 0) - (cross < 0) : 0);
         }
-        for (const std::vector<Edge>* const edges : {&edges_.all, &edges_.more})
-            for (const Edge& edge : *edges) {
-                int left = edge.way[0] * turns_[edge.face[0]];
-                if (edge.faces > 1) left += edge.way[1] * turns_[edge.face[1]];
-                if (left != 0) fill_.add(cells_[edge.a], cells_[edge.b], left);
-            }
+        rim_.clear();
+        for (const Edge& edge : edges_.all) {
+            const int first = turns_[edge.face[0]];
+            const int second = turns_[edge.face[1]];
+            const int left = edge.way[0] * first + edge.way[1] * second;
+            if (left != 0) fill_.add(cells_[edge.a], cells_[edge.b], left);
+            if (!edge.closed || first * second <= 0) rim_.push_back(&edge);
+        }
+        for (const Edge& edge : edges_.more)
+            fill_.add(cells_[edge.a], cells_[edge.b], edge.way[0] * turns_[edge.face[0]]);
         return own.cell() * own.cell() * static_cast<double>(fill_.fill(own));
     }
 
@@ -248,14 +261,14 @@ private:
     double forEachPoint(const CoverGrid& level0, const Visit& visit) {
         CoverGrid own = level0.emptied();
         const double area = cover(own);
-        for (const Edge& edge : edges_.all) {
-            if (edge.faces == 2 && turns_[edge.face[0]] * turns_[edge.face[1]] > 0) continue;
+        for (const Edge* const rim : rim_) {
+            const Edge& edge = *rim;
             const glm::dvec2& from = cells_[edge.a];
             const glm::dvec2 along = cells_[edge.b] - from;
             const double length = glm::length(along);
             if (!(length > 1e-6)) continue;
             glm::dvec2 across(along.y / length, -along.x / length);
-            if (glm::dot(across, cells_[edge.third[0]] - from) > 0) across = -across;
+            if (glm::dot(across, cells_[edge.third] - from) > 0) across = -across;
             const int count = std::clamp(static_cast<int>(std::ceil(length)), 1, mostEdgePoints);
             for (int i = 0; i < count; ++i) {
                 const double share = (i + 0.5) / count;
@@ -305,10 +318,15 @@ private:
     std::span<const CoverGrid> outlines_;
     std::vector<double> areas_;  // of the outlines
     const Bounds& box_;
+    std::vector<glm::vec3> best_;                                   // places whose areas were nearest to the outlines'
+    double leastMisfit_ = std::numeric_limits<double>::infinity();  // of those: squares of relative differences
+    int rounds_ = 0;                                                // since then
+    std::vector<glm::dvec3> gradients_;                             // of each place, one a direction
     // As last seen from some direction.
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // of each place
     std::vector<std::int8_t> turns_;  // of each face: 1 counterclockwise, −1 clockwise, 0 seen from its edge
+    std::vector<const Edge*> rim_;    // all but those between two faces that turn the same way
 };
 
 }  // namespace
@@ -343,7 +361,7 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     OutlineFit fit(std::move(at), corners, outlines, box);
     if (fit.worstArea() <= enough) return;
     for (int round = 0; round < localRounds; ++round) fit.followLocally();
-    for (int round = 0; round < mostGlobalRounds && fit.matchAreas(); ++round) {
+    for (int round = 0; round < mostGlobalRounds && fit.matchAreas(enough); ++round) {
     }
     for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = fit.places()[places[v]];
 }
