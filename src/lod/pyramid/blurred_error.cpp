@@ -33,76 +33,73 @@ constexpr float mostUnseenGrowth = 4;
 using SquareSums = std::array<double, blurSizes>;
 
 // A picture, and its means over patches of 2, 4, … cells: each of the white cells of a chess board, and of the black
-// ones. Only the cells of the eye's box show anything.
+// ones.
 class Patches {
     struct Size {
-        std::size_t side = 0;  // patches
-        CellBox box;
-        std::array<std::vector<glm::vec3>, 2> means;  // white and black, row by row; none of single cells
+        CellBox shown;  // patches that may show anything
+        CellBox kept;   // with those around that the next size is made of, which stay black
+        std::array<LargeVector<glm::vec3>, 2> means;  // white and black; none of single cells
     };
 
-    template <typename Values>
-    static auto* rowOf(Values& values, const Size& size, int y) {
-        return values.data() + static_cast<std::size_t>(y) * size.side + static_cast<std::size_t>(size.box.left);
-    }
-
 public:
-    explicit Patches(const Eye& eye) {
-        CellBox box = eye.box;
-        for (auto side = static_cast<std::size_t>(eye.resolution); side > 0; side /= 2) {
-            sizes_.push_back({side, box, {}});
-            for (std::size_t black = 0; black < 2 && side < static_cast<std::size_t>(eye.resolution); ++black)
-                sizes_.back().means[black].resize(side * side);
-            box = {box.left / 2, (box.right + 1) / 2, box.bottom / 2, (box.top + 1) / 2};
+    explicit Patches(const Eye& eye) : sizes_{{eye.box, eye.box, {}}} {
+        for (int divisor = 2; divisor <= eye.resolution; divisor *= 2) {
+            const CellBox all = {0, eye.resolution / divisor, 0, eye.resolution / divisor};
+            const CellBox box = {eye.box.left / divisor, eye.box.right / divisor, eye.box.bottom / divisor,
+                                 eye.box.top / divisor};
+            Size& size = sizes_.emplace_back();
+            size.shown = divisor <= boxAlignment ? box : all;
+            size.kept = divisor < boxAlignment ? box : all;
+            for (LargeVector<glm::vec3>& means : size.means) means.resize(size.kept.count());
         }
     }
 
     // Keeps a reference to the cells.
-    void measure(const std::vector<glm::vec3>& cells) {
+    void measure(const LargeVector<glm::vec3>& cells) {
         cells_ = &cells;
         for (std::size_t i = 1; i < sizes_.size(); ++i)
-            for (int y = sizes_[i].box.bottom; y < sizes_[i].box.top; ++y)
+            for (int y = sizes_[i].shown.bottom; y < sizes_[i].shown.top; ++y)
                 if (i == 1)
                     measureBoard(y);
                 else
-                    halveRow(i, y);
+                    halve(i, y);
     }
 
     [[nodiscard]] std::size_t count() const { return sizes_.size(); }
-    [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].box; }
+    [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
     // The row's values from the left of the box on. Single cells are neither white nor black.
     [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
-        return rowOf(size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0], sizes_[size], y);
+        const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
+        return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
     }
 
 private:
     void measureBoard(int y) {
         Size& size = sizes_[1];
-        const glm::vec3* lower = cells_->data() + (static_cast<std::size_t>(2 * y) * sizes_[0].side +
-                                                   static_cast<std::size_t>(2 * size.box.left));
-        const glm::vec3* upper = lower + sizes_[0].side;
-        glm::vec3* const white = rowOf(size.means[0], size, y);
-        glm::vec3* const black = rowOf(size.means[1], size, y);
-        for (int x = 0; x < size.box.right - size.box.left; ++x, lower += 2, upper += 2) {
+        const CellBox& box = sizes_[0].kept;
+        const glm::vec3* lower = &(*cells_)[box.indexOf(2 * size.shown.left, 2 * y)];
+        const glm::vec3* upper = lower + box.width();
+        glm::vec3* const white = &size.means[0][size.kept.indexOf(size.shown.left, y)];
+        glm::vec3* const black = &size.means[1][size.kept.indexOf(size.shown.left, y)];
+        for (int x = 0; x < size.shown.width(); ++x, lower += 2, upper += 2) {
             white[x] = 0.5f * (lower[0] + upper[1]);
             black[x] = 0.5f * (lower[1] + upper[0]);
         }
     }
 
-    void halveRow(std::size_t i, int y) {
+    void halve(std::size_t i, int y) {
         Size& size = sizes_[i];
-        const Size& finer = sizes_[i - 1];
+        const CellBox& box = sizes_[i - 1].kept;
         for (std::size_t black = 0; black < 2; ++black) {
-            const glm::vec3* lower = finer.means[black].data() + (static_cast<std::size_t>(2 * y) * finer.side +
-                                                                  static_cast<std::size_t>(2 * size.box.left));
-            const glm::vec3* upper = lower + finer.side;
-            glm::vec3* const means = rowOf(size.means[black], size, y);
-            for (int x = 0; x < size.box.right - size.box.left; ++x, lower += 2, upper += 2)
+            const glm::vec3* lower = &sizes_[i - 1].means[black][box.indexOf(2 * size.shown.left, 2 * y)];
+            const glm::vec3* upper = lower + box.width();
+            glm::vec3* const means = &size.means[black][size.kept.indexOf(size.shown.left, y)];
+            for (int x = 0; x < size.shown.width(); ++x, lower += 2, upper += 2)
                 means[x] = 0.25f * (lower[0] + lower[1] + upper[0] + upper[1]);
         }
     }
 
-    const std::vector<glm::vec3>* cells_ = nullptr;
+    const LargeVector<glm::vec3>* cells_ = nullptr;
     std::vector<Size> sizes_;
 };
 
@@ -148,7 +145,7 @@ void addSquares(const Patches* truth, const Patches& seen, std::span<const glm::
             const auto change = [&](bool black) {
                 return Change{truth != nullptr ? truth->row(i, black, y) : dark.data(), seen.row(i, black, y)};
             };
-            sum += sumOfProducts(change(false), change(true), box.right - box.left, brightest);
+            sum += sumOfProducts(change(false), change(true), box.width(), brightest);
         }
         sums[i] += sum * std::pow(4.0, static_cast<double>(i));
     }
@@ -161,31 +158,59 @@ void smooth(SquareSums& sums, std::size_t measured) {
         sums[i] = i <= measured ? std::clamp(sums[i], sums[i - 1] / 16, sums[i - 1]) : sums[i - 1] / 4;
 }
 
+// A picture that waits: many of its cells are black.
+class SparseCells {
+public:
+    SparseCells() = default;
+    explicit SparseCells(const LargeVector<glm::vec3>& cells) : lit_(cells.size()) {
+        const auto isLit = [](const glm::vec3& cell) { return cell != glm::vec3(0); };
+        values_.reserve(static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), isLit)));
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            lit_[i] = isLit(cells[i]);
+            if (lit_[i]) values_.push_back(cells[i]);
+        }
+    }
+
+    [[nodiscard]] LargeVector<glm::vec3> all() const {
+        LargeVector<glm::vec3> cells(lit_.size(), glm::vec3(0));
+        auto value = values_.begin();
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (lit_[i]) cells[i] = *value++;
+        return cells;
+    }
+
+private:
+    std::vector<bool> lit_;
+    LargeVector<glm::vec3> values_;  // of those that are lit
+};
+
 // What is seen from one direction.
 struct Sight {
     Eye eye;
-    Picture truth;                    // level 0
+    SparseCells truth;                // level 0
+    double covered = 0, sum = 0;      // of level 0; see Picture
     SquareSums light{};               // of level 0
     std::vector<SquareSums> changes;  // of each level
 
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float brightest) {
-        // A sample shows a point, and no sum of points is brighter than all of them.
-        Picture picture = truth;
-        for (glm::vec3& value : picture.light) value = glm::min(value, brightest);
-        Patches seen(eye);
-        seen.measure(picture.light);
+        const LargeVector<glm::vec3> cells = truth.all();
+        truth = {};
         const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
-        addSquares(nullptr, seen, dark, brightest, light);
-        Patches before(eye);
-        before.measure(truth.light);
+        Patches before(eye), after(eye);
+        before.measure(cells);
+        // A sample shows a point, and no sum of points is brighter than all of them.
+        Picture picture;
+        picture.light = cells;
+        for (glm::vec3& value : picture.light) value = glm::min(value, brightest);
+        after.measure(picture.light);
+        addSquares(nullptr, after, dark, brightest, light);
         changes.resize(pyramid.levels.size());
         Painter painter(pyramid, eye, finishes);
         for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
             painter.draw(l, picture);
-            seen.measure(picture.light);
-            addSquares(&before, seen, dark, brightest, changes[l]);
+            after.measure(picture.light);
+            addSquares(&before, after, dark, brightest, changes[l]);
         }
-        truth.light = {};
     }
 };
 
@@ -244,15 +269,18 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     };
     fromAll([&](Sight& sight, const glm::dvec3& direction) {
         sight.eye = eyeAlong(pyramid, direction, resolution);
-        sight.truth = pictureOf(pyramid, 0, sight.eye, finishes);
+        const Picture truth = pictureOf(pyramid, 0, sight.eye, finishes);
+        sight.truth = SparseCells(truth.light);
+        sight.covered = static_cast<double>(truth.covered);
+        sight.sum = truth.sum;
     });
 
     // A black mesh has no light to measure in, and no error.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {
-        covered += static_cast<double>(sight.truth.covered);
-        light += sight.truth.sum;
+        covered += sight.covered;
+        light += sight.sum;
     }
     if (!(light > 0)) return;
     const double unit = light / covered;

@@ -182,10 +182,11 @@ public:
     }
 
     // The normal may have any length.
-    void add(int x, const glm::vec3& diffuse, const glm::vec3& emission, const glm::vec3& normal, float agreement) {
+    void add(std::size_t number, const glm::vec3& diffuse, const glm::vec3& emission, const glm::vec3& normal,
+             float agreement) {
         // Value by value: a copy of a whole cell waits for its values.
         Cell& cell = cells_[count_];
-        cell.x = x;
+        cell.number = number;
         for (glm::length_t c = 0; c < 3; ++c) {
             cell.diffuse[c] = diffuse[c];
             cell.emission[c] = emission[c];
@@ -195,7 +196,7 @@ public:
         ++count_;
     }
 
-    // Calls put(x, light) for each, and forgets them.
+    // Calls put(number, light) for each, and forgets them.
     template <typename Put>
     void shade(const Put& put) {
         normalise();
@@ -203,7 +204,7 @@ public:
         for (std::size_t i = 0; i < count_; ++i) {
             glm::vec3 light(skyRadiance);
             for (std::size_t l = 0; l < lights_.size(); ++l) light += shares_[l][i] * lights_[l].illuminance;
-            put(cells_[i].x, cells_[i].emission + cells_[i].diffuse * light);
+            put(cells_[i].number, cells_[i].emission + cells_[i].diffuse * light);
         }
         count_ = 0;
     }
@@ -232,7 +233,7 @@ private:
     }
 
     struct Cell {
-        int x = 0;
+        std::size_t number = 0;
         glm::vec3 diffuse{0}, emission{0};
     };
     std::vector<DistantLight> lights_;
@@ -246,11 +247,13 @@ private:
 // The light that is seen of what was hit. What has no finish is matt: it reflects nothing.
 class Shading {
 public:
-    Shading(const PyramidLevel& level, bool coarse, const Eye& eye)
+    // Writes into `cells`.
+    Shading(const PyramidLevel& level, bool coarse, const Eye& eye, std::span<glm::vec3> cells)
         : level_(level),
           coarse_(coarse),
           toEye_(eye.towards),
           lights_(lightsFor(eye)),
+          cells_(cells),
           matt_(lights_, eye.resolution) {}
 
     [[nodiscard]] std::array<float, 3> lengths(const std::uint32_t* corners) const {
@@ -259,10 +262,8 @@ public:
         return result;
     }
 
-    void startRow(glm::vec3* row) { row_ = row; }
-
-    // Shades a cell of the row, unless that is left to the row's end.
-    void shade(const SeenTriangle& triangle, int x, int y) {
+    // Shades the cell with this number, unless that is left to the row's end.
+    void shade(const SeenTriangle& triangle, std::size_t cell, int x, int y) {
         const Finish& finish = *triangle.finish;
         const auto [b, c] = triangle.weights.at(static_cast<float>(x), static_cast<float>(y));
         const std::array<float, 3> weights = {1 - b - c, b, c};
@@ -274,7 +275,7 @@ public:
         const glm::vec2 uv1 = level_.uv1.empty() ? glm::vec2(0) : mix(level_.uv1);
         glm::vec3 color = finish.baseColor * mapped(finish.baseColorMap, uv0, uv1);
         if (!level_.colors.empty()) color *= glm::vec3(mix(level_.colors));
-        if (finish.unlit) return put(x, color);
+        if (finish.unlit) return put(cell, color);
 
         const glm::vec3 surface = mapped(finish.metallicRoughnessMap, uv0, uv1);
         const float metallic = finish.metallic * surface.z;
@@ -286,7 +287,7 @@ public:
                                     : 1;
         const glm::vec3 diffuse = color * (1 - metallic);
         const glm::vec3 emission = finish.emission * mapped(finish.emissionMap, uv0, uv1);
-        if (!(finish.reflectance > 0 || metallic > 0)) return matt_.add(x, diffuse, emission, normal, agreement);
+        if (!(finish.reflectance > 0 || metallic > 0)) return matt_.add(cell, diffuse, emission, normal, agreement);
 
         const float length = glm::length(normal);
         const SurfacePoint point = {diffuse, glm::mix(glm::vec3(finish.reflectance), color, metallic),
@@ -294,20 +295,20 @@ public:
                                     agreement};
         glm::vec3 light = emission + skyLight(point, toEye_);
         for (const DistantLight& each : lights_) light += lightFrom(each, point, toEye_);
-        put(x, light);
+        put(cell, light);
     }
 
     void endRow() {
-        matt_.shade([&](int x, const glm::vec3& light) { put(x, light); });
+        matt_.shade([&](std::size_t cell, const glm::vec3& light) { put(cell, light); });
     }
 
     double sum = 0;           // of the light's mean channels
     std::size_t covered = 0;  // cells
 
 private:
-    void put(int x, const glm::vec3& light) {
+    void put(std::size_t cell, const glm::vec3& light) {
         if (!std::isfinite(light.x + light.y + light.z)) return;
-        row_[x] = light;
+        cells_[cell] = light;
         sum += (double{light.x} + double{light.y} + double{light.z}) / 3;
         ++covered;
     }
@@ -316,7 +317,7 @@ private:
     bool coarse_;
     glm::vec3 toEye_;
     std::vector<DistantLight> lights_;
-    glm::vec3* row_ = nullptr;
+    std::span<glm::vec3> cells_;
     MattCells matt_;
 };
 
@@ -329,8 +330,10 @@ CellBox cellsAround(const Eye& eye, const Bounds& bounds) {
         least = glm::min(least, place);
         most = glm::max(most, place);
     }
-    return {firstAt(least.x - 1, 0, eye.resolution), firstAt(most.x + 1, 0, eye.resolution),
-            firstAt(least.y - 1, 0, eye.resolution), firstAt(most.y + 1, 0, eye.resolution)};
+    const auto down = [](int cell) { return cell / boxAlignment * boxAlignment; };
+    const auto up = [&](int cell) { return std::min(down(cell + boxAlignment - 1), eye.resolution); };
+    return {down(firstAt(least.x - 1, 0, eye.resolution)), up(firstAt(most.x + 1, 0, eye.resolution)),
+            down(firstAt(least.y - 1, 0, eye.resolution)), up(firstAt(most.y + 1, 0, eye.resolution))};
 }
 
 // The primitive that has the pyramid's index `first`.
@@ -382,14 +385,13 @@ void Painter::drawTriangle(std::uint32_t first) {
     std::optional<RowBounds> bounds;
     if (right - left > narrow) bounds.emplace(weights);
     for (int y = bottom; y < top; ++y) {
-        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(eye_.resolution);
         const auto [begin, end] = bounds ? bounds->within(y, left, right) : std::array{left, right};
         for (int x = begin; x < end; x += lanes) {
             const Four places = static_cast<float>(x) + Four{0, 1, 2, 3};
             const auto [b, c] = weights.at(places, static_cast<float>(y));
             const Four z = z0 + b * stepZ1 + c * stepZ2;
-            float* const depths = &depths_[row + static_cast<std::size_t>(x)];
-            std::uint32_t* const firsts = &firsts_[row + static_cast<std::size_t>(x)];
+            float* const depths = &depths_[box.indexOf(x, y)];
+            std::uint32_t* const firsts = &firsts_[box.indexOf(x, y)];
             const Four before = loaded<Four>(depths);
             const auto nearer = (b >= 0) & (c >= 0) & (b + c <= 1) & (places < static_cast<float>(end)) & (z > before);
             store(depths, nearer ? z : before);
@@ -401,34 +403,26 @@ void Painter::drawTriangle(std::uint32_t first) {
 void Painter::draw(std::size_t number, Picture& picture) {
     const PyramidLevel& level = pyramid_.levels[number];
     const CellBox& box = eye_.box;
-    const auto side = static_cast<std::size_t>(eye_.resolution);
-    const auto rowOf = [&](auto& values, int y) { return values.data() + static_cast<std::size_t>(y) * side; };
-    depths_.resize(side * side + lanes);  // four of the last cells reach beyond the end
-    firsts_.resize(side * side + lanes);
-    for (int y = box.bottom; y < box.top; ++y)
-        std::fill(rowOf(depths_, y) + box.left, rowOf(depths_, y) + box.right, nothing);
+    depths_.assign(box.count() + lanes, nothing);  // four of the last cells reach beyond the end
+    firsts_.resize(box.count() + lanes);
     places_.clear();
     for (const glm::vec3& position : level.positions) places_.push_back(eye_.place(position));
     for (const IndexRange& range : level.primitives)
         for (std::uint32_t i = 0; i < range.count; i += 3) drawTriangle(range.first + i);
 
-    Shading shading(level, number > 0, eye_);
+    picture.light.assign(box.count(), glm::vec3(0));
+    Shading shading(level, number > 0, eye_, picture.light);
     SeenTriangle triangle;
-    picture.light.resize(side * side, glm::vec3(0));
     for (int y = box.bottom; y < box.top; ++y) {
-        const float* const depths = rowOf(depths_, y);
-        const std::uint32_t* const firsts = rowOf(firsts_, y);
-        glm::vec3* const row = rowOf(picture.light, y);
-        std::fill(row + box.left, row + box.right, glm::vec3(0));
-        shading.startRow(row);
         for (int x = box.left; x < box.right; ++x) {
-            if (depths[x] == nothing) continue;
-            const std::uint32_t* const corners = &pyramid_.indices[firsts[x]];
+            const std::size_t cell = box.indexOf(x, y);
+            if (depths_[cell] == nothing) continue;
+            const std::uint32_t* const corners = &pyramid_.indices[firsts_[cell]];
             if (corners != triangle.corners)
-                triangle = {corners, &finishes_[primitiveAt(level, firsts[x])],
+                triangle = {corners, &finishes_[primitiveAt(level, firsts_[cell])],
                             Weights(places_[corners[0]], places_[corners[1]], places_[corners[2]]),
                             shading.lengths(corners)};
-            shading.shade(triangle, x, y);
+            shading.shade(triangle, cell, x, y);
         }
         shading.endRow();
     }
