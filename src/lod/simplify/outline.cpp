@@ -200,15 +200,15 @@ public:
     // within `enough`, or where that leads nowhere.
     bool matchAreas(double enough) {
         const std::size_t count = outlines_.size();
-        gradients_.assign(count * places_.size(), glm::dvec3(0));
+        gradients_.assign(count * places_.size(), glm::vec3(0));
         std::vector<double> missing(count, 0);
         double misfit = 0;
         bool matched = true;
         for (std::size_t d = 0; d < count; ++d) {
             const double own = forEachPoint(outlines_[d], [&](const OutlinePoint& point) {
                 const glm::dvec3 outward = outlines_[d].inSpace(point.across);
-                gradients_[count * point.a + d] += point.length * (1 - point.share) * outward;
-                gradients_[count * point.b + d] += point.length * point.share * outward;
+                gradients_[count * point.a + d] += glm::vec3(point.length * (1 - point.share) * outward);
+                gradients_[count * point.b + d] += glm::vec3(point.length * point.share * outward);
             });
             missing[d] = areas_[d] - own;
             matched = matched && std::abs(missing[d]) <= enough * areas_[d];
@@ -223,7 +223,7 @@ public:
         const std::vector<double> factors = solved(gradients_, missing);
         std::vector<glm::dvec3> moves(places_.size(), glm::dvec3(0));
         for (std::size_t v = 0; v < moves.size(); ++v)
-            for (std::size_t d = 0; d < count; ++d) moves[v] += factors[d] * gradients_[count * v + d];
+            for (std::size_t d = 0; d < count; ++d) moves[v] += factors[d] * glm::dvec3(gradients_[count * v + d]);
         move(moves);
         return true;
     }
@@ -281,17 +281,17 @@ private:
     }
 
     // The least factors x with (G Gᵀ) x = b, slightly damped. Most places lie at no outline, or at few.
-    static std::vector<double> solved(const std::vector<glm::dvec3>& gradients, std::vector<double> b) {
+    static std::vector<double> solved(const std::vector<glm::vec3>& gradients, std::vector<double> b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);
         std::vector<std::size_t> present;
         for (std::size_t first = 0; first < gradients.size(); first += n) {
-            const glm::dvec3* const at = &gradients[first];
+            const glm::vec3* const at = &gradients[first];
             present.clear();
             for (std::size_t i = 0; i < n; ++i) {
-                if (at[i] == glm::dvec3(0)) continue;
+                if (at[i] == glm::vec3(0)) continue;
                 present.push_back(i);
-                for (const std::size_t j : present) matrix[i * n + j] += glm::dot(at[i], at[j]);
+                for (const std::size_t j : present) matrix[i * n + j] += glm::dot(glm::dvec3(at[i]), glm::dvec3(at[j]));
             }
         }
         return solvedSymmetric(std::move(matrix), std::move(b), constraintSlack);
@@ -321,7 +321,7 @@ private:
     std::vector<glm::vec3> best_;                                   // places whose areas were nearest to the outlines'
     double leastMisfit_ = std::numeric_limits<double>::infinity();  // of those: squares of relative differences
     int rounds_ = 0;                                                // since then
-    std::vector<glm::dvec3> gradients_;                             // of each place, one a direction
+    std::vector<glm::vec3> gradients_;                              // of each place, one a direction
     // As last seen from some direction.
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // of each place
