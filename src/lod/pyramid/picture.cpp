@@ -271,8 +271,10 @@ public:
             const std::uint32_t* const corners = triangle.corners;
             return weights[0] * values[corners[0]] + weights[1] * values[corners[1]] + weights[2] * values[corners[2]];
         };
-        const glm::vec2 uv0 = level_.uv0.empty() ? glm::vec2(0) : mix(level_.uv0);
-        const glm::vec2 uv1 = level_.uv1.empty() ? glm::vec2(0) : mix(level_.uv1);
+        const bool isMapped =
+            finish.baseColorMap.image || finish.metallicRoughnessMap.image || finish.emissionMap.image;
+        const glm::vec2 uv0 = isMapped && !level_.uv0.empty() ? mix(level_.uv0) : glm::vec2(0);
+        const glm::vec2 uv1 = isMapped && !level_.uv1.empty() ? mix(level_.uv1) : glm::vec2(0);
         glm::vec3 color = finish.baseColor * mapped(finish.baseColorMap, uv0, uv1);
         if (!level_.colors.empty()) color *= glm::vec3(mix(level_.colors));
         if (finish.unlit) return put(cell, color);
@@ -386,12 +388,13 @@ void Painter::drawTriangle(std::uint32_t first) {
     if (right - left > narrow) bounds.emplace(weights);
     for (int y = bottom; y < top; ++y) {
         const auto [begin, end] = bounds ? bounds->within(y, left, right) : std::array{left, right};
+        const std::size_t row = box.indexOf(begin, y);
         for (int x = begin; x < end; x += lanes) {
             const Four places = static_cast<float>(x) + Four{0, 1, 2, 3};
             const auto [b, c] = weights.at(places, static_cast<float>(y));
             const Four z = z0 + b * stepZ1 + c * stepZ2;
-            float* const depths = &depths_[box.indexOf(x, y)];
-            std::uint32_t* const firsts = &firsts_[box.indexOf(x, y)];
+            float* const depths = &depths_[row + static_cast<std::size_t>(x - begin)];
+            std::uint32_t* const firsts = &firsts_[row + static_cast<std::size_t>(x - begin)];
             const Four before = loaded<Four>(depths);
             const auto nearer = (b >= 0) & (c >= 0) & (b + c <= 1) & (places < static_cast<float>(end)) & (z > before);
             store(depths, nearer ? z : before);
@@ -414,8 +417,8 @@ void Painter::draw(std::size_t number, Picture& picture) {
     Shading shading(level, number > 0, eye_, picture.light);
     SeenTriangle triangle;
     for (int y = box.bottom; y < box.top; ++y) {
-        for (int x = box.left; x < box.right; ++x) {
-            const std::size_t cell = box.indexOf(x, y);
+        std::size_t cell = box.indexOf(box.left, y);
+        for (int x = box.left; x < box.right; ++x, ++cell) {
             if (depths_[cell] == nothing) continue;
             const std::uint32_t* const corners = &pyramid_.indices[firsts_[cell]];
             if (corners != triangle.corners)
