@@ -214,12 +214,12 @@ public:
             matched = matched && std::abs(missing[d]) <= enough * areas_[d];
             if (areas_[d] > 0) misfit += missing[d] * missing[d] / (areas_[d] * areas_[d]);
         }
-        rounds_ = matched || misfit < leastMisfit_ ? 0 : rounds_ + 1;
-        if (rounds_ == 0) {
+        vainRounds_ = matched || misfit < leastMisfit_ ? 0 : vainRounds_ + 1;
+        if (vainRounds_ == 0) {
             leastMisfit_ = misfit;
             best_ = places_;
         }
-        if (matched || rounds_ == mostVainRounds) return false;
+        if (matched || vainRounds_ == mostVainRounds) return false;
         const std::vector<double> factors = solved(gradients_, missing);
         std::vector<glm::dvec3> moves(places_.size(), glm::dvec3(0));
         for (std::size_t v = 0; v < moves.size(); ++v)
@@ -229,7 +229,7 @@ public:
     }
 
     // The last ones, unless the rounds have led away from better ones.
-    [[nodiscard]] const std::vector<glm::vec3>& places() const { return rounds_ > 0 ? best_ : places_; }
+    [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
 
 private:
     // Marks what the level covers; its area. Keeps where the places lie, and the edges that may be at its outline.
@@ -252,7 +252,8 @@ private:
             if (!edge.closed || first * second <= 0) rim_.push_back(&edge);
         }
         for (const Edge& edge : edges_.more)
-            fill_.add(cells_[edge.a], cells_[edge.b], edge.way[0] * turns_[edge.face[0]]);
+            if (const int left = edge.way[0] * turns_[edge.face[0]]; left != 0)
+                fill_.add(cells_[edge.a], cells_[edge.b], left);
         return own.cell() * own.cell() * static_cast<double>(fill_.fill(own));
     }
 
@@ -320,7 +321,7 @@ private:
     const Bounds& box_;
     std::vector<glm::vec3> best_;                                   // places whose areas were nearest to the outlines'
     double leastMisfit_ = std::numeric_limits<double>::infinity();  // of those: squares of relative differences
-    int rounds_ = 0;                                                // since then
+    int vainRounds_ = 0;                                            // since then
     std::vector<glm::vec3> gradients_;                              // of each place, one a direction
     // As last seen from some direction.
     EdgeFill fill_;
