@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "lod/pyramid/four.h"
 #include "lod/pyramid/level_selection.h"
 #include "lod/pyramid/picture.h"
 
@@ -31,58 +32,122 @@ constexpr float mostUnseenGrowth = 4;
 // Sums of squares over all cells and channels: of the values, and of their means over patches.
 using SquareSums = std::array<double, blurSizes>;
 
-// Half the size of a picture: the mean of the white or of the black cells of a chess board, in each four.
-std::vector<glm::vec3> halfOfCells(const std::vector<glm::vec3>& cells, std::size_t side, bool black) {
-    std::vector<glm::vec3> half(side * side);
-    for (std::size_t y = 0; y < side; ++y)
-        for (std::size_t x = 0; x < side; ++x) {
-            const glm::vec3* const lower = &cells[4 * side * y + 2 * x];
-            const glm::vec3* const upper = lower + 2 * side;
-            half[side * y + x] = 0.5f * (black ? lower[1] + upper[0] : lower[0] + upper[1]);
-        }
-    return half;
-}
+// A picture, and its means over patches of 2, 4, … cells: each of the white cells of a chess board, and of the black
+// ones.
+class Patches {
+    struct Size {
+        CellBox shown;  // patches that may show anything
+        CellBox kept;   // with those around that the next size is made of, which stay black
+        std::array<LargeVector<glm::vec3>, 2> means;  // white and black; none of single cells
+    };
 
-void halve(std::vector<glm::vec3>& image, std::size_t side) {
-    const std::size_t half = side / 2;
-    for (std::size_t y = 0; y < half; ++y)
-        for (std::size_t x = 0; x < half; ++x) {
-            const glm::vec3* const lower = &image[2 * side * y + 2 * x];
-            image[half * y + x] = 0.25f * (lower[0] + lower[1] + lower[side] + lower[side + 1]);
+public:
+    explicit Patches(const Eye& eye) : sizes_{{eye.box, eye.box, {}}} {
+        for (int divisor = 2; divisor <= eye.resolution; divisor *= 2) {
+            const CellBox all = {0, eye.resolution / divisor, 0, eye.resolution / divisor};
+            const CellBox box = {eye.box.left / divisor, eye.box.right / divisor, eye.box.bottom / divisor,
+                                 eye.box.top / divisor};
+            Size& size = sizes_.emplace_back();
+            size.shown = divisor <= boxAlignment ? box : all;
+            size.kept = divisor < boxAlignment ? box : all;
+            for (LargeVector<glm::vec3>& means : size.means) means.resize(size.kept.count());
         }
-}
+    }
 
-// Adds the squares of how `seen` and `truth` differ. What is brighter than `brightest` is shown as bright as that, once
+    // Keeps a reference to the cells.
+    void measure(const LargeVector<glm::vec3>& cells) {
+        cells_ = &cells;
+        for (std::size_t i = 1; i < sizes_.size(); ++i)
+            for (int y = sizes_[i].shown.bottom; y < sizes_[i].shown.top; ++y)
+                if (i == 1)
+                    measureBoard(y);
+                else
+                    halve(i, y);
+    }
+
+    [[nodiscard]] std::size_t count() const { return sizes_.size(); }
+    [[nodiscard]] const CellBox& box(std::size_t size) const { return sizes_[size].shown; }
+    // The row's values from the left of the box on. Single cells are neither white nor black.
+    [[nodiscard]] const glm::vec3* row(std::size_t size, bool black, int y) const {
+        const LargeVector<glm::vec3>& values = size == 0 ? *cells_ : sizes_[size].means[black ? 1 : 0];
+        return &values[sizes_[size].kept.indexOf(sizes_[size].shown.left, y)];
+    }
+
+private:
+    void measureBoard(int y) {
+        Size& size = sizes_[1];
+        const CellBox& box = sizes_[0].kept;
+        const glm::vec3* lower = &(*cells_)[box.indexOf(2 * size.shown.left, 2 * y)];
+        const glm::vec3* upper = lower + box.width();
+        glm::vec3* const white = &size.means[0][size.kept.indexOf(size.shown.left, y)];
+        glm::vec3* const black = &size.means[1][size.kept.indexOf(size.shown.left, y)];
+        for (int x = 0; x < size.shown.width(); ++x, lower += 2, upper += 2) {
+            white[x] = 0.5f * (lower[0] + upper[1]);
+            black[x] = 0.5f * (lower[1] + upper[0]);
+        }
+    }
+
+    void halve(std::size_t i, int y) {
+        Size& size = sizes_[i];
+        const CellBox& box = sizes_[i - 1].kept;
+        for (std::size_t black = 0; black < 2; ++black) {
+            const glm::vec3* lower = &sizes_[i - 1].means[black][box.indexOf(2 * size.shown.left, 2 * y)];
+            const glm::vec3* upper = lower + box.width();
+            glm::vec3* const means = &size.means[black][size.kept.indexOf(size.shown.left, y)];
+            for (int x = 0; x < size.shown.width(); ++x, lower += 2, upper += 2)
+                means[x] = 0.25f * (lower[0] + lower[1] + upper[0] + upper[1]);
+        }
+    }
+
+    const LargeVector<glm::vec3>* cells_ = nullptr;
+    std::vector<Size> sizes_;
+};
+
+// How a value changes from one picture to another. What is brighter than `brightest` is shown as bright as that, once
 // it is blurred.
+struct Change {
+    const glm::vec3* before;
+    const glm::vec3* after;
+};
+
+// Sums, over `count` cells of a row and all channels, what two changes have in common.
+double sumOfProducts(const Change& first, const Change& second, int count, float brightest) {
+    const auto end = 3 * static_cast<std::size_t>(count);
+    const auto at = [&](const Change& change, std::size_t i, auto bounded) {
+        return bounded(&change.after->x + i) - bounded(&change.before->x + i);
+    };
+    Four sums{};
+    std::size_t i = 0;
+    const Four most = brightest - Four{};
+    const auto four = [&](const float* from) {
+        const Four values = loaded<Four>(from);
+        return values < most ? values : most;
+    };
+    for (; i + 4 <= end; i += 4) sums += at(first, i, four) * at(second, i, four);
+    float rest = 0;
+    const auto one = [&](const float* from) { return std::min(*from, brightest); };
+    for (; i < end; ++i) rest += at(first, i, one) * at(second, i, one);
+    return double{sums[0]} + double{sums[1]} + double{sums[2]} + double{sums[3]} + double{rest};
+}
+
+// Adds the squares of how `seen` and `truth` differ; `dark` is a row of black cells that stands for a picture that
+// isn't there.
 //
 // The cells of a patch are seen at points, whose own chance would remain in the square of their mean. So the patch's
 // mean is taken twice, over the white and over the black cells of a chess board, and the two are multiplied: what they
 // don't have in common cancels.
-void addSquares(const std::vector<glm::vec3>& truth, const std::vector<glm::vec3>& seen, int resolution,
-                float brightest, SquareSums& sums) {
-    const auto change = [brightest](const glm::vec3& before, const glm::vec3& after) {
-        return glm::min(after, brightest) - glm::min(before, brightest);
-    };
-    for (std::size_t cell = 0; cell < truth.size(); ++cell) {
-        const glm::vec3 value = change(truth[cell], seen[cell]);
-        sums[0] += static_cast<double>(glm::dot(value, value));
-    }
-    auto side = static_cast<std::size_t>(resolution) / 2;
-    std::array<std::vector<glm::vec3>, 2> before, after;
-    for (std::size_t black = 0; black < 2; ++black) {
-        before[black] = halfOfCells(truth, side, black == 1);
-        after[black] = halfOfCells(seen, side, black == 1);
-    }
-    for (std::size_t i = 1; side >= 1; ++i, side /= 2) {
+void addSquares(const Patches* truth, const Patches& seen, std::span<const glm::vec3> dark, float brightest,
+                SquareSums& sums) {
+    for (std::size_t i = 0; i < seen.count(); ++i) {
+        const CellBox& box = seen.box(i);
         double sum = 0;
-        for (std::size_t cell = 0; cell < side * side; ++cell)
-            sum += static_cast<double>(
-                glm::dot(change(before[0][cell], after[0][cell]), change(before[1][cell], after[1][cell])));
-        sums[i] += sum * std::pow(4.0, static_cast<double>(i));
-        for (std::size_t black = 0; black < 2; ++black) {
-            halve(before[black], side);
-            halve(after[black], side);
+        for (int y = box.bottom; y < box.top; ++y) {
+            const auto change = [&](bool black) {
+                return Change{truth != nullptr ? truth->row(i, black, y) : dark.data(), seen.row(i, black, y)};
+            };
+            sum += sumOfProducts(change(false), change(true), box.width(), brightest);
         }
+        sums[i] += sum * std::pow(4.0, static_cast<double>(i));
     }
 }
 
@@ -93,22 +158,59 @@ void smooth(SquareSums& sums, std::size_t measured) {
         sums[i] = i <= measured ? std::clamp(sums[i], sums[i - 1] / 16, sums[i - 1]) : sums[i - 1] / 4;
 }
 
+// A picture that waits: many of its cells are black.
+class SparseCells {
+public:
+    SparseCells() = default;
+    explicit SparseCells(const LargeVector<glm::vec3>& cells) : lit_(cells.size()) {
+        const auto isLit = [](const glm::vec3& cell) { return cell != glm::vec3(0); };
+        values_.reserve(static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), isLit)));
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            lit_[i] = isLit(cells[i]);
+            if (lit_[i]) values_.push_back(cells[i]);
+        }
+    }
+
+    [[nodiscard]] LargeVector<glm::vec3> all() const {
+        LargeVector<glm::vec3> cells(lit_.size(), glm::vec3(0));
+        auto value = values_.begin();
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (lit_[i]) cells[i] = *value++;
+        return cells;
+    }
+
+private:
+    std::vector<bool> lit_;
+    LargeVector<glm::vec3> values_;  // of those that are lit
+};
+
 // What is seen from one direction.
 struct Sight {
     Eye eye;
-    Picture truth;                    // level 0
+    SparseCells truth;                // level 0
+    double covered = 0, sum = 0;      // of level 0; see Picture
     SquareSums light{};               // of level 0
     std::vector<SquareSums> changes;  // of each level
 
     void judge(const Pyramid& pyramid, std::span<const Finish> finishes, float brightest) {
+        const LargeVector<glm::vec3> cells = truth.all();
+        truth = {};
+        const std::vector<glm::vec3> dark(static_cast<std::size_t>(eye.resolution), glm::vec3(0));
+        Patches before(eye), after(eye);
+        before.measure(cells);
         // A sample shows a point, and no sum of points is brighter than all of them.
-        std::vector<glm::vec3> shown = truth.light;
-        for (glm::vec3& value : shown) value = glm::min(value, brightest);
-        addSquares(std::vector<glm::vec3>(shown.size(), glm::vec3(0)), shown, eye.resolution, brightest, light);
+        Picture picture;
+        picture.light = cells;
+        for (glm::vec3& value : picture.light) value = glm::min(value, brightest);
+        after.measure(picture.light);
+        addSquares(nullptr, after, dark, brightest, light);
         changes.resize(pyramid.levels.size());
-        for (std::size_t l = 1; l < pyramid.levels.size(); ++l)
-            addSquares(truth.light, pictureOf(pyramid, l, eye, finishes).light, eye.resolution, brightest, changes[l]);
-        truth.light = {};
+        Painter painter(pyramid, eye, finishes);
+        for (std::size_t l = 1; l < pyramid.levels.size(); ++l) {
+            painter.draw(l, picture);
+            after.measure(picture.light);
+            addSquares(&before, after, dark, brightest, changes[l]);
+        }
     }
 };
 
@@ -167,15 +269,18 @@ void measureBlurredErrors(Pyramid& pyramid, std::span<const Finish> finishes, st
     };
     fromAll([&](Sight& sight, const glm::dvec3& direction) {
         sight.eye = eyeAlong(pyramid, direction, resolution);
-        sight.truth = pictureOf(pyramid, 0, sight.eye, finishes);
+        const Picture truth = pictureOf(pyramid, 0, sight.eye, finishes);
+        sight.truth = SparseCells(truth.light);
+        sight.covered = static_cast<double>(truth.covered);
+        sight.sum = truth.sum;
     });
 
     // A black mesh has no light to measure in, and no error.
     double covered = 0;
     double light = 0;
     for (const Sight& sight : sights) {
-        covered += static_cast<double>(sight.truth.covered);
-        light += sight.truth.sum;
+        covered += sight.covered;
+        light += sight.sum;
     }
     if (!(light > 0)) return;
     const double unit = light / covered;

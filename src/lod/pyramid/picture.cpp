@@ -10,7 +10,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
+#include "lod/pyramid/four.h"
 #include "lod/simplify/light.h"
 #include "scene/defaults.h"
 
@@ -20,51 +23,74 @@ namespace {
 
 constexpr float skyRadiance = 0.5f;  // about the mean of the default sky
 constexpr float backBias = 1e-3f;    // cells by which a face that looks away lies behind one at its place
+constexpr float nothing = -std::numeric_limits<float>::infinity();  // depth where there is nothing
 
-// What is nearest to the eye at the middle of a cell.
-struct Hit {
-    float z = -std::numeric_limits<float>::infinity();
-    std::uint32_t first = 0;      // of the triangle's three indices, among the pyramid's
-    std::uint32_t primitive = 0;  // of the mesh
-    float b = 0, c = 0;           // weights of the second and third corner
-    bool back = false;            // the triangle looks away
+constexpr int narrow = 8;  // cells, a row of which is looked at as a whole
+
+constexpr int lanes = 4;
+
+// The first cell whose middle lies at or after `place`, from `first` to `end`.
+int firstAt(float place, int first, int end) {
+    const float bounded = std::min(std::max(static_cast<float>(first), place - 0.5f), static_cast<float>(end));
+    const int whole = static_cast<int>(bounded);
+    return whole + (static_cast<float>(whole) < bounded ? 1 : 0);
+}
+
+// The weights of a triangle's second and third corner: linear in the place.
+struct Weights {
+    glm::vec2 origin{0};  // where both are 0
+    glm::vec2 stepB{0}, stepC{0};
+    bool flat = false;  // without area
+    bool back = false;  // it looks away
+
+    Weights() = default;
+    Weights(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r) : origin(p) {
+        const glm::vec2 ab = glm::vec2(q) - glm::vec2(p);
+        const glm::vec2 ac = glm::vec2(r) - glm::vec2(p);
+        const float twice = ab.x * ac.y - ab.y * ac.x;
+        flat = twice == 0;
+        back = twice < 0;
+        const float inverse = 1 / twice;
+        stepB = inverse * glm::vec2(ac.y, -ac.x);
+        stepC = inverse * glm::vec2(-ab.y, ab.x);
+    }
+
+    // At the middles of cells, of which `x` and `y` are one number or four.
+    template <typename X>
+    [[nodiscard]] std::array<X, 2> at(const X& x, float y) const {
+        const X dx = x + 0.5f - origin.x;
+        const float dy = y + 0.5f - origin.y;
+        return {stepB.x * dx + stepB.y * dy, stepC.x * dx + stepC.y * dy};
+    }
 };
 
-void drawTriangle(const std::array<glm::vec3, 3>& p, std::uint32_t first, std::uint32_t primitive, const Eye& eye,
-                  std::vector<Hit>& hits) {
-    const auto [lowX, highX] = std::minmax({p[0].x, p[1].x, p[2].x});
-    const auto [lowY, highY] = std::minmax({p[0].y, p[1].y, p[2].y});
-    const float top = static_cast<float>(eye.resolution) - 1;
-    const float left = std::max(std::ceil(lowX - 0.5f), 0.0f);
-    const float right = std::min(std::floor(highX - 0.5f), top);
-    const float below = std::max(std::ceil(lowY - 0.5f), 0.0f);
-    const float above = std::min(std::floor(highY - 0.5f), top);
-    if (!(left <= right && below <= above)) return;
-    const glm::vec2 ab = glm::vec2(p[1]) - glm::vec2(p[0]);
-    const glm::vec2 ac = glm::vec2(p[2]) - glm::vec2(p[0]);
-    const float twice = ab.x * ac.y - ab.y * ac.x;
-    if (twice == 0) return;
-    const float inverse = 1 / twice;
-    const bool back = twice < 0;
-    // Weights are linear in the place.
-    const glm::vec2 stepB = inverse * glm::vec2(ac.y, -ac.x);
-    const glm::vec2 stepC = inverse * glm::vec2(-ab.y, ab.x);
-    const float stepZ1 = p[1].z - p[0].z;
-    const float stepZ2 = p[2].z - p[0].z;
-    const float z0 = p[0].z - (back ? backBias : 0);
-    for (int y = static_cast<int>(below); y <= static_cast<int>(above); ++y) {
-        Hit* const row = &hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(eye.resolution)];
-        const float dy = static_cast<float>(y) + 0.5f - p[0].y;
-        for (int x = static_cast<int>(left); x <= static_cast<int>(right); ++x) {
-            const float dx = static_cast<float>(x) + 0.5f - p[0].x;
-            const float b = stepB.x * dx + stepB.y * dy;
-            const float c = stepC.x * dx + stepC.y * dy;
-            if (!(b >= 0 && c >= 0 && b + c <= 1)) continue;
-            const float z = z0 + b * stepZ1 + c * stepZ2;
-            if (z > row[x].z) row[x] = {z, first, primitive, b, c, back};
-        }
+// Where the weights of a triangle's corners stop being positive along rows.
+class RowBounds {
+public:
+    explicit RowBounds(const Weights& weights)
+        : steps_{weights.stepB, weights.stepC, -(weights.stepB + weights.stepC)}, origin_(weights.origin) {
+        for (std::size_t k = 0; k < 3; ++k) inverse_[k] = 1 / steps_[k].x;
     }
-}
+
+    // Cells of the row from `left` up to `right` that may lie in the triangle, and a few more.
+    [[nodiscard]] std::array<int, 2> within(int y, int left, int right) const {
+        const float dy = static_cast<float>(y) + 0.5f - origin_.y;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (steps_[k].x == 0) continue;
+            const float zero = origin_.x - ((k == 2 ? 1.0f : 0.0f) + steps_[k].y * dy) * inverse_[k];
+            if (steps_[k].x > 0)
+                left = firstAt(zero - 1, left, right);
+            else
+                right = firstAt(zero + 1, left, right);
+        }
+        return {left, right};
+    }
+
+private:
+    glm::vec2 steps_[3];
+    glm::vec2 origin_;
+    float inverse_[3];
+};
 
 // ---- light
 
@@ -73,8 +99,6 @@ struct SurfacePoint {
     float roughness = 1;
     glm::vec3 normal{0};
     float agreement = 1;  // length of the mean of the normals that `normal` stands for
-    float spread = 0;     // normalSpread()
-    glm::vec3 seen{0};    // seenNormal()
 };
 
 struct DistantLight {
@@ -93,24 +117,36 @@ std::vector<DistantLight> lightsFor(const Eye& eye) {
     return lights;
 }
 
-// The mean of the normals as they are seen.
-glm::vec3 seenNormal(const SurfacePoint& point, const glm::vec3& toEye) {
-    const float nv = glm::dot(point.normal, toEye);
-    const float seen = std::max(meanCosine(point.agreement * nv, nv, point.spread), 1e-3f);
-    const float turn = (1 - point.agreement) / seen;
-    const float bound = 1.23f * turn / ((1 + point.agreement) * seen) * std::max(1 - nv * nv, 0.0f);
-    return point.agreement * point.normal + turn / std::sqrt(1 + bound) * (toEye - nv * point.normal);
+// How the normals are seen that one stands for.
+struct SeenNormals {
+    float spread = 0;              // normalSpread()
+    float shown = 0;               // the mean of their cosines to the eye, where these are positive
+    float along = 1, towards = 0;  // their mean is along · normal + towards · toEye: seenNormal()
+};
+
+SeenNormals seenNormals(float nv, float agreement) {
+    SeenNormals seen;
+    seen.spread = normalSpread(agreement);
+    seen.shown = meanCosine(agreement * nv, nv, seen.spread);
+    const float least = std::max(seen.shown, 1e-3f);
+    const float turn = (1 - agreement) / least;
+    const float bound = 1.23f * turn / ((1 + agreement) * least) * std::max(1 - nv * nv, 0.0f);
+    seen.towards = turn / std::sqrt(1 + bound);
+    seen.along = agreement - seen.towards * nv;
+    return seen;
 }
 
-glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point, const glm::vec3& toEye) {
-    const float cosine = glm::dot(point.normal, light.toLight);
-    const float matt = meanCosine(glm::dot(point.seen, light.toLight), cosine, point.spread);
+glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point, const SeenNormals& seen,
+                    const glm::vec3& toEye) {
     const float nv = glm::dot(point.normal, toEye);
+    const float cosine = glm::dot(point.normal, light.toLight);
+    const float lv = glm::dot(light.toLight, toEye);
+    const float matt = meanCosine(seen.along * cosine + seen.towards * lv, cosine, seen.spread);
     const float spread = 2 * (1 - point.agreement) / point.agreement;
     const float width = point.roughness * point.roughness;
     const float alpha2 = std::clamp(width * width + spread, 1e-6f, 1.0f);
     const float share = std::min(spread * (1 - width) / alpha2, 1.0f);
-    const float sum2 = std::max(2 + 2 * glm::dot(light.toLight, toEye), 1e-6f);
+    const float sum2 = std::max(2 + 2 * lv, 1e-6f);
     const float vh = 0.5f * std::sqrt(sum2);
     const float cosines = std::max(cosine + nv, 0.0f);
     const float cosines2 = cosines * cosines;
@@ -120,7 +156,7 @@ glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point, const 
     const float beckmann = std::exp(-std::max(sum2 - away, 0.0f) / (away * alpha2)) / (alpha2 * away * away);
     const float distribution = sum2 * sum2 * glm::mix(ggx, beckmann, share);
     const float shownL = std::max(glm::mix(cosine, vh, share), 0.0f);
-    const float shownV = std::max(glm::mix(nv, meanCosine(point.agreement * nv, nv, point.spread), share), 0.0f);
+    const float shownV = std::max(glm::mix(nv, seen.shown, share), 0.0f);
     const float masking = std::max(glm::mix(2 * shownL * shownV, shownL + shownV, width), 1e-4f);
     const float specular = shownV > 0 ? 0.5f * shownL * distribution / masking : 0;
     const float grazing = std::pow(std::max(1 - vh, 0.0f), 5.0f);
@@ -142,60 +178,211 @@ glm::vec3 skyLight(const SurfacePoint& point, const glm::vec3& toEye) {
     return skyRadiance * (point.diffuse * (1.0f - specular) + specular);
 }
 
-// The light that is seen of what was hit. What has no finish is matt: it reflects nothing.
-class Shading {
+glm::vec3 mapped(const FinishMap& map, const glm::vec2& uv0, const glm::vec2& uv1) {
+    return map.image ? map.at(uv0, uv1) : glm::vec3(1);
+}
+
+// A triangle of which some cells show something.
+struct SeenTriangle {
+    const std::uint32_t* corners = nullptr;
+    const Finish* finish = nullptr;
+    Weights weights;
+    std::array<float, 3> lengths{};  // of the corners' normals
+};
+
+// Cells of a row that are lit as matt, which is done for all at once.
+class MattCells {
 public:
-    Shading(const PyramidLevel& level, bool coarse, const Eye& eye)
-        : level_(level), coarse_(coarse), toEye_(eye.towards), lights_(lightsFor(eye)) {}
+    MattCells(std::vector<DistantLight> lights, const glm::vec3& toEye, int most)
+        : lights_(std::move(lights)), toEye_(toEye), cells_(static_cast<std::size_t>(most)), agreement_(cells_.size()) {
+        for (std::vector<float>& values : normal_) values.resize(cells_.size());
+        for (std::vector<float>* values : {&spread_, &along_, &towards_}) values->resize(cells_.size());
+        shares_.assign(lights_.size(), agreement_);
+    }
 
-    [[nodiscard]] glm::vec3 at(const std::uint32_t* corners, const Hit& hit, const Finish& finish) const {
-        const float a = 1 - hit.b - hit.c;
-        const auto mix = [&](const auto& values) {
-            return a * values[corners[0]] + hit.b * values[corners[1]] + hit.c * values[corners[2]];
-        };
-        const glm::vec2 uv0 = level_.uv0.empty() ? glm::vec2(0) : mix(level_.uv0);
-        const glm::vec2 uv1 = level_.uv1.empty() ? glm::vec2(0) : mix(level_.uv1);
-        glm::vec3 color = finish.baseColor * finish.baseColorMap.at(uv0, uv1);
-        if (!level_.colors.empty()) color *= glm::vec3(mix(level_.colors));
-        if (finish.unlit) return color;
+    // The normal may have any length.
+    void add(std::size_t number, const glm::vec3& diffuse, const glm::vec3& emission, const glm::vec3& normal,
+             float agreement) {
+        // Value by value: a copy of a whole cell waits for its values.
+        Cell& cell = cells_[count_];
+        cell.number = number;
+        for (glm::length_t c = 0; c < 3; ++c) {
+            cell.diffuse[c] = diffuse[c];
+            cell.emission[c] = emission[c];
+            normal_[static_cast<std::size_t>(c)][count_] = normal[c];
+        }
+        agreement_[count_] = agreement;
+        ++count_;
+    }
 
-        const glm::vec3 surface = finish.metallicRoughnessMap.at(uv0, uv1);
-        const float metallic = finish.metallic * surface.z;
-        const glm::vec3 normal = mix(level_.normals);
-        const float length = glm::length(normal);
-        SurfacePoint point;
-        point.diffuse = color * (1 - metallic);
-        point.specular = glm::mix(glm::vec3(finish.reflectance), color, metallic);
-        point.roughness = finish.roughness * surface.y;
-        if (length > 0) point.normal = (hit.back ? -1 : 1) / length * normal;
-        if (coarse_) {
-            point.agreement = std::clamp(a * glm::length(level_.normals[corners[0]]) +
-                                             hit.b * glm::length(level_.normals[corners[1]]) +
-                                             hit.c * glm::length(level_.normals[corners[2]]),
-                                         leastShownAgreement, 1.0f);
-            point.spread = normalSpread(point.agreement);
+    // Calls put(number, light) for each, and forgets them.
+    template <typename Put>
+    void shade(const Put& put) {
+        normalise();
+        look();
+        for (std::size_t l = 0; l < lights_.size(); ++l) shadeBy(lights_[l].toLight, shares_[l].data());
+        for (std::size_t i = 0; i < count_; ++i) {
+            glm::vec3 light(skyRadiance);
+            for (std::size_t l = 0; l < lights_.size(); ++l) light += shares_[l][i] * lights_[l].illuminance;
+            put(cells_[i].number, cells_[i].emission + cells_[i].diffuse * light);
         }
-        point.seen = seenNormal(point, toEye_);
-        glm::vec3 light = finish.emission * finish.emissionMap.at(uv0, uv1);
-        if (finish.reflectance > 0 || metallic > 0) {
-            light += skyLight(point, toEye_);
-            for (const DistantLight& each : lights_) light += lightFrom(each, point, toEye_);
-        } else {
-            light += point.diffuse * skyRadiance;
-            for (const DistantLight& each : lights_)
-                light +=
-                    point.diffuse * each.illuminance *
-                    meanCosine(glm::dot(point.seen, each.toLight), glm::dot(point.normal, each.toLight), point.spread);
-        }
-        return light;
+        count_ = 0;
     }
 
 private:
+    // Plain loops over few arrays, of which compilers compute four numbers at once.
+    void normalise() {
+        float* const x = normal_[0].data();
+        float* const y = normal_[1].data();
+        float* const z = normal_[2].data();
+        for (std::size_t i = 0; i < count_; ++i) {
+            const float length = std::sqrt(x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+            const float inverse = length > 0 ? 1 / length : 0;
+            x[i] *= inverse;
+            y[i] *= inverse;
+            z[i] *= inverse;
+        }
+    }
+    void look() {
+        const float* const x = normal_[0].data();
+        const float* const y = normal_[1].data();
+        const float* const z = normal_[2].data();
+        for (std::size_t i = 0; i < count_; ++i) {
+            const SeenNormals seen = seenNormals(x[i] * toEye_.x + y[i] * toEye_.y + z[i] * toEye_.z, agreement_[i]);
+            spread_[i] = seen.spread;
+            along_[i] = seen.along;
+            towards_[i] = seen.towards;
+        }
+    }
+    void shadeBy(const glm::vec3 toLight, float* const shares) const {
+        const float* const x = normal_[0].data();
+        const float* const y = normal_[1].data();
+        const float* const z = normal_[2].data();
+        const float* const spread = spread_.data();
+        const float* const along = along_.data();
+        const float* const towards = towards_.data();
+        const float lv = glm::dot(toLight, toEye_);
+        for (std::size_t i = 0; i < count_; ++i) {
+            const float cosine = x[i] * toLight.x + y[i] * toLight.y + z[i] * toLight.z;
+            shares[i] = meanCosine(along[i] * cosine + towards[i] * lv, cosine, spread[i]);
+        }
+    }
+
+    struct Cell {
+        std::size_t number = 0;
+        glm::vec3 diffuse{0}, emission{0};
+    };
+    std::vector<DistantLight> lights_;
+    glm::vec3 toEye_;
+    std::size_t count_ = 0;
+    std::vector<Cell> cells_;
+    std::array<std::vector<float>, 3> normal_;  // of each cell, coordinate by coordinate
+    std::vector<float> agreement_;
+    std::vector<float> spread_, along_, towards_;  // see SeenNormals
+    std::vector<std::vector<float>> shares_;       // of each light, that each cell gets
+};
+
+// The light that is seen of what was hit. What has no finish is matt: it reflects nothing.
+class Shading {
+public:
+    // Writes into `cells`.
+    Shading(const PyramidLevel& level, bool coarse, const Eye& eye, std::span<glm::vec3> cells)
+        : level_(level),
+          coarse_(coarse),
+          toEye_(eye.towards),
+          lights_(lightsFor(eye)),
+          cells_(cells),
+          matt_(lights_, toEye_, eye.resolution) {}
+
+    [[nodiscard]] std::array<float, 3> lengths(const std::uint32_t* corners) const {
+        std::array<float, 3> result{};
+        for (std::size_t k = 0; k < 3 && coarse_; ++k) result[k] = glm::length(level_.normals[corners[k]]);
+        return result;
+    }
+
+    // Shades the cell with this number, unless that is left to the row's end.
+    void shade(const SeenTriangle& triangle, std::size_t cell, int x, int y) {
+        const Finish& finish = *triangle.finish;
+        const auto [b, c] = triangle.weights.at(static_cast<float>(x), static_cast<float>(y));
+        const std::array<float, 3> weights = {1 - b - c, b, c};
+        const auto mix = [&](const auto& values) {
+            const std::uint32_t* const corners = triangle.corners;
+            return weights[0] * values[corners[0]] + weights[1] * values[corners[1]] + weights[2] * values[corners[2]];
+        };
+        const bool isMapped =
+            finish.baseColorMap.image || finish.metallicRoughnessMap.image || finish.emissionMap.image;
+        const glm::vec2 uv0 = isMapped && !level_.uv0.empty() ? mix(level_.uv0) : glm::vec2(0);
+        const glm::vec2 uv1 = isMapped && !level_.uv1.empty() ? mix(level_.uv1) : glm::vec2(0);
+        glm::vec3 color = finish.baseColor * mapped(finish.baseColorMap, uv0, uv1);
+        if (!level_.colors.empty()) color *= glm::vec3(mix(level_.colors));
+        if (finish.unlit) return put(cell, color);
+
+        const glm::vec3 surface = mapped(finish.metallicRoughnessMap, uv0, uv1);
+        const float metallic = finish.metallic * surface.z;
+        const glm::vec3 normal = (triangle.weights.back ? -1.0f : 1.0f) * mix(level_.normals);
+        const float agreement = coarse_
+                                    ? std::clamp(weights[0] * triangle.lengths[0] + weights[1] * triangle.lengths[1] +
+                                                     weights[2] * triangle.lengths[2],
+                                                 leastShownAgreement, 1.0f)
+                                    : 1;
+        const glm::vec3 diffuse = color * (1 - metallic);
+        const glm::vec3 emission = finish.emission * mapped(finish.emissionMap, uv0, uv1);
+        if (!(finish.reflectance > 0 || metallic > 0)) return matt_.add(cell, diffuse, emission, normal, agreement);
+
+        const float length = glm::length(normal);
+        const SurfacePoint point = {diffuse, glm::mix(glm::vec3(finish.reflectance), color, metallic),
+                                    finish.roughness * surface.y, length > 0 ? normal / length : glm::vec3(0),
+                                    agreement};
+        const SeenNormals seen = seenNormals(glm::dot(point.normal, toEye_), agreement);
+        glm::vec3 light = emission + skyLight(point, toEye_);
+        for (const DistantLight& each : lights_) light += lightFrom(each, point, seen, toEye_);
+        put(cell, light);
+    }
+
+    void endRow() {
+        matt_.shade([&](std::size_t cell, const glm::vec3& light) { put(cell, light); });
+    }
+
+    double sum = 0;           // of the light's mean channels
+    std::size_t covered = 0;  // cells
+
+private:
+    void put(std::size_t cell, const glm::vec3& light) {
+        if (!std::isfinite(light.x + light.y + light.z)) return;
+        cells_[cell] = light;
+        sum += (double{light.x} + double{light.y} + double{light.z}) / 3;
+        ++covered;
+    }
+
     const PyramidLevel& level_;
     bool coarse_;
     glm::vec3 toEye_;
     std::vector<DistantLight> lights_;
+    std::span<glm::vec3> cells_;
+    MattCells matt_;
 };
+
+// With a cell more at each side, for rounding.
+CellBox cellsAround(const Eye& eye, const Bounds& bounds) {
+    glm::vec3 least(std::numeric_limits<float>::infinity());
+    glm::vec3 most = -least;
+    for (const glm::dvec3& corner : bounds.corners()) {
+        const glm::vec3 place = eye.place(glm::vec3(corner));
+        least = glm::min(least, place);
+        most = glm::max(most, place);
+    }
+    const auto down = [](int cell) { return cell / boxAlignment * boxAlignment; };
+    const auto up = [&](int cell) { return std::min(down(cell + boxAlignment - 1), eye.resolution); };
+    return {down(firstAt(least.x - 1, 0, eye.resolution)), up(firstAt(most.x + 1, 0, eye.resolution)),
+            down(firstAt(least.y - 1, 0, eye.resolution)), up(firstAt(most.y + 1, 0, eye.resolution))};
+}
+
+// The primitive that has the pyramid's index `first`.
+std::size_t primitiveAt(const PyramidLevel& level, std::uint32_t first) {
+    const auto next = std::upper_bound(level.primitives.begin(), level.primitives.end(), first,
+                                       [](std::uint32_t i, const IndexRange& range) { return i < range.first; });
+    return static_cast<std::size_t>(next - level.primitives.begin()) - 1;
+}
 
 }  // namespace
 
@@ -212,35 +399,82 @@ Eye eyeAlong(const Pyramid& pyramid, const glm::dvec3& towards, int resolution) 
     eye.up = glm::cross(towards, eye.right);
     eye.cellsPerUnit = resolution / glm::length(pyramid.bounds.size());
     eye.resolution = resolution;
+    eye.box = cellsAround(eye, pyramid.bounds);
     return eye;
 }
 
-Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes) {
-    const PyramidLevel& level = pyramid.levels[number];
-    std::vector<glm::vec3> places;
-    places.reserve(level.positions.size());
-    for (const glm::vec3& position : level.positions) places.push_back(eye.place(position));
-    const std::size_t cells = static_cast<std::size_t>(eye.resolution) * static_cast<std::size_t>(eye.resolution);
-    std::vector<Hit> hits(cells);
-    for (std::uint32_t p = 0; p < level.primitives.size(); ++p)
-        for (std::uint32_t i = 0; i < level.primitives[p].count; i += 3) {
-            const std::uint32_t first = level.primitives[p].first + i;
-            const std::uint32_t* const corners = &pyramid.indices[first];
-            drawTriangle({places[corners[0]], places[corners[1]], places[corners[2]]}, first, p, eye, hits);
-        }
-    places = {};
+Painter::Painter(const Pyramid& pyramid, const Eye& eye, std::span<const Finish> finishes)
+    : pyramid_(pyramid), eye_(eye), finishes_(finishes) {}
 
-    const Shading shading(level, number > 0, eye);
-    Picture picture;
-    picture.light.assign(cells, glm::vec3(0));
-    for (std::size_t i = 0; i < cells; ++i) {
-        if (!std::isfinite(hits[i].z)) continue;
-        const glm::vec3 light = shading.at(&pyramid.indices[hits[i].first], hits[i], finishes[hits[i].primitive]);
-        if (!std::isfinite(light.x + light.y + light.z)) continue;
-        picture.light[i] = light;
-        picture.sum += (double{light.x} + double{light.y} + double{light.z}) / 3;
-        ++picture.covered;
+void Painter::drawTriangle(std::uint32_t first) {
+    const std::uint32_t* const corners = &pyramid_.indices[first];
+    const glm::vec3& p = places_[corners[0]];
+    const glm::vec3& q = places_[corners[1]];
+    const glm::vec3& r = places_[corners[2]];
+    const CellBox& box = eye_.box;
+    const int left = firstAt(std::min(std::min(p.x, q.x), r.x), box.left, box.right);
+    const int right = firstAt(std::max(std::max(p.x, q.x), r.x), box.left, box.right);
+    if (left >= right) return;
+    const int bottom = firstAt(std::min(std::min(p.y, q.y), r.y), box.bottom, box.top);
+    const int top = firstAt(std::max(std::max(p.y, q.y), r.y), box.bottom, box.top);
+    if (bottom >= top) return;
+    const Weights weights(p, q, r);
+    if (weights.flat) return;
+    const float stepZ1 = q.z - p.z;
+    const float stepZ2 = r.z - p.z;
+    const float z0 = p.z - (weights.back ? backBias : 0);
+    std::optional<RowBounds> bounds;
+    if (right - left > narrow) bounds.emplace(weights);
+    for (int y = bottom; y < top; ++y) {
+        const auto [begin, end] = bounds ? bounds->within(y, left, right) : std::array{left, right};
+        const std::size_t row = box.indexOf(begin, y);
+        for (int x = begin; x < end; x += lanes) {
+            const Four places = static_cast<float>(x) + Four{0, 1, 2, 3};
+            const auto [b, c] = weights.at(places, static_cast<float>(y));
+            const Four z = z0 + b * stepZ1 + c * stepZ2;
+            float* const depths = &depths_[row + static_cast<std::size_t>(x - begin)];
+            std::uint32_t* const firsts = &firsts_[row + static_cast<std::size_t>(x - begin)];
+            const Four before = loaded<Four>(depths);
+            const auto nearer = (b >= 0) & (c >= 0) & (b + c <= 1) & (places < static_cast<float>(end)) & (z > before);
+            store(depths, nearer ? z : before);
+            store(firsts, nearer ? FourWords{} + first : loaded<FourWords>(firsts));
+        }
     }
+}
+
+void Painter::draw(std::size_t number, Picture& picture) {
+    const PyramidLevel& level = pyramid_.levels[number];
+    const CellBox& box = eye_.box;
+    depths_.assign(box.count() + lanes, nothing);  // four of the last cells reach beyond the end
+    firsts_.resize(box.count() + lanes);
+    places_.clear();
+    for (const glm::vec3& position : level.positions) places_.push_back(eye_.place(position));
+    for (const IndexRange& range : level.primitives)
+        for (std::uint32_t i = 0; i < range.count; i += 3) drawTriangle(range.first + i);
+
+    picture.light.assign(box.count(), glm::vec3(0));
+    Shading shading(level, number > 0, eye_, picture.light);
+    SeenTriangle triangle;
+    for (int y = box.bottom; y < box.top; ++y) {
+        std::size_t cell = box.indexOf(box.left, y);
+        for (int x = box.left; x < box.right; ++x, ++cell) {
+            if (depths_[cell] == nothing) continue;
+            const std::uint32_t* const corners = &pyramid_.indices[firsts_[cell]];
+            if (corners != triangle.corners)
+                triangle = {corners, &finishes_[primitiveAt(level, firsts_[cell])],
+                            Weights(places_[corners[0]], places_[corners[1]], places_[corners[2]]),
+                            shading.lengths(corners)};
+            shading.shade(triangle, cell, x, y);
+        }
+        shading.endRow();
+    }
+    picture.sum = shading.sum;
+    picture.covered = shading.covered;
+}
+
+Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes) {
+    Picture picture;
+    Painter(pyramid, eye, finishes).draw(number, picture);
     return picture;
 }
 

@@ -232,11 +232,9 @@ std::vector<double> vertexShares(LevelVertices vertices) {
 // Of the work, about: on one core collapses take half of it.
 constexpr double shareOfCollapses = 0.6, shareUntilFitted = 0.7, shareUntilMeasured = 0.8, shareUntilClustered = 0.85;
 
-Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
-              const std::function<void(double)>& step) {
-    const auto reach = [&](double share) {
-        if (step) step(share);
-    };
+// All but what is measured of the finished levels.
+Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
+                  const std::function<void(double)>& reach) {
     // Join equal vertices; weld the positions of the rest.
     WeldedVertices unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
@@ -349,6 +347,15 @@ Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpe
         done = {};
     }
     separateSizes(pyramid.levels, glm::length(pyramid.bounds.size()));
+    return pyramid;
+}
+
+Pyramid build(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers,
+              const std::function<void(double)>& step) {
+    Pyramid pyramid = assembled(mesh, options, helpers, [&](double share) {
+        if (step) step(share);
+    });
+    if (mesh.triangleCount() >= fewestToGiveBack) giveBackFreedMemory();
     measureBlurredErrors(pyramid, finishesOf(mesh, options), helpers);
     measureDeformations(pyramid, mesh);
     return pyramid;

@@ -15,12 +15,10 @@
 #include <vector>
 
 #include "core/memory.h"
+#include "lod/pyramid/four.h"
 #include "lod/simplify/triangle_set.h"
 
 namespace defocus {
-
-// Four numbers that GCC and Clang compute with at once.
-using Four = float __attribute__((vector_size(16)));
 
 // Boxes around the four children of a node.
 struct BoxNode {

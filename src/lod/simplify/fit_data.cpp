@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 #include <utility>
+#include <vector>
 
 namespace defocus {
 
@@ -15,38 +16,56 @@ namespace {
 constexpr double leastArea = 1e-3;
 constexpr double largestArea = 1e3;
 
+// Groups of those of `count` vertices that have the same key, below `keyCount`, and the same values.
+template <typename Key, typename KeyOf, typename ValuesOf>
+VertexGroups equalGroups(std::size_t count, std::size_t keyCount, const KeyOf& keyOf, const ValuesOf& valuesOf) {
+    struct Member {
+        std::array<std::uint32_t, 4> values;
+        MeshVertexNumber vertex;
+        auto operator<=>(const Member&) const = default;
+    };
+    VertexGroups groups;
+    groups.reserve(count);
+    for (const auto v : numbersBelow<MeshVertexNumber>(count)) groups.push_back(v);
+    const Buckets<Key, MeshVertexNumber> buckets(keyCount, count, keyOf);
+    std::vector<Member> members;
+    for (const Key key : buckets.keys()) {
+        if (buckets[key].size() < 2) continue;
+        members.clear();
+        for (const MeshVertexNumber v : buckets[key]) {
+            Member& member = members.emplace_back();
+            member.vertex = v;
+            const std::array<float, 4> values = valuesOf(v);
+            for (std::size_t i = 0; i < 4; ++i)
+                member.values[i] = std::bit_cast<std::uint32_t>(values[i] + 0.0f);  // −0 is 0
+        }
+        std::sort(members.begin(), members.end());
+        for (std::size_t i = 1; i < members.size(); ++i)
+            if (members[i].values == members[i - 1].values) groups[members[i].vertex] = groups[members[i - 1].vertex];
+    }
+    return groups;
+}
+
 // Within the smoothing groups, vertices of one colour.
 VertexGroups colorGroups(const VertexGroups& smoothing, const std::vector<glm::vec4>& colors) {
     if (colors.empty()) return {};
-    Numbered<MeshVertexNumber, std::uint8_t> shared(colors.size(), 0);  // 1: more than one vertex is of the group
-    for (const MeshVertexNumber v : shared.numbers())
-        if (smoothing[v] != v) shared[smoothing[v]] = 1;
-    std::map<std::pair<MeshVertexNumber, std::array<float, 4>>, MeshVertexNumber> leaders;
-    VertexGroups groups(colors.size());
-    for (const MeshVertexNumber v : groups.numbers()) {
-        groups[v] = v;
-        if (shared[smoothing[v]] == 0) continue;
-        const glm::vec4& c = colors[v.value];
-        groups[v] = leaders.try_emplace({smoothing[v], {c.r, c.g, c.b, c.a}}, v).first->second;
-    }
-    return groups;
+    return equalGroups<MeshVertexNumber>(
+        colors.size(), colors.size(), [&](MeshVertexNumber v) { return smoothing[v]; },
+        [&](MeshVertexNumber v) {
+            const glm::vec4& c = colors[v.value];
+            return std::array{c.r, c.g, c.b, c.a};
+        });
 }
 
 // Vertices at one position with the same texture coordinates.
 VertexGroups chartGroups(const Vertices& vertices, const WeldedPositions& positions) {
     if (vertices.uv0.empty() && vertices.uv1.empty()) return {};
-    VertexGroups groups(vertices.count());
-    Numbered<PositionNumber, std::uint8_t> shared(positions.first.size(), 0);
-    for (const MeshVertexNumber v : groups.numbers())
-        if (positions.first[positions.id[v]] != v) shared[positions.id[v]] = 1;
-    std::map<std::pair<PositionNumber, std::array<float, 4>>, MeshVertexNumber> leaders;
-    for (const MeshVertexNumber v : groups.numbers()) {
-        groups[v] = v;
-        if (shared[positions.id[v]] == 0) continue;
-        const auto [uv0, uv1] = coordinatesOf(vertices, v);
-        groups[v] = leaders.try_emplace({positions.id[v], {uv0.x, uv0.y, uv1.x, uv1.y}}, v).first->second;
-    }
-    return groups;
+    return equalGroups<PositionNumber>(
+        vertices.count(), positions.first.size(), [&](MeshVertexNumber v) { return positions.id[v]; },
+        [&](MeshVertexNumber v) {
+            const auto [uv0, uv1] = coordinatesOf(vertices, v);
+            return std::array{uv0.x, uv0.y, uv1.x, uv1.y};
+        });
 }
 
 Numbered<MeshVertexNumber, std::uint8_t> seamVertices(const VertexGroups& charts, const WeldedPositions& positions) {

@@ -213,16 +213,6 @@ std::array<glm::dvec3, lightCount> directionsToLights() {
     return directions;
 }
 
-float normalSpread(float agreement) {
-    const float lost = 1 - agreement;
-    const float root = std::sqrt(lost);
-    return lost * (0.17796f + root * (1.04019f + root * (-1.37493f + root * (1.28514f - 0.72122f * root))));
-}
-
-float meanCosine(float mean, float cosine, float spread) {
-    return 0.5f * (mean + std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f)));
-}
-
 LightMeans lightMeans(const LitSurface& surface, std::size_t leastPoints) {
     const Lights from = lights();
     LightMeans means{};

@@ -2,7 +2,9 @@
 // Measures the light that a matt surface throws back, and fits the normals of a coarse level to that of level 0. The
 // mean over the surface is all that a wide blur leaves of its shading.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -22,8 +24,14 @@ using LightMeans = std::array<double, lightCount>;
 // normalSpread() and meanCosine() of shaders/include/shading.glsl: the light that normals throw back whose mean is as
 // long as `agreement` (in [0, 1]). `mean` is agreement · cosine for all normals alike; the mean of the result over all
 // directions of the light is then 1/4.
-float normalSpread(float agreement);
-float meanCosine(float mean, float cosine, float spread);
+inline float normalSpread(float agreement) {
+    const float lost = 1 - agreement;
+    const float root = std::sqrt(lost);
+    return lost * (0.17796f + root * (1.04019f + root * (-1.37493f + root * (1.28514f - 0.72122f * root))));
+}
+inline float meanCosine(float mean, float cosine, float spread) {
+    return 0.5f * (mean + std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f)));
+}
 
 // The shaders bound interpolated agreements so.
 inline constexpr float leastShownAgreement = 0.05f;

@@ -5,12 +5,12 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
 #include "core/bounds.h"
+#include "lod/simplify/cover_grid.h"
 
 namespace defocus {
 
@@ -18,35 +18,6 @@ namespace defocus {
 // Unit length.
 inline constexpr std::size_t outlineDirections = 13;
 std::array<glm::dvec3, outlineDirections> directionsOfOutlines();
-
-// What a surface covers, on a square grid at right angles to a direction. Coordinates are in cells; the points that
-// are looked at lie in their middles.
-class CoverGrid {
-public:
-    // Lays `resolution`² cells over a ball around `box`; `resolution` is a multiple of 64.
-    CoverGrid(const Bounds& box, const glm::dvec3& direction, int resolution);
-
-    // Marks what triangles cover, seen from either side; each has three indices.
-    void add(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
-
-    // Returns the same grid with nothing covered.
-    [[nodiscard]] CoverGrid emptied() const;
-
-    [[nodiscard]] glm::dvec2 cellsOf(const glm::vec3& position) const;
-    [[nodiscard]] bool covers(const glm::dvec2& cells) const;  // false outside of the grid
-    [[nodiscard]] double area() const;                         // object units squared
-    [[nodiscard]] double cell() const { return cell_; }        // object units; 0 of an empty box
-    // Turns a vector in the grid's plane into one in space, of the same length.
-    [[nodiscard]] glm::dvec3 inSpace(const glm::dvec2& along) const { return along.x * across_ + along.y * up_; }
-
-private:
-    void cover(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c);
-
-    glm::dvec3 centre_, across_, up_;
-    double cell_ = 0;
-    int resolution_ = 0;
-    std::vector<std::uint64_t> cells_;  // a bit each, row by row
-};
 
 // Returns the grids of level 0, one for each direction.
 std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,

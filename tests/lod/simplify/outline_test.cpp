@@ -36,6 +36,27 @@ TEST(CoverGrid, ofAnEmptyBoxIsEmpty) {
     EXPECT_FALSE(grid.covers({0, 0}));
 }
 
+TEST(EdgeFill, coversWhatTheTrianglesOfItsEdgesDo) {
+    const Mesh mesh = sphere(32, 16);
+    const std::vector<std::uint32_t>& indices = mesh.primitives[0].indices;
+    CoverGrid byTriangles(mesh.bounds(), directionsOfOutlines()[0], 512);
+    CoverGrid byEdges = byTriangles;
+    byTriangles.add(mesh.vertices.positions, indices);
+    EdgeFill fill(byEdges.resolution());
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        glm::dvec2 corners[3];
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = byEdges.cellsOf(mesh.vertices.positions[indices[i + k]]);
+        const glm::dvec2 b = corners[1] - corners[0];
+        const glm::dvec2 c = corners[2] - corners[0];
+        const int left = b.x * c.y > b.y * c.x ? 1 : -1;
+        for (std::size_t k = 0; k < 3; ++k) fill.add(corners[k], corners[(k + 1) % 3], left);
+    }
+    const std::size_t cells = fill.fill(byEdges);
+    EXPECT_NEAR(byEdges.area() / byTriangles.area(), 1, 1e-4);
+    EXPECT_DOUBLE_EQ(byEdges.area(), byEdges.cell() * byEdges.cell() * static_cast<double>(cells));
+    EXPECT_EQ(fill.fill(byEdges), 0u) << "edges are not forgotten";
+}
+
 // Vertices of a coarse sphere that lie on the fine one: every outline is too small.
 TEST(FitOutlines, inscribedSphereGrowsToTheAreaOfTheFineOne) {
     const Mesh fine = sphere(128, 64);
