@@ -154,10 +154,14 @@ const GlTexture& LayerSum::meanTexture() {
 void LayerSum::makeMean() {
     if (samples_ == 0) fail("the accumulation holds no sample yet");
     if (meanIsCurrent_) return;
-    // An unfinished block is added to a copy: the frame's own sum goes on at the block border.
+    // An unfinished block is added to a copy: the frame's own sum goes on at the block border. The first one is the
+    // whole sum.
     const bool unfinished = samples_ % blockSamples != 0;
-    if (unfinished) addBlockTo(frame_, latestBlock(true), samples_ < blockSamples);
-    const int latest = unfinished ? 1 - frame_.current : frame_.current;
+    const bool isFirst = samples_ < blockSamples;
+    const int block = unfinished ? latestBlock(true) : block_.current;
+    if (unfinished && !isFirst) addBlockTo(frame_, block, false);
+    const Sum& total = isFirst ? block_ : frame_;
+    const int latest = isFirst ? block : unfinished ? 1 - frame_.current : frame_.current;
 
     if (!mean_) {
         mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = sumWidth(), .height = sumHeight()});
@@ -165,8 +169,8 @@ void LayerSum::makeMean() {
         meanTarget_ = Target({&mean_});
     }
     meanTarget_.bind();
-    frame_.sum[latest].attach(0);
-    frame_.compensation[latest].attach(1);
+    total.sum[latest].attach(0);
+    total.compensation[latest].attach(1);
     glProgramUniform1f(resolve_.name(), 0, countsInAlpha_ ? 0.0f : static_cast<float>(samples_));
     fullscreen_.draw(resolve_);
     meanIsCurrent_ = true;
