@@ -25,7 +25,8 @@ layout(std140, binding = 4) uniform SampleBlock {
 #ifdef LENS_CELLS
 #include "include/cells.glsl"
 layout(binding = 6) uniform sampler2DArray layerDepths;
-layout(rgba32f, binding = 0) uniform image2DArray cellSums;
+layout(binding = 7) uniform sampler2DArray drawnSums;   // what the target holds
+layout(rgba32f, binding = 0) uniform image2DArray cellSums;   // for those beyond
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;   // of each tile
 layout(location = 3) uniform float cellBlur;   // σ of the blur of a sample's image, as a share of |c|
 #endif
@@ -34,7 +35,11 @@ layout(location = 1) uniform int firstInBlock;
 layout(location = 2) uniform ivec2 firstPixel;   // of the layers, that the sums begin with
 
 layout(location = 0) out vec4 sumOut;
+#ifdef LENS_CELLS
+layout(location = 1) out vec4 cellsOut[drawnClasses];
+#else
 layout(location = 1) out vec4 compensationOut;
+#endif
 
 #ifdef LENS_CELLS
 // Alpha-blended surfaces add their alpha to that of what is opaque, the sky included.
@@ -84,7 +89,11 @@ void main() {
     const bool startsBlock = false;
 #endif
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
+#ifdef LENS_CELLS
+    vec4 compensation = vec4(0.0);   // not kept: what is blurred has the precision of single floats
+#else
     vec4 compensation = startsBlock ? vec4(0.0) : texelFetch(compensationSoFar, pixel, 0);
+#endif
     ivec2 layerPixel = pixel + firstPixel;
     vec2 imagePlane = (2.0 * (gl_FragCoord.xy + vec2(firstPixel) + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
 #ifdef CAT_EYE
@@ -100,7 +109,8 @@ void main() {
     vec2 ndc = imagePlane * frame.projection.xy;
     vec4 cells[cellClasses];
     uint held = 0u;
-    for (int k = 0; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
+    for (int k = 0; k < drawnClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : texelFetch(drawnSums, ivec3(pixel, k), 0);
+    for (int k = drawnClasses; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
 #endif
     for (int layer = 0; layer < layerCount; ++layer) {
 #ifdef CAT_EYE
@@ -134,7 +144,8 @@ void main() {
 #endif
     }
 #ifdef LENS_CELLS
-    for (int k = 0; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
+    for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
+    for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
     ivec2 tile = pixel / cellTile;
     if ((held & ~imageLoad(heldClasses, tile).r) != 0u) imageAtomicOr(heldClasses, tile, held);
 #endif
@@ -142,5 +153,7 @@ void main() {
     sum.a += seen;   // whole numbers: exact
 #endif
     sumOut = sum;
+#ifndef LENS_CELLS
     compensationOut = compensation;
+#endif
 }

@@ -5,6 +5,7 @@
 // alpha counts samples.
 
 const int cellClasses = CELLS_IN_FRONT + CELLS_BEHIND;
+const int drawnClasses = min(cellClasses, 7);   // the first, which a target holds beside the sum of all samples
 
 // Squares of so many px a side know which classes they hold anything of, bit k of class k: most hold few.
 const int cellTile = 16;

@@ -54,7 +54,7 @@ void LayerSum::blurCells(const LensCells& cells) {
     blursCells_ = cells.classes() > 0;
     if (!blursCells_ || (cells_ && cells_->fits(cells))) return;
     const auto passes = cellPasses_.try_emplace({cells.inFront, cells.behind}, cells, info_.shaderFolder).first;
-    cells_.emplace(cells, sumWidth(), sumHeight(), passes->second);
+    cells_.emplace(cells, block_.sum, passes->second);
 }
 
 void LayerSum::beginWave() {
@@ -85,12 +85,13 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
     Program& addLayers = entry->second;
     if (isNew) addLayers = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     glDisable(GL_SCISSOR_TEST);
-    block_.target[1 - block_.current].bind();
+    const int next = 1 - block_.current;
+    if (!blursCells_) block_.target[next].bind();
     frame.bind(first);
     layers_.attach(0);
     block_.sum[block_.current].attach(1);
     block_.compensation[block_.current].attach(2);
-    if (blursCells_) cells_->bindForAdding(addLayers, depth_, cellBlur_, samples_ % blockSamples == 0);
+    if (blursCells_) cells_->bindForAdding(addLayers, depth_, cellBlur_, samples_ % blockSamples == 0, next);
     glProgramUniform1i(addLayers.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(addLayers.name(), 1, static_cast<GLint>(samples_ % blockSamples));
     glProgramUniform2i(addLayers.name(), 2, window_ ? window_->left : 0, window_ ? window_->bottom : 0);
