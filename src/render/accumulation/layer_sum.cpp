@@ -21,6 +21,7 @@ GlTexture layerTexture(const LayerSumInfo& info, TextureFormat format) {
 LayerSum::Sum::Sum(int width, int height) {
     for (int i = 0; i < 2; ++i) {
         sum[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
+        sum[i].sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
         compensation[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
         target[i] = Target({&sum[i], &compensation[i]});
     }
