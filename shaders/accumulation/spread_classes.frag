@@ -1,4 +1,5 @@
-// Of each tile, the classes of cells whose means in it may show anything, or lie beside one that does, bit k for class k.
+// Of each tile, the classes of cells whose means in it may show anything, or lie beside one that does, bit k for class k. And,
+// from bit besideSpread on, those of which the tile or one beside it says so: their means are read, and are zeros here.
 #include "include/cells.glsl"
 
 layout(binding = 0) uniform usampler2D heldClasses;
@@ -12,11 +13,15 @@ const uint widest = allClasses & ((1u << 4) << CELLS_IN_FRONT | (CELLS_IN_FRONT 
 void main() {
     ivec2 tile = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(heldClasses, 0) - 1;
-    spreadOut = 0u;
-    for (int y = -2; y <= 2; ++y) {
-        for (int x = -2; x <= 2; ++x) {
+    uint spread = 0u;
+    uint beside = 0u;
+    for (int y = -3; y <= 3; ++y) {
+        for (int x = -3; x <= 3; ++x) {
             uint held = texelFetch(heldClasses, clamp(tile + ivec2(x, y), ivec2(0), last), 0).r;
-            spreadOut |= held & (max(abs(x), abs(y)) < 2 ? allClasses : widest);
+            int away = max(abs(x), abs(y));
+            spread |= held & (away < 2 ? allClasses : away < 3 ? widest : 0u);
+            beside |= held & (away < 3 ? allClasses : widest);
         }
     }
+    spreadOut = spread | beside << besideSpread;
 }

@@ -9,6 +9,7 @@ const int drawnClasses = min(cellClasses, 7);   // the first, which a target hol
 
 // Squares of so many px a side know which classes they hold anything of, bit k of class k: most hold few.
 const int cellTile = 16;
+const int besideSpread = 16;   // first bit of what spread_classes.frag says of the tiles beside
 
 // px², of class k: cellClassVariance() of src/plan/lens_cells.h. Class −1 isn't blurred.
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }

@@ -36,11 +36,14 @@ CellPasses::CellPasses(const LensCells& cells, const std::filesystem::path& shad
     const auto pass = [&](const char* fragment, const ShaderDefines& own) {
         return Program({{fullscreenShader, fragment}, own, shaderFolder});
     };
+    const auto means = [&](const ShaderDefines& own) {
+        return Program({{"accumulation/cell_tiles.vert", "accumulation/cell_means.frag"}, own, shaderFolder});
+    };
     spread = pass("accumulation/spread_classes.frag", defines);
-    average = pass("accumulation/cell_means.frag", defines);
+    average = means(defines);
     ShaderDefines nearest = defines;
     nearest.emplace_back("NEAREST", "1");
-    if (cells.inFront > 0) averageNearest = pass("accumulation/cell_means.frag", nearest);
+    if (cells.inFront > 0) averageNearest = means(nearest);
     blur = pass("accumulation/blur_cells.frag", defines);
 }
 
@@ -90,10 +93,18 @@ void CellSums::blurInto(const Target& target, const GlTexture& sum) {
     spread_.attach(2);
     for (int classIndex = 0; classIndex < inFront_ + behind_; ++classIndex) {
         const Program& average = classIndex == inFront_ - 1 ? passes_->averageNearest : passes_->average;
+        const int side = 1 << (classIndex < inFront_ ? classIndex : classIndex - inFront_);
+        // Drivers shade several pixels at a time: a point has 4 x 4 at least.
+        const int pointSide = std::max(tileSide, 4 * side);
+        const int columns = (shownMeans_.info().width + pointSide - 1) / pointSide;
+        const int rows = (shownMeans_.info().height + pointSide - 1) / pointSide;
         meanTargets_[static_cast<std::size_t>(classIndex)].bind();
+        glViewport(0, 0, columns * pointSide / side, rows * pointSide / side);
         glProgramUniform1i(average.name(), 0, classIndex);
-        glProgramUniform1i(average.name(), 1, 1 << (classIndex < inFront_ ? classIndex : classIndex - inFront_));
-        fullscreen_.draw(average);
+        glProgramUniform1i(average.name(), 1, side);
+        glProgramUniform1i(average.name(), 2, pointSide / tileSide);
+        glProgramUniform2i(average.name(), 3, columns, rows);
+        fullscreen_.drawSquares(average, columns * rows);
     }
     shownMeans_.attach(3);
     openMeans_.attach(4);

@@ -53,8 +53,8 @@ private:
     GlTexture held_;           // which classes a tile holds
     GlTexture spread_;         // of which it needs means
     Target spreadTarget_;
-    // Around the middles of squares of pixels, of class k in mipmap level k, in front of the focus and behind it a layer
-    // each: what it shows, and the samples that are open to it.
+    // Around the middles of squares of pixels, of class k in mipmap level k, in front of the focus and behind it a
+    // layer each: what it shows, and the samples that are open to it.
     GlTexture shownMeans_, openMeans_;
     std::vector<Target> meanTargets_;  // as many as classes
     Fullscreen fullscreen_;
