@@ -45,8 +45,8 @@ layout(location = 1) out vec4 compensationOut;
 // Alpha-blended surfaces add their alpha to that of what is opaque, the sky included.
 const float BLENDED_ALPHA = 1.001;
 
-// Adds what a pixel of a layer shows to the classes of its blur, and those to `held`.
-void addToCells(inout vec4 sums[cellClasses], inout uint held, vec4 value, ivec3 texel, vec2 ndc) {
+// Adds what a pixel of a layer shows to the classes of its blur.
+void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
     float variance = value.a < BLENDED_ALPHA ? max(0.0, cellBlur * cellBlur * c * c - LEAST_CELL_VARIANCE) : 0.0;
     float inFront = c < 0.0 ? variance : 0.0;
@@ -54,7 +54,14 @@ void addToCells(inout vec4 sums[cellClasses], inout uint held, vec4 value, ivec3
     value.a = 1.0;
     for (int k = 0; k < CELLS_IN_FRONT; ++k) sums[k] += (1.0 - reachOfClass(inFront, k)) * value;
     for (int k = 0; k < CELLS_BEHIND; ++k) sums[CELLS_IN_FRONT + k] += reachOfClass(behind, k) * value;
-    held |= variance > 0.0 ? classesOf(variance, c < 0.0 ? CELLS_IN_FRONT : CELLS_BEHIND) << (c < 0.0 ? 0 : CELLS_IN_FRONT) : 0u;
+}
+
+// The classes that hold a share of any of `samples`, one bit each: their sums count more samples than those beyond, or fewer.
+uint heldBy(vec4 sums[cellClasses], float samples) {
+    uint held = 0u;
+    for (int k = 0; k < CELLS_IN_FRONT; ++k) held |= sums[k].a != (k + 1 < CELLS_IN_FRONT ? sums[k + 1].a : samples) ? 1u << k : 0u;
+    for (int k = CELLS_IN_FRONT; k < cellClasses; ++k) held |= sums[k].a != (k + 1 < cellClasses ? sums[k + 1].a : 0.0) ? 1u << k : 0u;
+    return held;
 }
 #endif
 
@@ -108,7 +115,6 @@ void main() {
 #ifdef LENS_CELLS
     vec2 ndc = imagePlane * frame.projection.xy;
     vec4 cells[cellClasses];
-    uint held = 0u;
     for (int k = 0; k < drawnClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : texelFetch(drawnSums, ivec3(pixel, k), 0);
     for (int k = drawnClasses; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
 #endif
@@ -140,17 +146,18 @@ void main() {
         addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
 #endif
 #ifdef LENS_CELLS
-        addToCells(cells, held, value, ivec3(layerPixel, layer), ndc);
+        addToCells(cells, value, ivec3(layerPixel, layer), ndc);
 #endif
     }
+#if BACKGROUND != 0
+    sum.a += seen;   // whole numbers: exact
+#endif
 #ifdef LENS_CELLS
     for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
     for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
+    uint held = heldBy(cells, sum.a);
     ivec2 tile = pixel / cellTile;
     if ((held & ~imageLoad(heldClasses, tile).r) != 0u) imageAtomicOr(heldClasses, tile, held);
-#endif
-#if BACKGROUND != 0
-    sum.a += seen;   // whole numbers: exact
 #endif
     sumOut = sum;
 #ifndef LENS_CELLS

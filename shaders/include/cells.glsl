@@ -18,11 +18,3 @@ float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }
-
-// The one or two of a side's `count` classes that what is blurred by `variance` > 0 belongs to, one bit each.
-uint classesOf(float variance, int count) {
-    uint classes = 0u;
-    for (int k = 0; k < count; ++k)
-        if (variance > classVariance(k - 1) && (variance < classVariance(k + 1) || k == count - 1)) classes |= 1u << k;
-    return classes;
-}
