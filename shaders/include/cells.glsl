@@ -8,7 +8,7 @@ const int cellClasses = CELLS_IN_FRONT + CELLS_BEHIND;
 const int drawnClasses = min(cellClasses, 7);   // the first, which a target holds beside the sum of all samples
 
 // Squares of so many px a side know which classes they hold anything of, bit k of class k: most hold few.
-const int cellTile = 16;
+const int cellTile = 8;
 const int besideSpread = 16;   // first bit of what spread_classes.frag says of the tiles beside
 
 // px², of class k: cellClassVariance() of src/plan/lens_cells.h. Class −1 isn't blurred.

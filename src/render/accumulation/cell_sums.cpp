@@ -9,7 +9,7 @@ namespace defocus {
 
 namespace {
 
-constexpr int tileSide = 16;  // cellTile of shaders/include/cells.glsl
+constexpr int tileSide = 8;  // cellTile of shaders/include/cells.glsl
 
 int tiles(int pixels) {
     return (pixels + tileSide - 1) / tileSide;
