@@ -25,7 +25,8 @@ layout(std140, binding = 4) uniform SampleBlock {
 #ifdef LENS_CELLS
 #include "include/cells.glsl"
 layout(binding = 6) uniform sampler2DArray layerDepths;
-layout(rgba32f, binding = 0) uniform image2DArray cellSums;
+layout(binding = 7) uniform sampler2DArray drawnSums;   // what the target holds
+layout(rgba32f, binding = 0) uniform image2DArray cellSums;   // for those beyond
 layout(r32ui, binding = 1) uniform uimage2D heldClasses;   // of each tile
 layout(location = 3) uniform float cellBlur;   // σ of the blur of a sample's image, as a share of |c|
 #endif
@@ -34,14 +35,18 @@ layout(location = 1) uniform int firstInBlock;
 layout(location = 2) uniform ivec2 firstPixel;   // of the layers, that the sums begin with
 
 layout(location = 0) out vec4 sumOut;
+#ifdef LENS_CELLS
+layout(location = 1) out vec4 cellsOut[drawnClasses];
+#else
 layout(location = 1) out vec4 compensationOut;
+#endif
 
 #ifdef LENS_CELLS
 // Alpha-blended surfaces add their alpha to that of what is opaque, the sky included.
 const float BLENDED_ALPHA = 1.001;
 
-// Adds what a pixel of a layer shows to the classes of its blur, and those to `held`.
-void addToCells(inout vec4 sums[cellClasses], inout uint held, vec4 value, ivec3 texel, vec2 ndc) {
+// Adds what a pixel of a layer shows to the classes of its blur.
+void addToCells(inout vec4 sums[cellClasses], vec4 value, ivec3 texel, vec2 ndc) {
     float c = circleOfConfusion(texelFetch(layerDepths, texel, 0).r, ndc, vec2(1.0, 0.0));
     float variance = value.a < BLENDED_ALPHA ? max(0.0, cellBlur * cellBlur * c * c - LEAST_CELL_VARIANCE) : 0.0;
     float inFront = c < 0.0 ? variance : 0.0;
@@ -49,7 +54,14 @@ void addToCells(inout vec4 sums[cellClasses], inout uint held, vec4 value, ivec3
     value.a = 1.0;
     for (int k = 0; k < CELLS_IN_FRONT; ++k) sums[k] += (1.0 - reachOfClass(inFront, k)) * value;
     for (int k = 0; k < CELLS_BEHIND; ++k) sums[CELLS_IN_FRONT + k] += reachOfClass(behind, k) * value;
-    held |= variance > 0.0 ? classesOf(variance, c < 0.0 ? CELLS_IN_FRONT : CELLS_BEHIND) << (c < 0.0 ? 0 : CELLS_IN_FRONT) : 0u;
+}
+
+// The classes that hold a share of any of `samples`, one bit each: their sums count more samples than those beyond, or fewer.
+uint heldBy(vec4 sums[cellClasses], float samples) {
+    uint held = 0u;
+    for (int k = 0; k < CELLS_IN_FRONT; ++k) held |= sums[k].a != (k + 1 < CELLS_IN_FRONT ? sums[k + 1].a : samples) ? 1u << k : 0u;
+    for (int k = CELLS_IN_FRONT; k < cellClasses; ++k) held |= sums[k].a != (k + 1 < cellClasses ? sums[k + 1].a : 0.0) ? 1u << k : 0u;
+    return held;
 }
 #endif
 
@@ -84,7 +96,11 @@ void main() {
     const bool startsBlock = false;
 #endif
     vec4 sum = startsBlock ? vec4(0.0) : texelFetch(sumSoFar, pixel, 0);
+#ifdef LENS_CELLS
+    vec4 compensation = vec4(0.0);   // not kept: what is blurred has the precision of single floats
+#else
     vec4 compensation = startsBlock ? vec4(0.0) : texelFetch(compensationSoFar, pixel, 0);
+#endif
     ivec2 layerPixel = pixel + firstPixel;
     vec2 imagePlane = (2.0 * (gl_FragCoord.xy + vec2(firstPixel) + frame.window.xy) / frame.window.zw - 1.0) / frame.projection.xy;
 #ifdef CAT_EYE
@@ -99,8 +115,8 @@ void main() {
 #ifdef LENS_CELLS
     vec2 ndc = imagePlane * frame.projection.xy;
     vec4 cells[cellClasses];
-    uint held = 0u;
-    for (int k = 0; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
+    for (int k = 0; k < drawnClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : texelFetch(drawnSums, ivec3(pixel, k), 0);
+    for (int k = drawnClasses; k < cellClasses; ++k) cells[k] = startsBlock ? vec4(0.0) : imageLoad(cellSums, ivec3(pixel, k));
 #endif
     for (int layer = 0; layer < layerCount; ++layer) {
 #ifdef CAT_EYE
@@ -130,17 +146,21 @@ void main() {
         addCompensated(sum.rgb, compensation.rgb, value.rgb * weight);
 #endif
 #ifdef LENS_CELLS
-        addToCells(cells, held, value, ivec3(layerPixel, layer), ndc);
+        addToCells(cells, value, ivec3(layerPixel, layer), ndc);
 #endif
     }
-#ifdef LENS_CELLS
-    for (int k = 0; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
-    ivec2 tile = pixel / cellTile;
-    if ((held & ~imageLoad(heldClasses, tile).r) != 0u) imageAtomicOr(heldClasses, tile, held);
-#endif
 #if BACKGROUND != 0
     sum.a += seen;   // whole numbers: exact
 #endif
+#ifdef LENS_CELLS
+    for (int k = 0; k < drawnClasses; ++k) cellsOut[k] = cells[k];
+    for (int k = drawnClasses; k < cellClasses; ++k) imageStore(cellSums, ivec3(pixel, k), cells[k]);
+    uint held = heldBy(cells, sum.a);
+    ivec2 tile = pixel / cellTile;
+    if ((held & ~imageLoad(heldClasses, tile).r) != 0u) imageAtomicOr(heldClasses, tile, held);
+#endif
     sumOut = sum;
+#ifndef LENS_CELLS
     compensationOut = compensation;
+#endif
 }

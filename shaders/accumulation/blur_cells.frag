@@ -35,7 +35,7 @@ void main() {
 #endif
     vec3 image = vec3(0.0);
     // Loops over the classes that are there cost less than branches around those that aren't: a software driver skips none.
-    uint spread = texelFetch(spreadClasses, pixel / cellTile, 0).r;
+    uint spread = texelFetch(spreadClasses, pixel / cellTile, 0).r & ((1u << cellClasses) - 1u);
     for (uint rest = spread >> CELLS_IN_FRONT; rest != 0u;) {
         int k = findMSB(rest);
         rest ^= 1u << k;

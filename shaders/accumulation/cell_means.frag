@@ -13,19 +13,19 @@ layout(location = 0) out vec4 meanOut;
 layout(location = 1) out float openOut;
 
 // The samples that are open to the class, and those of them that don't show it.
-vec4 openTo(ivec2 pixel) {
+vec4 openTo(vec2 place) {
 #ifdef NEAREST
-    return texelFetch(blockSum, pixel, 0);
+    return textureLod(blockSum, place, 0.0);
 #else
-    return texelFetch(cellSums, ivec3(pixel, classIndex < CELLS_IN_FRONT ? classIndex + 1 : classIndex), 0);
+    return textureLod(cellSums, vec3(place, float(classIndex < CELLS_IN_FRONT ? classIndex + 1 : classIndex)), 0.0);
 #endif
 }
-vec4 beyond(ivec2 pixel) {
+vec4 beyond(vec2 place) {
 #ifdef NEAREST
-    return texelFetch(cellSums, ivec3(pixel, classIndex), 0);
+    return textureLod(cellSums, vec3(place, float(classIndex)), 0.0);
 #else
     int layer = classIndex < CELLS_IN_FRONT ? classIndex : classIndex + 1;
-    return texelFetch(cellSums, ivec3(pixel, min(layer, cellClasses - 1)), 0) * (layer < cellClasses ? 1.0 : 0.0);
+    return textureLod(cellSums, vec3(place, float(min(layer, cellClasses - 1))), 0.0) * (layer < cellClasses ? 1.0 : 0.0);
 #endif
 }
 
@@ -38,13 +38,16 @@ void main() {
     if ((texelFetch(spreadClasses, tile, 0).r & 1u << classIndex) == 0u) return;
     vec4 mean = vec4(0.0);
     float open = 0.0;
-    for (int y = 0; y < 2 * side; ++y) {
-        for (int x = 0; x < 2 * side; ++x) {
-            ivec2 pixel = clamp(first + ivec2(x, y), ivec2(0), last);
-            vec2 tent = 1.0 - abs(vec2(x, y) + 0.5 - float(side)) / float(side);
-            float weight = tent.x * tent.y;
-            vec4 all = openTo(pixel);
-            mean += weight * (all - beyond(pixel));
+    // Two by two, by linear interpolation.
+    vec2 perPixel = 1.0 / vec2(textureSize(blockSum, 0));
+    for (int y = 0; y < 2 * side; y += 2) {
+        for (int x = 0; x < 2 * side; x += 2) {
+            vec2 low = 1.0 - abs(vec2(x, y) + 0.5 - float(side)) / float(side);
+            vec2 high = 1.0 - abs(vec2(x, y) + 1.5 - float(side)) / float(side);
+            vec2 place = (vec2(first + ivec2(x, y)) + 0.5 + high / (low + high)) * perPixel;
+            float weight = (low.x + high.x) * (low.y + high.y);
+            vec4 all = openTo(place);
+            mean += weight * (all - beyond(place));
             open += weight * all.a;
         }
     }

@@ -5,9 +5,11 @@
 // alpha counts samples.
 
 const int cellClasses = CELLS_IN_FRONT + CELLS_BEHIND;
+const int drawnClasses = min(cellClasses, 7);   // the first, which a target holds beside the sum of all samples
 
 // Squares of so many px a side know which classes they hold anything of, bit k of class k: most hold few.
-const int cellTile = 16;
+const int cellTile = 8;
+const int besideSpread = 16;   // first bit of what spread_classes.frag says of the tiles beside
 
 // px², of class k: cellClassVariance() of src/plan/lens_cells.h. Class −1 isn't blurred.
 float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0 / 6.0; }
@@ -15,12 +17,4 @@ float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0
 // How much of what a pixel shows, blurred by `variance`, belongs to class k or to one that is blurred more.
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
-}
-
-// The one or two of a side's `count` classes that what is blurred by `variance` > 0 belongs to, one bit each.
-uint classesOf(float variance, int count) {
-    uint classes = 0u;
-    for (int k = 0; k < count; ++k)
-        if (variance > classVariance(k - 1) && (variance < classVariance(k + 1) || k == count - 1)) classes |= 1u << k;
-    return classes;
 }

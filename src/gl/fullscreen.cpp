@@ -11,6 +11,16 @@ void Fullscreen::draw(const Program& program) const {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void Fullscreen::drawSquares(const Program& program, int count) const {
+    glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    program.use();
+    glBindVertexArray(noVertices_.name());
+    glDrawArrays(GL_POINTS, 0, count);
+    glDisable(GL_PROGRAM_POINT_SIZE);
+}
+
 void Fullscreen::drawAdding(const Program& program) const {
     drawBlended(program, GL_ONE);
 }

@@ -13,7 +13,9 @@ class Fullscreen {
 public:
     // Runs `program` on every pixel of the bound target, without depth test, culling or blending.
     void draw(const Program& program) const;
-    // The same, adding to what the target holds.
+    // Runs `program` on squares of pixels alone, as many points, whose vertex shader sets their places and sizes.
+    void drawSquares(const Program& program, int count) const;
+    // As draw(), adding to what the target holds.
     void drawAdding(const Program& program) const;
     // The same, laid over what the target holds: premultiplied by its alpha.
     void drawOver(const Program& program) const;

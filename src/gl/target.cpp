@@ -48,6 +48,15 @@ Target Target::ofLayers(const GlTexture& array) {
     return target;
 }
 
+Target Target::ofImageAndLayers(const GlTexture& image, const GlTexture& array, int layers) {
+    Target target;
+    target.create();
+    target.addColor(image, std::nullopt);
+    for (int layer = 0; layer < layers; ++layer) target.addColor(array, static_cast<std::uint32_t>(layer));
+    target.finish(nullptr);
+    return target;
+}
+
 Target Target::ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level) {
     Target target;
     target.create();

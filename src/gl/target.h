@@ -17,6 +17,8 @@ public:
     explicit Target(const std::vector<const GlTexture*>& colors, const GlTexture* depth = nullptr);
     // Each layer of an array texture, at most 8, is a colour.
     static Target ofLayers(const GlTexture& array);
+    // An image, then the first `layers` of an array texture of its size, at most 8 together.
+    static Target ofImageAndLayers(const GlTexture& image, const GlTexture& array, int layers);
     // Layer `layer` and mipmap level `level` alone of array textures of one size.
     static Target ofLayer(const std::vector<const GlTexture*>& colors, std::uint32_t layer, int level = 0);
     // Layer `layer` alone of array textures; `depth` has no layers.

@@ -27,12 +27,15 @@ struct CellPasses {
 
 class CellSums {
 public:
-    // Of an image of `width` x `height` px; `cells` has classes, and `passes`, which must outlive it, are for as many.
-    CellSums(const LensCells& cells, int width, int height, const CellPasses& passes);
+    // Of the pixels of `blockSums`, between which the block's sum changes from wave to wave; `cells` has classes, and
+    // `passes`, which must outlive it, are for as many.
+    CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], const CellPasses& passes);
 
     // What shaders/accumulation/add_layers.frag needs to fill the sums.
     [[nodiscard]] const ShaderDefines& defines() const { return passes_->defines; }
-    void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock) const;
+    // `to`: the block's sum that is written beside them.
+    void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
+                       int to) const;
     // Writes the block's sum with blurred cells, and zeros for what it lost, to `target`. `sum` holds the block as it
     // was added.
     void blurInto(const Target& target, const GlTexture& sum);
@@ -42,16 +45,16 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-
     int inFront_;
     int behind_;
     const CellPasses* passes_;
-    GlTexture sums_;  // a layer a class, as shaders/include/cells.glsl orders them
-    GlTexture held_;  // which classes a tile holds
-    GlTexture spread_;  // of which it needs means
+    GlTexture sums_;           // a layer a class, as shaders/include/cells.glsl orders them
+    Target addingTargets_[2];  // each of the block's sums, with the first of the classes
+    GlTexture held_;           // which classes a tile holds
+    GlTexture spread_;         // of which it needs means
     Target spreadTarget_;
-    // Around the middles of squares of pixels, of class k in mipmap level k, in front of the focus and behind it a layer
-    // each: what it shows, and the samples that are open to it.
+    // Around the middles of squares of pixels, of class k in mipmap level k, in front of the focus and behind it a
+    // layer each: what it shows, and the samples that are open to it.
     GlTexture shownMeans_, openMeans_;
     std::vector<Target> meanTargets_;  // as many as classes
     Fullscreen fullscreen_;

@@ -21,6 +21,7 @@ GlTexture layerTexture(const LayerSumInfo& info, TextureFormat format) {
 LayerSum::Sum::Sum(int width, int height) {
     for (int i = 0; i < 2; ++i) {
         sum[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
+        sum[i].sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
         compensation[i] = GlTexture({.format = TextureFormat::rgba32f, .width = width, .height = height});
         target[i] = Target({&sum[i], &compensation[i]});
     }
@@ -54,7 +55,7 @@ void LayerSum::blurCells(const LensCells& cells) {
     blursCells_ = cells.classes() > 0;
     if (!blursCells_ || (cells_ && cells_->fits(cells))) return;
     const auto passes = cellPasses_.try_emplace({cells.inFront, cells.behind}, cells, info_.shaderFolder).first;
-    cells_.emplace(cells, sumWidth(), sumHeight(), passes->second);
+    cells_.emplace(cells, block_.sum, passes->second);
 }
 
 void LayerSum::beginWave() {
@@ -85,12 +86,13 @@ void LayerSum::endWave(const FrameUniforms& frame, std::uint32_t first, std::uin
     Program& addLayers = entry->second;
     if (isNew) addLayers = Program({{fullscreenShader, "accumulation/add_layers.frag"}, defines, info_.shaderFolder});
     glDisable(GL_SCISSOR_TEST);
-    block_.target[1 - block_.current].bind();
+    const int next = 1 - block_.current;
+    if (!blursCells_) block_.target[next].bind();
     frame.bind(first);
     layers_.attach(0);
     block_.sum[block_.current].attach(1);
     block_.compensation[block_.current].attach(2);
-    if (blursCells_) cells_->bindForAdding(addLayers, depth_, cellBlur_, samples_ % blockSamples == 0);
+    if (blursCells_) cells_->bindForAdding(addLayers, depth_, cellBlur_, samples_ % blockSamples == 0, next);
     glProgramUniform1i(addLayers.name(), 0, static_cast<GLint>(count));
     glProgramUniform1i(addLayers.name(), 1, static_cast<GLint>(samples_ % blockSamples));
     glProgramUniform2i(addLayers.name(), 2, window_ ? window_->left : 0, window_ ? window_->bottom : 0);
@@ -154,10 +156,14 @@ const GlTexture& LayerSum::meanTexture() {
 void LayerSum::makeMean() {
     if (samples_ == 0) fail("the accumulation holds no sample yet");
     if (meanIsCurrent_) return;
-    // An unfinished block is added to a copy: the frame's own sum goes on at the block border.
+    // An unfinished block is added to a copy: the frame's own sum goes on at the block border. The first one is the
+    // whole sum.
     const bool unfinished = samples_ % blockSamples != 0;
-    if (unfinished) addBlockTo(frame_, latestBlock(true), samples_ < blockSamples);
-    const int latest = unfinished ? 1 - frame_.current : frame_.current;
+    const bool isFirst = samples_ < blockSamples;
+    const int block = unfinished ? latestBlock(true) : block_.current;
+    if (unfinished && !isFirst) addBlockTo(frame_, block, false);
+    const Sum& total = isFirst ? block_ : frame_;
+    const int latest = isFirst ? block : unfinished ? 1 - frame_.current : frame_.current;
 
     if (!mean_) {
         mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = sumWidth(), .height = sumHeight()});
@@ -165,8 +171,8 @@ void LayerSum::makeMean() {
         meanTarget_ = Target({&mean_});
     }
     meanTarget_.bind();
-    frame_.sum[latest].attach(0);
-    frame_.compensation[latest].attach(1);
+    total.sum[latest].attach(0);
+    total.compensation[latest].attach(1);
     glProgramUniform1f(resolve_.name(), 0, countsInAlpha_ ? 0.0f : static_cast<float>(samples_));
     fullscreen_.draw(resolve_);
     meanIsCurrent_ = true;

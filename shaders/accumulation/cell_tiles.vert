@@ -1,0 +1,19 @@
+// The tiles where a class of cells has means, and those around them, as points; the others lie outside the image.
+#include "include/cells.glsl"
+
+layout(binding = 2) uniform usampler2D spreadClasses;
+layout(location = 0) uniform int classIndex;
+layout(location = 1) uniform int side;            // px of the squares that have a mean each
+layout(location = 2) uniform int pointTiles;      // along a side of a point, so that even a point of large squares has some
+layout(location = 3) uniform ivec2 points;
+
+void main() {
+    ivec2 point = ivec2(gl_VertexID % points.x, gl_VertexID / points.x);
+    ivec2 last = textureSize(spreadClasses, 0) - 1;
+    uint spread = 0u;
+    for (int y = 0; y < pointTiles; ++y)
+        for (int x = 0; x < pointTiles; ++x) spread |= texelFetch(spreadClasses, min(point * pointTiles + ivec2(x, y), last), 0).r;
+    bool written = (spread >> besideSpread & 1u << classIndex) != 0u;
+    gl_Position = vec4(written ? 2.0 * (vec2(point) + 0.5) / vec2(points) - 1.0 : vec2(2.0), 0.0, 1.0);
+    gl_PointSize = float(pointTiles * cellTile / side);
+}
