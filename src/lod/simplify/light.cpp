@@ -258,8 +258,10 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
             wanted = rest;
             if (worst <= enough) break;
             damping *= 0.3;
-        } else {
+        } else if (round > 0) {
             damping *= 10;
+        } else {
+            return;  // no numbers
         }
         turn(best, groups, smallestChange(atBest, wanted, damping), normals);
     }

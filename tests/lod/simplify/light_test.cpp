@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -112,6 +113,20 @@ TEST(FitLight, leavesWhatFits) {
     const LightMeans target = lightMeans({grid.vertices.positions, normals, {}, grid.primitives[0].indices, true}, 10);
     fitLight(grid.vertices.positions, {}, grid.primitives[0].indices, groups, target, normals);
     EXPECT_EQ(normals, grid.vertices.normals);
+}
+
+// A damaged file has any numbers for normals and colours.
+TEST(FitLight, leavesWhatHasNoNumbers) {
+    const Mesh grid = flatGrid(2);
+    std::vector<std::uint32_t> groups(grid.vertices.count());
+    std::iota(groups.begin(), groups.end(), 0);
+    for (const float damage :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 3e38f}) {
+        const std::vector<glm::vec4> colors(groups.size(), glm::vec4(damage));
+        std::vector<glm::vec3> normals = grid.vertices.normals;
+        fitLight(grid.vertices.positions, colors, grid.primitives[0].indices, groups, {}, normals);
+        EXPECT_EQ(normals, grid.vertices.normals) << damage;
+    }
 }
 
 }  // namespace
