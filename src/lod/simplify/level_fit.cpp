@@ -244,11 +244,11 @@ void growComponents(Numbered<LevelVertexNumber, glm::vec3>& positions, const Lev
     }
 }
 
-// Levels of more triangles cover what level 0 does without help.
-constexpr std::size_t mostOutlineTriangles = 16'384;
+// Levels of more triangles cover what level 0 does, and are as bright, without help.
+constexpr std::size_t mostConservedTriangles = 16'384;
 
 void conserveOutline(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
-    if (level.triangles.count() > mostOutlineTriangles) return;
+    if (level.triangles.count() > mostConservedTriangles) return;
     const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
     std::vector<std::uint32_t> places;
@@ -266,6 +266,7 @@ void conserveColor(const FitSource& source, const LevelMesh& level, LevelFit& fi
 }
 
 void conserveLight(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
+    if (level.triangles.count() > mostConservedTriangles) return;
     const auto leaderOf = [&](MeshVertexNumber v) { return source.smoothing[v]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, true);
     std::vector<std::uint32_t> numbers;
