@@ -79,7 +79,7 @@ float normalSpread(float agreement) {
 
 // The mean of the normals as they are seen: those that look to the eye cover more of the picture. |n| counts them as they are seen from
 // straight above. Seen from elsewhere, the mean of n (n·v) / (n·v) has 1 − |n| of what is across the normal, about; along the surface,
-// where few are seen, it can't be longer than what |n| leaves.
+// where few are seen, it can't be longer than what |n| leaves; the bound is fitted to von Mises' and Fisher's distribution.
 vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float nv = dot(normal, toEye);
     float seen = max(meanCosine(agreement * nv, nv, spread), 1e-3);
@@ -87,9 +87,7 @@ vec3 seenNormal(vec3 normal, vec3 toEye, float agreement, float spread) {
     float bound = 1.23 * turn / ((1.0 + agreement) * seen) * max(1.0 - nv * nv, 0.0);
     return agreement * normal + turn * inversesqrt(1.0 + bound) * (toEye - nv * normal);
 }
-#endif
 
-#ifdef COARSE_LEVEL
 // 2σ² for the slopes of the normals that one stands for: σ² ≈ (1 − |n|)/|n| (Toksvig 2005, Mipmapping Normal Maps).
 float coarseSpread(SurfacePoint point) {
     return 2.0 * (1.0 - point.agreement) / point.agreement;

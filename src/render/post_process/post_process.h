@@ -4,6 +4,8 @@
 
 #include <memory>
 
+#include "gl/target.h"
+#include "render/frame_uniforms.h"
 #include "render/methods.h"
 #include "render/post_process/pinhole_image.h"
 
