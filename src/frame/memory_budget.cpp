@@ -93,9 +93,11 @@ TilingNeeds tilingNeeds(const World& world, const FramePlan& plan, const RowRang
     needs.waveBytes = RendererOptions{}.waveBytes;
     needs.askedWave = request.wave;
     needs.shared = currentIsSoftware();
-    if (needs.shared)
+    if (needs.shared) {
+        needs.layerPixel += sizeof(float);  // a copy of the depths, which say what is hidden
         needs.layerMaps += std::min(
             plan.trianglesDrawn / std::max<std::size_t>(plan.samples.size(), 1) * binnedTriangleBytes, mostBinnedBytes);
+    }
     needs.elsewhere = beyond(residentMemory(), needs.shared ? drawn : 0);
     needs.hostMemory = beyond(limit, needs.elsewhere);
     needs.deviceMemory = needs.hostMemory;

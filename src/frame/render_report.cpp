@@ -164,6 +164,7 @@ std::string statsJson(const RenderReport& report) {
         {"trianglesDrawn", stats.trianglesDrawn},
         {"trianglesFacingAway", report.plan.trianglesFacingAway},
         {"trianglesOutside", report.plan.trianglesOutside},
+        {"trianglesHidden", stats.trianglesHidden},
         {"trianglesAtFullDetail", report.plan.trianglesAtFullDetail},
         {"peakBytes", peakMemory()},
         {"memoryLimit", report.memoryLimit},

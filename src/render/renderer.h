@@ -27,13 +27,14 @@ struct MethodFigure {
 
 struct RenderStats {
     std::uint32_t samples = 0;
-    double setupMilliseconds = 0;   // uploads and shader builds of this renderer
-    double renderMilliseconds = 0;  // the frame, from start() to its finished sum
-    double gpuMilliseconds = 0;     // timer queries; on a software driver these miss vertex work
-    std::uint64_t trianglesDrawn = 0;
-    std::uint64_t peakBytes = 0;  // GPU resources held by this renderer, at their peak
-    std::uint32_t wave = 0;       // K, lens samples drawn at once
-    std::string layerFormat;      // of the layers, e.g. "rgb9e5", "rgba16f"
+    double setupMilliseconds = 0;       // uploads and shader builds of this renderer
+    double renderMilliseconds = 0;      // the frame, from start() to its finished sum
+    double gpuMilliseconds = 0;         // timer queries; on a software driver these miss vertex work
+    std::uint64_t trianglesDrawn = 0;   // of the plan
+    std::uint64_t trianglesHidden = 0;  // of these, left out behind others
+    std::uint64_t peakBytes = 0;        // GPU resources held by this renderer, at their peak
+    std::uint32_t wave = 0;             // K, lens samples drawn at once
+    std::string layerFormat;            // of the layers, e.g. "rgb9e5", "rgba16f"
     std::string device;
     std::string driver;
     StopReason stopped = StopReason::sampleCount;  // why there are no more samples

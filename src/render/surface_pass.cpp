@@ -1,6 +1,7 @@
 #include "render/surface_pass.h"
 
 #include <algorithm>
+#include <span>
 
 #include "render/shadow_maps.h"
 
@@ -11,6 +12,30 @@ namespace {
 constexpr std::size_t mostBackdrops = 8;  // a frame: each is a copy of all layers
 constexpr GLuint backdropUnit = 17;       // of shaders/accumulation/object.frag
 constexpr GLint shadowSlotLocation = 3;   // of shaders/accumulation/object.vert
+
+struct SampleSpan {
+    std::uint32_t begin = 0, end = 0;
+    [[nodiscard]] bool empty() const { return begin >= end; }
+    [[nodiscard]] std::uint32_t size() const { return empty() ? 0 : end - begin; }
+};
+
+// Those of samples [first, first + count) that `drawn` is drawn for.
+SampleSpan samplesOf(const auto& drawn, std::uint32_t first, std::uint32_t count) {
+    return {std::max(first, drawn.firstSample), std::min(first + count, drawn.firstSample + drawn.sampleCount)};
+}
+
+GLenum modeOf(Refinement refinement) {
+    return refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
+}
+
+// Of the bound vertex array, for samples [firstSample, firstSample + sampleCount), one an instance.
+void drawIndices(GLenum mode, std::uint32_t first, std::uint32_t count, std::uint32_t firstSample,
+                 std::uint32_t sampleCount) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
+    const auto* const offset = reinterpret_cast<const void*>(std::size_t{first} * sizeof(std::uint32_t));
+    glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset,
+                                        static_cast<GLsizei>(sampleCount), firstSample);
+}
 
 }  // namespace
 
@@ -167,47 +192,54 @@ void SurfacePass::bindSamples(GpuMesh& mesh) {
     if (frame_->bandShifts()) mesh.vertexArray.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
 }
 
-void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t count) {
-    const std::uint32_t begin = std::max(first, item.firstSample);
-    const std::uint32_t end = std::min(first + count, item.firstSample + item.sampleCount);
-    if (begin >= end) return;
+// Everything that a draw of samples from `sample` on reads.
+void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices) {
     GpuMesh& mesh = scene_->mesh(item.mesh);
     item.program->use();
-    frame_->bindWave(begin);
+    frame_->bindWave(sample);
     objectBlocks_.bind(1, item.object);
     materialBlocks_.bind(2, materialSlots_.at(item.material));
     if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
     if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
     scene_->textures(item.material).attach();
-    if (shadows_ != nullptr) shadows_->bind(begin);
+    if (shadows_ != nullptr) shadows_->bind(sample);
     if (info_.look == SurfaceLook::caster) glUniform1i(shadowSlotLocation, shadowSlot_);
     bindSamples(mesh);
     bindLevel(mesh, item.level);
+    mesh.vertexArray.indices(indices);
     if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && shaded() && item.level > 0) {
         glUniform4fv(0, 1, &level.leastColor.x);
         glUniform4fv(1, 1, &level.mostColor.x);
     }
     glBindVertexArray(mesh.vertexArray.name());
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
-    const GLenum mode = item.refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
-    if (mode == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
+    if (modeOf(item.refinement) == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
+}
+
+// A sample draws so many triangles; drawSamples(first, count) draws several.
+void SurfacePass::submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples) {
     const std::uint64_t most = pacer_.mostTriangles();
-    const std::uint64_t step = most == 0 ? end - begin : std::max<std::uint64_t>(1, most / item.triangleCount);
-    for (std::uint64_t at = begin; at < end; at += step) {
-        const std::uint64_t instances = std::min(step, end - at);
-        drawRuns(item, mode, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(instances));
-        pacer_.submitted(instances * item.triangleCount);
+    const std::uint64_t step = most == 0 ? end - first : std::max<std::uint64_t>(1, most / triangles);
+    for (std::uint64_t at = first; at < end; at += step) {
+        const std::uint64_t count = std::min(step, end - at);
+        drawSamples(static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(count));
+        pacer_.submitted(count * triangles);
     }
 }
 
+void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    const SampleSpan samples = samplesOf(item, first, count);
+    if (samples.empty()) return;
+    bindDraw(item, samples.begin, scene_->mesh(item.mesh).indices);
+    submit(samples.begin, samples.end, item.triangleCount,
+           [&](std::uint32_t at, std::uint32_t size) { drawRuns(item, at, size); });
+}
+
 // Samples [first, first + count), one an instance.
-void SurfacePass::drawRuns(const Draw& item, GLenum mode, std::uint32_t first, std::uint32_t count) {
+void SurfacePass::drawRuns(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    const GLenum mode = modeOf(item.refinement);
     if (item.runs.size() == 1) {
-        const DrawCommand& run = item.runs.front();
-        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
-        const auto* const offset = reinterpret_cast<const void*>(std::size_t{run.firstIndex} * sizeof(std::uint32_t));
-        glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(run.count), GL_UNSIGNED_INT, offset,
-                                            static_cast<GLsizei>(count), first);
+        drawIndices(mode, item.runs.front().firstIndex, item.runs.front().count, first, count);
         return;
     }
     std::vector<DrawCommand> commands = item.runs;
@@ -222,12 +254,16 @@ void SurfacePass::drawRuns(const Draw& item, GLenum mode, std::uint32_t first, s
     glMultiDrawElementsIndirect(mode, GL_UNSIGNED_INT, offset, static_cast<GLsizei>(commands.size()), 0);
 }
 
-void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count, GLenum depthTest,
-                            const ObjectSet& objects) {
+void SurfacePass::bindSolid(GLenum depthTest) {
     bindFrame();
     glDisable(GL_BLEND);
     glDepthFunc(depthTest);
     glDepthMask(GL_TRUE);
+}
+
+void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count, GLenum depthTest,
+                            const ObjectSet& objects) {
+    bindSolid(depthTest);
     drawFronts(items, first, count, objects);
 }
 
@@ -237,18 +273,65 @@ void SurfacePass::drawFronts(const std::vector<Draw>& items, std::uint32_t first
         if (contains(objects, item.object)) drawFront(item, first, count);
 }
 
-// Both sides of what is double-sided.
 void SurfacePass::drawFront(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    setFaces(item);
+    draw(item, first, count);
+}
+
+// Both sides of what is double-sided.
+void SurfacePass::setFaces(const Draw& item) const {
     if (scene_->material(item.material).doubleSided || info_.look == SurfaceLook::caster)
         glDisable(GL_CULL_FACE);
     else
         glEnable(GL_CULL_FACE);
     glCullFace(GL_BACK);
-    draw(item, first, count);
 }
 
 void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
     drawSolid(opaque_, first, count);
+}
+
+void SurfacePass::findHidden(const FramePlan& plan) {
+    std::vector<OccludableDraw> draws;
+    for (const Draw& draw : opaque_)
+        draws.push_back({draw.object, draw.level, draw.primitive, draw.firstSample, draw.sampleCount});
+    occlusion_.prepare(plan, draws);
+}
+
+std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
+                                             std::uint32_t layer) {
+    if (occlusion_.needsDepthsOf(first)) {
+        drawOpaque(first, 1);
+        occlusion_.sortBy(first, depths, layer);
+        return count == 1 ? 0 : drawOpaqueVisible(first + 1, count - 1, depths, layer + 1);
+    }
+    if (!occlusion_.hidesMuch()) {
+        drawOpaque(first, count);
+        return 0;
+    }
+    std::uint64_t all = 0;
+    for (const Draw& item : opaque_) all += std::uint64_t{item.triangleCount} * samplesOf(item, first, count).size();
+    bindSolid(GL_GREATER);
+    const std::uint64_t shown = drawRemaining(occlusion_.shown(), first, count);
+    return all - shown - drawRemaining(occlusion_.uncovered(first, count, depths, layer), first, count);
+}
+
+// Returns the triangles of all samples.
+std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
+    const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
+    std::uint64_t triangles = 0;
+    for (const RemainingDraw& part : remaining.draws) {
+        const SampleSpan samples = samplesOf(part, first, count);
+        if (samples.empty()) continue;
+        const Draw& item = opaque_[part.draw];
+        setFaces(item);
+        bindDraw(item, samples.begin, indices);
+        submit(samples.begin, samples.end, part.indexCount / 3, [&](std::uint32_t at, std::uint32_t size) {
+            drawIndices(modeOf(item.refinement), part.firstIndex, part.indexCount, at, size);
+        });
+        triangles += std::uint64_t{part.indexCount / 3} * samples.size();
+    }
+    return triangles;
 }
 
 void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {

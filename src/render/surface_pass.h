@@ -12,6 +12,7 @@
 #include "gl/program.h"
 #include "render/backdrop.h"
 #include "render/object_set.h"
+#include "render/occlusion/occlusion.h"
 #include "render/surface_draws.h"
 
 namespace defocus {
@@ -28,13 +29,21 @@ class ShadowMaps;
 
 class SurfacePass {
 public:
-    SurfacePass(GpuScene& scene, SurfacePassInfo info) : scene_(&scene), info_(std::move(info)) {}
+    SurfacePass(GpuScene& scene, SurfacePassInfo info)
+        : scene_(&scene), info_(std::move(info)), occlusion_(scene.world()) {}
 
     // Builds the draws and programs of `plan`. `frame` and `shadows` must outlive the drawing. `shadows`, of the same
     // plan: the maps to be read, or of casters those to be drawn; null where there are none.
     void prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows = nullptr);
     // Draws samples [first, first + count) of the opaque and alpha-tested surfaces, front to back.
     void drawOpaque(std::uint32_t first, std::uint32_t count);
+    // Draws the same picture, and of the plan's opaque surfaces only what each sample may show, where that is much
+    // less. Sample `first` is drawn into layer `layer`, the others into those after it, and these are the layers'
+    // depths. Returns how many triangles are left out. findHidden goes before it, for the plan of prepare, which must
+    // then outlive the drawing.
+    void findHidden(const FramePlan& plan);
+    std::uint64_t drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
+                                    std::uint32_t layer);
     // The same for alpha-blended and transmitting surfaces, object by object and back to front. `colors` is what is
     // drawn into, the environment included: a transmitting surface shows a copy of what it holds before its object is
     // drawn. Of many such objects, only the nearest see each other. `objects` has all that transmit, or none.
@@ -100,6 +109,7 @@ private:
     }
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
     void bindFrame();
+    void bindSolid(GLenum depthTest);
     void bindSamples(GpuMesh& mesh);
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
                    GLenum depthTest = GL_GREATER, const ObjectSet& objects = {});
@@ -108,7 +118,11 @@ private:
     void drawFront(const Draw& item, std::uint32_t first, std::uint32_t count);
     void drawBlended(const Draw& item, std::uint32_t first, std::uint32_t count);
     void draw(const Draw& item, std::uint32_t first, std::uint32_t count);
-    void drawRuns(const Draw& item, GLenum mode, std::uint32_t first, std::uint32_t count);
+    std::uint64_t drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count);
+    void setFaces(const Draw& item) const;
+    void bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices);
+    void submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples);
+    void drawRuns(const Draw& item, std::uint32_t first, std::uint32_t count);
 
     GpuScene* scene_;
     SurfacePassInfo info_;
@@ -132,6 +146,7 @@ private:
     std::size_t transmittingObjects_ = 0;
     bool blursBackdrop_ = false;  // some transmitting surface is rough
     Backdrop backdrop_;
+    Occlusion occlusion_;
 };
 
 }  // namespace defocus

@@ -54,6 +54,7 @@ void addTileStats(RenderStats& sum, const RenderStats& added) {
     both.renderMilliseconds += sum.renderMilliseconds;
     both.gpuMilliseconds += sum.gpuMilliseconds;
     both.trianglesDrawn += sum.trianglesDrawn;
+    both.trianglesHidden += sum.trianglesHidden;
     both.peakBytes = std::max(sum.peakBytes, added.peakBytes);
     sum = std::move(both);
 }

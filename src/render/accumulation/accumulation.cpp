@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "gl/context.h"
 #include "gl/timer.h"
 #include "plan/sample_range.h"
 #include "plan/shadows.h"
@@ -57,7 +58,7 @@ public:
         if (shared_) shared_->prepareFrame(plan_);
         prepareTarget();
         samplesBefore_ = 0;
-        stats_.trianglesDrawn = 0;
+        stats_.trianglesDrawn = stats_.trianglesHidden = 0;
         for (GpuTimer* timer :
              {&sharedTimer_, &shadowTimer_, &opaqueTimer_, &skyTimer_, &translucentTimer_, &sumTimer_})
             timer->reset();
@@ -132,6 +133,7 @@ private:
         shadows_->prepare(draws(), frame_);
         surfaces_->prepare(draws(), frame_, &*shadows_);
         surfaces_->markBlended(blursCells());
+        if (leavesOutHidden()) surfaces_->findHidden(draws());
         stats_.peakBytes = std::max<std::uint64_t>(
             stats_.peakBytes, scene_.bytes() + frame_.bytes() + surfaces_->bytes() + shadows_->bytes() + sum_->bytes() +
                                   (shared_ ? shared_->bytes() : 0));
@@ -191,7 +193,7 @@ private:
         timed(opaqueTimer_, [&] {
             sum_->beginWave();
             if (shared_) shared_->copyToLayers(first, count);
-            surfaces_->drawOpaque(first, count);
+            drawOpaque(first, count);
         });
         if (drawsSky()) timed(skyTimer_, [&] { surfaces_->drawSky(first, count); });
         if (surfaces_->hasTranslucent())
@@ -199,6 +201,15 @@ private:
         timed(sumTimer_, [&] { sum_->endWave(frame_, first, count); });
         stats_.trianglesDrawn += trianglesDrawn(draws(), first, count);
     }
+
+    void drawOpaque(std::uint32_t first, std::uint32_t count) {
+        if (!leavesOutHidden()) return surfaces_->drawOpaque(first, count);
+        const std::uint32_t layer = first % blockSamples % sum_->info().layers;
+        stats_.trianglesHidden += surfaces_->drawOpaqueVisible(first, count, sum_->layerDepths(), layer);
+    }
+
+    // A GPU draws what is hidden sooner than its depths come back.
+    [[nodiscard]] bool leavesOutHidden() const { return currentIsSoftware() && !plan_.settings.keepAll; }
 
     RendererOptions options_;
     std::uint32_t wave_;  // K asked for; 0: as many as waveBytes allow

@@ -1,0 +1,154 @@
+#include "render/occlusion/occlusion.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "core/parallel.h"
+#include "render/frame_uniforms.h"
+#include "render/occlusion/lens_sight.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::uint64_t leastTriangles = 50'000;  // a sample: fewer are drawn faster than their depths are read
+constexpr double mostShown = 0.8;                 // of all triangles: with more it is faster to draw all
+
+std::uint64_t trianglesOfSample(const FramePlan& plan) {
+    std::uint64_t triangles = 0;
+    for (const ObjectPlan& object : plan.objects)
+        triangles += std::max(object.coarse.triangleCount, object.fine.triangleCount);
+    return triangles;
+}
+
+// `runs` are in order, and none ends within a piece.
+bool isIn(const std::vector<IndexRange>& runs, const IndexPiece& piece) {
+    const auto after = std::ranges::upper_bound(runs, piece.indices.first, {}, &IndexRange::first);
+    return after != runs.begin() && piece.indices.first < std::prev(after)->first + std::prev(after)->count;
+}
+
+bool hides(const DepthTiles& tiles, const LensSight& sight, const IndexPiece& piece) {
+    const std::optional<SeenBox> seen = sight.of(piece.centre, piece.reach);
+    if (!seen) return false;
+    if (seen->left >= seen->right || seen->bottom >= seen->top) return true;
+    return seen->depth < tiles.farthest(seen->left, seen->right, seen->bottom, seen->top);
+}
+
+std::vector<float> depthsOfLayer(const GlTexture& depths, std::uint32_t layer) {
+    const TextureInfo& info = depths.info();
+    std::vector<float> values(static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureSubImage(depths.name(), 0, 0, 0, static_cast<GLint>(layer), info.width, info.height, 1,
+                         GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)),
+                         values.data());
+    return values;
+}
+
+}  // namespace
+
+void Occlusion::prepare(const FramePlan& plan, std::vector<OccludableDraw> draws) {
+    plan_ = &plan;
+    sorted_.clear();
+    sortedBlock_ = -1;
+    hidesMuch_ = false;
+    if (!seesBoxes(plan) || plan.samples.size() < 2 || trianglesOfSample(plan) < leastTriangles) return;
+    for (const OccludableDraw& draw : draws) {
+        const ObjectPlan& object = plan.objects[draw.object];
+        const VisibleLevel* visible = visibleLevel(object, draw.level);
+        Sorted& sorted = sorted_.emplace_back(Sorted{draw, {}, seesBoxes(object)});
+        for (const IndexPiece& piece : piecesOf(draw))
+            if (visible == nullptr || isIn(visible->primitives[draw.primitive], piece))
+                sorted.pieces.push_back({&piece});
+    }
+}
+
+const std::vector<IndexPiece>& Occlusion::piecesOf(const OccludableDraw& draw) {
+    const int mesh = plan_->objects[draw.object].mesh;
+    const auto [entry, isNew] = pieces_.try_emplace({mesh, draw.level, draw.primitive});
+    if (isNew)
+        entry->second = indexPieces(world_->pyramids[static_cast<std::size_t>(mesh)], draw.level, draw.primitive);
+    return entry->second;
+}
+
+bool Occlusion::needsDepthsOf(std::uint32_t sample) const {
+    return !sorted_.empty() && sortedBlock_ != sample / blockSamples;
+}
+
+void Occlusion::sortBy(std::uint32_t sample, const GlTexture& depths, std::uint32_t layer) {
+    sortedBlock_ = sample / blockSamples;
+    DepthTiles tiles;
+    tiles.build(depthsOfLayer(depths, layer), depths.info().width, depths.info().height);
+    parallelFor(sorted_.size(), [&](std::size_t i) { sortPieces(sorted_[i], sample, tiles); });
+    gatherShown();
+}
+
+void Occlusion::sortPieces(Sorted& sorted, std::uint32_t sample, const DepthTiles& tiles) const {
+    if (!sorted.canHide) return;
+    const LensSight sight(*plan_, plan_->objects[sorted.draw.object], sample);
+    for (Piece& piece : sorted.pieces) piece.shown = !hides(tiles, sight, *piece.piece);
+}
+
+void Occlusion::gatherShown() {
+    shown_ = {};
+    double shown = 0;
+    double all = 0;
+    for (std::size_t i = 0; i < sorted_.size(); ++i) {
+        const Sorted& sorted = sorted_[i];
+        const auto first = static_cast<std::uint32_t>(shown_.indices.size());
+        double whole = 0;
+        for (const Piece& piece : sorted.pieces) {
+            whole += piece.piece->indices.count;
+            if (piece.shown) append(sorted, *piece.piece, shown_.indices);
+        }
+        const auto count = static_cast<std::uint32_t>(shown_.indices.size() - first);
+        all += whole * sorted.draw.sampleCount;
+        shown += static_cast<double>(count) * sorted.draw.sampleCount;
+        if (count > 0) shown_.draws.push_back({i, sorted.draw.firstSample, sorted.draw.sampleCount, first, count});
+    }
+    hidesMuch_ = shown < mostShown * all;
+}
+
+RemainingDraws Occlusion::uncovered(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
+                                    std::uint32_t layer) const {
+    std::vector<std::vector<float>> layers;
+    for (std::uint32_t k = 0; k < count; ++k) layers.push_back(depthsOfLayer(depths, layer + k));
+    std::vector<RemainingDraws> ofSamples(count);
+    parallelFor(count, [&](std::size_t k) {
+        DepthTiles tiles;
+        tiles.build(layers[k], depths.info().width, depths.info().height);
+        ofSamples[k] = uncoveredBy(first + static_cast<std::uint32_t>(k), tiles);
+    });
+    RemainingDraws all;
+    for (RemainingDraws& own : ofSamples) {
+        const auto begin = static_cast<std::uint32_t>(all.indices.size());
+        for (RemainingDraw& draw : own.draws) draw.firstIndex += begin;
+        all.draws.insert(all.draws.end(), own.draws.begin(), own.draws.end());
+        all.indices.insert(all.indices.end(), own.indices.begin(), own.indices.end());
+    }
+    return all;
+}
+
+RemainingDraws Occlusion::uncoveredBy(std::uint32_t sample, const DepthTiles& tiles) const {
+    RemainingDraws remaining;
+    for (std::size_t i = 0; i < sorted_.size(); ++i) {
+        const Sorted& sorted = sorted_[i];
+        const OccludableDraw& draw = sorted.draw;
+        if (!sorted.canHide || sample < draw.firstSample || sample >= draw.firstSample + draw.sampleCount) continue;
+        const LensSight sight(*plan_, plan_->objects[draw.object], sample);
+        const auto first = static_cast<std::uint32_t>(remaining.indices.size());
+        for (const Piece& piece : sorted.pieces)
+            if (!piece.shown && !hides(tiles, sight, *piece.piece)) append(sorted, *piece.piece, remaining.indices);
+        const auto count = static_cast<std::uint32_t>(remaining.indices.size() - first);
+        if (count > 0) remaining.draws.push_back({i, sample, 1, first, count});
+    }
+    return remaining;
+}
+
+void Occlusion::append(const Sorted& sorted, const IndexPiece& piece, std::vector<std::uint32_t>& indices) const {
+    const int mesh = plan_->objects[sorted.draw.object].mesh;
+    const auto from = world_->pyramids[static_cast<std::size_t>(mesh)].indices.begin() + piece.indices.first;
+    indices.insert(indices.end(), from, from + piece.indices.count);
+}
+
+}  // namespace defocus
