@@ -27,21 +27,12 @@ layout(location = 0) out vec4 layerOut;
 layout(location = 1) out vec4 ownBlurOut;
 #endif
 
-#ifdef LEVEL_COLOR_RANGE
-layout(location = 0) uniform vec4 leastColor;   // of the level's vertices
-layout(location = 1) uniform vec4 mostColor;
-#endif
-
 // Rasterisers round corners to a fraction of a pixel, so a triangle that is narrower than that can cover a pixel far outside its own
 // plane equations. What the corners have bounds what lies between them. Normals and directions need no bound, as only their way
 // counts, and texture coordinates that run as fast pick the smallest mipmap.
 vec4 surfaceColor() {
-#if defined(VERTEX_COLOR_RANGES)
-    vec4 most = floor(surface.colorRange / 256.0);
-    vec4 least = surface.colorRange - 256.0 * most;
-    return clamp(surface.color, material.baseColor * (least / 255.0), material.baseColor * (most / 255.0));
-#elif defined(LEVEL_COLOR_RANGE)
-    return clamp(surface.color, material.baseColor * leastColor, material.baseColor * mostColor);
+#if defined(VERTEX_COLOR_RANGES) || defined(LEVEL_COLOR_RANGE)
+    return clamp(surface.color, surface.leastColor, surface.mostColor);
 #else
     return surface.color;
 #endif

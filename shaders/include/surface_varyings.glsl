@@ -1,8 +1,9 @@
 // What the vertex stage hands to the fragment stage; only what the material needs.
 
     vec4 color;
-#ifdef VERTEX_COLOR_RANGES
-    flat vec4 colorRange; // of the corners around; of a channel, 256 times the most plus the least, in 1/255
+#if defined(VERTEX_COLOR_RANGES) || defined(LEVEL_COLOR_RANGE)
+    flat vec4 leastColor; // what the corners around have, or all of the level
+    flat vec4 mostColor;
 #endif
 #ifndef UNLIT
     vec3 normal;          // along the world's axes, as all directions here

@@ -6,8 +6,9 @@
 
 void writeSurface(vec3 weights) {
     SURFACE_OUT.color = SURFACE_WEIGHTED(color);
-#ifdef VERTEX_COLOR_RANGES
-    SURFACE_OUT.colorRange = SURFACE_CORNERS[0].colorRange;
+#if defined(VERTEX_COLOR_RANGES) || defined(LEVEL_COLOR_RANGE)
+    SURFACE_OUT.leastColor = SURFACE_CORNERS[0].leastColor;
+    SURFACE_OUT.mostColor = SURFACE_CORNERS[0].mostColor;
 #endif
 #ifndef UNLIT
     SURFACE_OUT.normal = SURFACE_WEIGHTED(normal);
