@@ -6,9 +6,11 @@
 layout(binding = 0) uniform sampler2DArray cellSums;
 layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
-// Mipmap level k is of class k, layer 0 in front of the focus and layer 1 behind it: what it shows, and the samples that are open to it.
+// Layer 0 is of what lies in front of the focus, layer 1 of what lies behind it: what a class shows, and the samples that are open to it.
 layout(binding = 3) uniform sampler2DArray shownMeans;
 layout(binding = 4) uniform sampler2DArray openMeans;
+layout(location = 0) uniform ivec2 firstSquares;   // of class 0, columns and rows
+layout(location = 1) uniform float samples;        // of the block: writes their mean. 0: the mean of those that a pixel has. −1: the sum
 
 layout(location = 0) out vec4 sumOut;
 layout(location = 1) out vec4 compensationOut;
@@ -16,9 +18,10 @@ layout(location = 1) out vec4 compensationOut;
 // Lays what class k of a side shows over `image`, as much as it does of what is open to it.
 void layOver(inout vec3 image, int k, float side) {
     // Single pixels have means around their corners.
-    vec2 place = (gl_FragCoord.xy + (k == 0 ? 0.5 : 0.0)) / vec2(textureSize(openMeans, 0).xy);
-    vec4 shown = textureLod(shownMeans, vec3(place, side), float(k));
-    float open = textureLod(openMeans, vec3(place, side), float(k)).r;
+    vec2 square = clamp((gl_FragCoord.xy + (k == 0 ? 0.5 : 0.0)) / float(1 << k), vec2(0.5), vec2(firstSquares >> k) - 0.5);
+    vec3 place = vec3((square + vec2(meansOrigin(firstSquares, k))) / vec2(textureSize(openMeans, 0).xy), side);
+    vec4 shown = textureLod(shownMeans, place, 0.0);
+    float open = textureLod(openMeans, place, 0.0).r;
     if (open > 1e-3) image = (shown.rgb + max(open - shown.a, 0.0) * image) / open;
 }
 
@@ -46,6 +49,6 @@ void main() {
     else
         image = (max(open.rgb - blurred.rgb, 0.0) + min(blurred.a, open.a) * image) / open.a;
     for (uint rest = spread & ((1u << CELLS_IN_FRONT) - 1u); rest != 0u; rest &= rest - 1u) layOver(image, findLSB(rest), 0.0);
-    sumOut = vec4(image * all.a, all.a);
+    sumOut = samples == 0.0 ? vec4(image, 1.0) : vec4(image * all.a, all.a) / max(samples, 1.0);
     compensationOut = vec4(0.0);
 }

@@ -8,6 +8,7 @@ layout(binding = 1) uniform sampler2D blockSum;
 layout(binding = 2) uniform usampler2D spreadClasses;
 layout(location = 0) uniform int classIndex;      // NEAREST: the last one in front of the focus, which all samples are open to
 layout(location = 1) uniform int side;            // px of the squares, a power of 2
+layout(location = 4) uniform ivec2 origin;        // of the means, where those of the class begin
 
 layout(location = 0) out vec4 meanOut;
 layout(location = 1) out float openOut;
@@ -30,7 +31,7 @@ vec4 beyond(vec2 place) {
 }
 
 void main() {
-    ivec2 first = ivec2(gl_FragCoord.xy) * side - (side + 1) / 2;
+    ivec2 first = (ivec2(gl_FragCoord.xy) - origin) * side - (side + 1) / 2;
     ivec2 last = textureSize(blockSum, 0) - 1;
     meanOut = vec4(0.0);
     openOut = 0.0;

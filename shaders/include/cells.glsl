@@ -18,3 +18,9 @@ float classVariance(int k) { return k < 0 ? 0.0 : exp2(float(2 * k)) / 3.0 + 1.0
 float reachOfClass(float variance, int k) {
     return clamp((variance - classVariance(k - 1)) * (1.0 / (classVariance(k) - classVariance(k - 1))), 0.0, 1.0);
 }
+
+// Where the means of class k begin, in texels: those of class 0 on the left, the others above each other beside them. (A texture of its
+// own for each, or a mipmap, is slower: software drivers look up a texture's size anew for each pixel where the level isn't known.)
+ivec2 meansOrigin(ivec2 firstSquares, int k) {
+    return k == 0 ? ivec2(0) : ivec2(firstSquares.x, firstSquares.y - (firstSquares.y >> (k - 1)));
+}

@@ -17,13 +17,27 @@ int tiles(int pixels) {
 
 constexpr int mostDrawn = 7;  // drawnClasses of shaders/include/cells.glsl
 
-// Squares of 2^k px for each k below `levels`; those of single pixels lie around their corners.
-GlTexture meanImages(TextureFormat format, const TextureInfo& image, int levels) {
-    const auto whole = [&](int pixels) { return ((pixels >> (levels - 1)) + 1) << (levels - 1); };
-    GlTexture texture(
-        {.format = format, .width = whole(image.width), .height = whole(image.height), .layers = 2, .levels = levels});
-    texture.sampling(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+// A point of the largest class: sides of all classes' points divide it.
+constexpr int largestPoint = 4 << (mostCellClasses - 1);
+
+// Squares of single pixels, around whose corners the means of class 0 lie, and so one more than pixels.
+glm::ivec2 squaresOf(const TextureInfo& image) {
+    const auto whole = [](int pixels) { return (pixels / largestPoint + 1) * largestPoint; };
+    return {whole(image.width), whole(image.height)};
+}
+
+// As meansOrigin of shaders/include/cells.glsl has the classes.
+GlTexture meanImages(TextureFormat format, const glm::ivec2& squares, int classes) {
+    GlTexture texture({.format = format,
+                       .width = classes > 1 ? squares.x + squares.x / 2 : squares.x,
+                       .height = squares.y,
+                       .layers = 2});
+    texture.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     return texture;
+}
+
+glm::ivec2 meansOrigin(const glm::ivec2& squares, int k) {
+    return k == 0 ? glm::ivec2(0) : glm::ivec2(squares.x, squares.y - (squares.y >> (k - 1)));
 }
 
 }  // namespace
@@ -58,13 +72,13 @@ CellSums::CellSums(const LensCells& cells, const GlTexture (&blockSums)[2], cons
       held_({.format = TextureFormat::r32ui, .width = tiles(sums_.info().width), .height = tiles(sums_.info().height)}),
       spread_(held_.info()),
       spreadTarget_({&spread_}),
-      shownMeans_(meanImages(TextureFormat::rgba32f, sums_.info(), std::max(inFront_, behind_))),
-      openMeans_(meanImages(TextureFormat::r32f, sums_.info(), std::max(inFront_, behind_))) {
+      squares_(squaresOf(sums_.info())),
+      shownMeans_(meanImages(TextureFormat::rgba32f, squares_, std::max(inFront_, behind_))),
+      openMeans_(meanImages(TextureFormat::r32f, squares_, std::max(inFront_, behind_))),
+      meanTargets_{Target::ofLayer({&shownMeans_, &openMeans_}, 0), Target::ofLayer({&shownMeans_, &openMeans_}, 1)} {
     sums_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     for (int i = 0; i < 2; ++i)
         addingTargets_[i] = Target::ofImageAndLayers(blockSums[i], sums_, std::min(cells.classes(), mostDrawn));
-    for (int k = 0; k < inFront_; ++k) meanTargets_.push_back(Target::ofLayer({&shownMeans_, &openMeans_}, 0, k));
-    for (int k = 0; k < behind_; ++k) meanTargets_.push_back(Target::ofLayer({&shownMeans_, &openMeans_}, 1, k));
 }
 
 void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
@@ -83,7 +97,7 @@ void CellSums::bindForAdding(const Program& addLayers, const GlTexture& layerDep
     glProgramUniform1f(addLayers.name(), 3, static_cast<float>(blur));
 }
 
-void CellSums::blurInto(const Target& target, const GlTexture& sum) {
+void CellSums::blurInto(const Target& target, const GlTexture& sum, float samples) {
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     spreadTarget_.bind();
     held_.attach(0);
@@ -93,22 +107,28 @@ void CellSums::blurInto(const Target& target, const GlTexture& sum) {
     spread_.attach(2);
     for (int classIndex = 0; classIndex < inFront_ + behind_; ++classIndex) {
         const Program& average = classIndex == inFront_ - 1 ? passes_->averageNearest : passes_->average;
-        const int side = 1 << (classIndex < inFront_ ? classIndex : classIndex - inFront_);
+        const bool isBehind = classIndex >= inFront_;
+        const int k = isBehind ? classIndex - inFront_ : classIndex;
+        const int side = 1 << k;
         // Drivers shade several pixels at a time: a point has 4 x 4 at least.
         const int pointSide = std::max(tileSide, 4 * side);
-        const int columns = (shownMeans_.info().width + pointSide - 1) / pointSide;
-        const int rows = (shownMeans_.info().height + pointSide - 1) / pointSide;
-        meanTargets_[static_cast<std::size_t>(classIndex)].bind();
-        glViewport(0, 0, columns * pointSide / side, rows * pointSide / side);
+        const int columns = squares_.x / pointSide;
+        const int rows = squares_.y / pointSide;
+        const glm::ivec2 origin = meansOrigin(squares_, k);
+        meanTargets_[isBehind ? 1 : 0].bind();
+        glViewport(origin.x, origin.y, squares_.x / side, squares_.y / side);
         glProgramUniform1i(average.name(), 0, classIndex);
         glProgramUniform1i(average.name(), 1, side);
         glProgramUniform1i(average.name(), 2, pointSide / tileSide);
         glProgramUniform2i(average.name(), 3, columns, rows);
+        glProgramUniform2i(average.name(), 4, origin.x, origin.y);
         fullscreen_.drawSquares(average, columns * rows);
     }
     shownMeans_.attach(3);
     openMeans_.attach(4);
     target.bind();
+    glProgramUniform2i(passes_->blur.name(), 0, squares_.x, squares_.y);
+    glProgramUniform1f(passes_->blur.name(), 1, samples);
     fullscreen_.draw(passes_->blur);
 }
 

@@ -9,7 +9,7 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <vector>
+#include <glm/vec2.hpp>
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
@@ -37,8 +37,8 @@ public:
     void bindForAdding(const Program& addLayers, const GlTexture& layerDepths, double blur, bool startsBlock,
                        int to) const;
     // Writes the block's sum with blurred cells, and zeros for what it lost, to `target`. `sum` holds the block as it
-    // was added.
-    void blurInto(const Target& target, const GlTexture& sum);
+    // was added. With `samples` > 0 it is the mean of so many, with 0 of as many as a pixel's alpha counts.
+    void blurInto(const Target& target, const GlTexture& sum, float samples = -1);
     [[nodiscard]] bool fits(const LensCells& cells) const {
         return cells.inFront == inFront_ && cells.behind == behind_;
     }
@@ -53,10 +53,11 @@ private:
     GlTexture held_;           // which classes a tile holds
     GlTexture spread_;         // of which it needs means
     Target spreadTarget_;
-    // Around the middles of squares of pixels, of class k in mipmap level k, in front of the focus and behind it a
-    // layer each: what it shows, and the samples that are open to it.
+    // Around the middles of squares of pixels, of what lies in front of the focus and behind it a layer each, one class
+    // beside the other: what it shows, and the samples that are open to it.
+    glm::ivec2 squares_;  // of single pixels, columns and rows
     GlTexture shownMeans_, openMeans_;
-    std::vector<Target> meanTargets_;  // as many as classes
+    Target meanTargets_[2];
     Fullscreen fullscreen_;
 };
 

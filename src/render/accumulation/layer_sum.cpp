@@ -156,26 +156,35 @@ const GlTexture& LayerSum::meanTexture() {
 void LayerSum::makeMean() {
     if (samples_ == 0) fail("the accumulation holds no sample yet");
     if (meanIsCurrent_) return;
-    // An unfinished block is added to a copy: the frame's own sum goes on at the block border. The first one is the
-    // whole sum.
-    const bool unfinished = samples_ % blockSamples != 0;
-    const bool isFirst = samples_ < blockSamples;
-    const int block = unfinished ? latestBlock(true) : block_.current;
-    if (unfinished && !isFirst) addBlockTo(frame_, block, false);
-    const Sum& total = isFirst ? block_ : frame_;
-    const int latest = isFirst ? block : unfinished ? 1 - frame_.current : frame_.current;
-
     if (!mean_) {
         mean_ = GlTexture({.format = TextureFormat::rgba32f, .width = sumWidth(), .height = sumHeight()});
         mean_.sampling(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
         meanTarget_ = Target({&mean_});
     }
+    const float divisor = countsInAlpha_ ? 0.0f : static_cast<float>(samples_);
+    // An unfinished block is added to a copy: the frame's own sum goes on at the block border. The first one is the
+    // whole sum.
+    const bool unfinished = samples_ % blockSamples != 0;
+    const bool isFirst = samples_ < blockSamples;
+    if (isFirst && blursCells_)
+        cells_->blurInto(meanTarget_, block_.sum[block_.current], divisor);
+    else if (isFirst)
+        divide(block_, block_.current, divisor);
+    else if (unfinished) {
+        addBlockTo(frame_, latestBlock(true), false);
+        divide(frame_, 1 - frame_.current, divisor);
+    } else {
+        divide(frame_, frame_.current, divisor);
+    }
+    meanIsCurrent_ = true;
+}
+
+void LayerSum::divide(const Sum& total, int latest, float divisor) {
     meanTarget_.bind();
     total.sum[latest].attach(0);
     total.compensation[latest].attach(1);
-    glProgramUniform1f(resolve_.name(), 0, countsInAlpha_ ? 0.0f : static_cast<float>(samples_));
+    glProgramUniform1f(resolve_.name(), 0, divisor);
     fullscreen_.draw(resolve_);
-    meanIsCurrent_ = true;
 }
 
 std::size_t LayerSum::bytes() const {

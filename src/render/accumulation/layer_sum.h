@@ -80,6 +80,8 @@ private:
     // Which copy of block_ holds the block's sum, once its cells are blurred if it holds them as they were added.
     int latestBlock(bool asAdded);
     void addBlockTo(Sum& frame, int block, bool startsFrame);
+    // Writes the mean of what one of the two holds.
+    void divide(const Sum& total, int latest, float divisor);
 
     [[nodiscard]] int sumWidth() const { return info_.sumWidth > 0 ? info_.sumWidth : info_.width; }
     [[nodiscard]] int sumHeight() const { return info_.sumHeight > 0 ? info_.sumHeight : info_.height; }
