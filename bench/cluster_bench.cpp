@@ -1,19 +1,22 @@
 // What leaving out clusters saves that face away or lie outside for all of the lens and the exposure
-// (plan/visibility.h): the same plan drawn whole and without them, at full detail and with levels of detail.
+// (plan/visibility.h): the same plan drawn whole and without them, at full detail and with levels of detail. And what
+// it saves to leave out of that, sample by sample, what lies behind other surfaces (render/occlusion/occlusion.h).
 //
 //   defocus_cluster_bench [SCENE …]      without scenes: the school of fish
 //
-// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. Whole and lean frames take turns;
+// Held equal: camera, lens, levels, samples, size (1024 x 768), renderer and process. The three frames take turns;
 // times are the fastest, ratios the median of those of a turn. `CPU` is the time of all threads of the process, which
 // says more where others use the machine too. The two images are compared bit by bit.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frame/prepared_frame.h"
@@ -25,13 +28,14 @@ namespace {
 
 using namespace defocus;
 
-constexpr int turns = 5;
+constexpr int turns = 3;
 
 struct Variant {
     FramePlan plan;
     std::vector<double> seconds;
     std::vector<double> cpuSeconds;
     Image image;
+    std::uint64_t hidden = 0;  // triangles
 };
 
 void renderOnce(const World& world, Variant& variant) {
@@ -43,6 +47,7 @@ void renderOnce(const World& world, Variant& variant) {
     variant.seconds.push_back(renderer->stats().renderMilliseconds / 1000);
     variant.cpuSeconds.push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
     variant.image = renderer->image();
+    variant.hidden = renderer->stats().trianglesHidden;
 }
 
 double fastest(const std::vector<double>& times) {
@@ -53,6 +58,12 @@ double medianRatio(std::vector<double> whole, const std::vector<double>& lean) {
     for (std::size_t i = 0; i < whole.size(); ++i) whole[i] /= lean[i];
     std::nth_element(whole.begin(), whole.begin() + turns / 2, whole.end());
     return whole[turns / 2];
+}
+
+// What the plan has is drawn, hidden or not.
+FramePlan withHidden(FramePlan plan) {
+    plan.settings.keepAll = true;
+    return plan;
 }
 
 // Every level as it is.
@@ -76,6 +87,34 @@ std::string differences(const Image& a, const Image& b) {
     return count == 0 ? "same image" : fmt::format("{} VALUES DIFFER, by up to {:.3g}", count, most);
 }
 
+double millions(std::uint64_t count) {
+    return static_cast<double>(count) / 1e6;
+}
+
+std::string timesOf(const Variant& whole, const Variant& lean) {
+    return fmt::format("{:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f} {:>8.2f} {:>6.2f}  {}", fastest(whole.seconds),
+                       fastest(lean.seconds), medianRatio(whole.seconds, lean.seconds), fastest(whole.cpuSeconds),
+                       fastest(lean.cpuSeconds), medianRatio(whole.cpuSeconds, lean.cpuSeconds),
+                       differences(whole.image, lean.image));
+}
+
+void printClusters(const Variant& whole, const Variant& seen) {
+    const std::uint64_t away = seen.plan.trianglesFacingAway;
+    const std::uint64_t outside = seen.plan.trianglesOutside;
+    std::size_t runCount = 0;
+    for (const ObjectPlan& object : seen.plan.objects)
+        for (const VisibleLevel& level : object.visible)
+            for (const std::vector<IndexRange>& ranges : level.primitives) runCount += ranges.size();
+    fmt::print("{:<20} {:>8.1f} {:>8.1f} {:>8.1f} {:>7} {}\n", lodModeName(seen.plan.settings.lod),
+               millions(seen.plan.trianglesDrawn + away + outside), millions(away), millions(outside), runCount,
+               timesOf(whole, seen));
+}
+
+void printHidden(const Variant& seen, const Variant& shown) {
+    fmt::print("{:<20} {:>8.1f} {:>8.1f} {:>16} {}\n", fmt::format("hidden, {}", lodModeName(shown.plan.settings.lod)),
+               millions(shown.plan.trianglesDrawn), millions(shown.hidden), "", timesOf(seen, shown));
+}
+
 void measure(const std::filesystem::path& path) {
     Request options;
     options.scene = path;
@@ -85,37 +124,26 @@ void measure(const std::filesystem::path& path) {
         RenderSettings settings = frame.settings;
         settings.lod = lod;
         const FramePlan plan = planFrame(frame.world, frame.view, settings);
-        variants.push_back({drawnWhole(frame.world, plan), {}, {}, {}});
-        variants.push_back({plan, {}, {}, {}});
+        for (FramePlan& drawn : std::array{withHidden(drawnWhole(frame.world, plan)), withHidden(plan), plan})
+            variants.push_back({std::move(drawn), {}, {}, {}});
     }
     for (int turn = 0; turn < turns; ++turn)
-        for (std::size_t i = 0; i < variants.size(); ++i)  // either first
-            renderOnce(frame.world, variants[turn % 2 == 0 ? i : i ^ 1u]);
+        for (std::size_t i = 0; i < variants.size(); ++i)  // each is the first of a turn
+            renderOnce(frame.world, variants[(i + static_cast<std::size_t>(turn)) % variants.size()]);
     fmt::print("\n{}\n", frame.sceneName);
-    for (std::size_t i = 0; i < variants.size(); i += 2) {
-        const Variant& whole = variants[i];
-        const Variant& seen = variants[i + 1];
-        const auto millions = [](std::uint64_t count) { return static_cast<double>(count) / 1e6; };
-        const std::uint64_t away = seen.plan.trianglesFacingAway;
-        const std::uint64_t outside = seen.plan.trianglesOutside;
-        std::size_t runCount = 0;
-        for (const ObjectPlan& object : seen.plan.objects)
-            for (const VisibleLevel& level : object.visible)
-                for (const std::vector<IndexRange>& ranges : level.primitives) runCount += ranges.size();
-        fmt::print(
-            "{:<12} {:>8.1f} {:>8.1f} {:>8.1f} {:>7} {:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f} {:>8.2f} {:>6.2f}  {}\n",
-            lodModeName(seen.plan.settings.lod), millions(seen.plan.trianglesDrawn + away + outside), millions(away),
-            millions(outside), runCount, fastest(whole.seconds), fastest(seen.seconds),
-            medianRatio(whole.seconds, seen.seconds), fastest(whole.cpuSeconds), fastest(seen.cpuSeconds),
-            medianRatio(whole.cpuSeconds, seen.cpuSeconds), differences(whole.image, seen.image));
+    for (std::size_t i = 0; i < variants.size(); i += 3) {
+        printClusters(variants[i], variants[i + 1]);
+        printHidden(variants[i + 1], variants[i + 2]);
     }
 }
 
 int run(const std::vector<std::filesystem::path>& scenes) {
     const auto context = createHeadlessContext();
-    fmt::print("{}, {}\n1024 x 768, 64 samples, {} turns; whole | clusters left out\n\n", context->device(),
-               context->driver(), turns);
-    fmt::print("{:<12} {:>8} {:>8} {:>8} {:>7} {:>17} {:>6} {:>17} {:>6}\n", "levels", "M tri", "away", "outside",
+    fmt::print(
+        "{}, {}\n1024 x 768, 64 samples, {} turns; whole | clusters left out, and of what "
+        "is drawn then | what is hidden\n\n",
+        context->device(), context->driver(), turns);
+    fmt::print("{:<20} {:>8} {:>8} {:>8} {:>7} {:>17} {:>6} {:>17} {:>6}\n", "levels", "M tri", "left out", "outside",
                "runs", "frame, s", "ratio", "CPU, s", "ratio");
     for (const std::filesystem::path& scene : scenes) measure(scene);
     return 0;

@@ -409,11 +409,15 @@ def parts():
     for sky in ("uniform", "gradient"):
         rows = [line.split() for line in lines_of("waves") if line.startswith(sky) and " rgba16f " in line]
         fastest[sky] = min(float(row[3]) for row in rows)
+    lines = lines_of("clusters")
+    (at,) = [index for index, line in enumerate(lines) if line.startswith("helmets")]
+    school, helmets = lines[:at], lines[at:]
     shares, ratios = [], []
     for levels in ("off", "fractional"):
-        whole, away, outside, _, _, _, ratio = numbers_after(lines_of("clusters"), levels)[:7]
+        whole, away, outside, _, _, _, ratio = numbers_after(school, levels)[:7]
         shares.append(f"{100 * (away + outside) / whole:.0f}")
         ratios.append(f"{ratio:.2f}")
+    hidden = [numbers_after(helmets, f"hidden, {levels}") for levels in ("off", "fractional")]
     culled = numbers_after(lines_of("elisions"), "most fish out of view (culling)")[2]
     sharp = numbers_after(lines_of("elisions"), "f/64: nothing blurred (lens samples)")[2]
     separable, direct = numbers_after(lines_of("post-process"), "  exponent")
@@ -427,10 +431,15 @@ def parts():
         ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
          f"{shares[0]} % at full detail, {shares[1]} % with levels", printed_by("cluster")],
         ["the same: times as fast, same image", f"{ratios[0]} at full detail, {ratios[1]} with levels", printed_by("cluster")],
+        ["what lies behind others is left out, on the CPU: share of the triangles of twenty FlightHelmets",
+         f"{100 * hidden[0][1] / hidden[0][0]:.0f} % at full detail, {100 * hidden[1][1] / hidden[1][0]:.0f} % with levels",
+         printed_by("cluster")],
+        ["the same: times as fast, same image", f"{hidden[0][4]:.2f} at full detail, {hidden[1][4]:.2f} with levels",
+         printed_by("cluster")],
         ["objects that no lens sample sees are left out, most fish out of view: times as fast", f"{culled:.1f}", printed_by("elision")],
         ["16 samples instead of 64 if no blur reaches half a pixel (f/64): times as fast", f"{sharp:.1f}", printed_by("elision")],
         ["cost of a circular disk over its radius, 8 to 64 px: exponent", f"{separable:.2f} separable, {direct:.2f} direct",
-         printed_by("post-process")]]) + only_then("`defocus_cluster_bench` and `defocus_elision_bench` have")
+         printed_by("post-process")]]) + only_then("`defocus_elision_bench` has")
 
 
 PRINTED = {"wave": "waves", "cluster": "clusters", "elision": "elisions", "post-process": "post-process"}

@@ -1,8 +1,8 @@
 #include "render/occlusion/occlusion.h"
 
 #include <algorithm>
-#include <span>
-#include <utility>
+#include <iterator>
+#include <optional>
 
 #include "core/parallel.h"
 #include "render/frame_uniforms.h"
@@ -12,8 +12,10 @@ namespace defocus {
 
 namespace {
 
-constexpr std::uint64_t leastTriangles = 50'000;  // a sample: fewer are drawn faster than their depths are read
-constexpr double mostShown = 0.8;                 // of all triangles: with more it is faster to draw all
+// Of all samples but the first: what is hidden of fewer takes less time than to read the first one's depths and to
+// sort.
+constexpr std::uint64_t leastTriangles = 500'000;
+constexpr double mostShown = 0.8;  // of all triangles: with more it is faster to draw all
 
 std::uint64_t trianglesOfSample(const FramePlan& plan) {
     std::uint64_t triangles = 0;
@@ -47,12 +49,12 @@ std::vector<float> depthsOfLayer(const GlTexture& depths, std::uint32_t layer) {
 
 }  // namespace
 
-void Occlusion::prepare(const FramePlan& plan, std::vector<OccludableDraw> draws) {
+void Occlusion::prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws) {
     plan_ = &plan;
     sorted_.clear();
     sortedBlock_ = -1;
     hidesMuch_ = false;
-    if (!seesBoxes(plan) || plan.samples.size() < 2 || trianglesOfSample(plan) < leastTriangles) return;
+    if (!seesBoxes(plan) || trianglesOfSample(plan) * (plan.samples.size() - 1) < leastTriangles) return;
     for (const OccludableDraw& draw : draws) {
         const ObjectPlan& object = plan.objects[draw.object];
         const VisibleLevel* visible = visibleLevel(object, draw.level);

@@ -48,9 +48,9 @@ public:
     // `world` must outlive it.
     explicit Occlusion(const World& world) : world_(&world) {}
 
-    // Begins a plan, which must outlive the drawing, as must its layers. Where nothing can be gained, all draws remain
-    // whole: the lens or what moves may forbid it, or there are few triangles.
-    void prepare(const FramePlan& plan, std::vector<OccludableDraw> draws);
+    // Begins a plan, which must outlive the drawing. Where nothing can be gained, all draws remain whole: the lens or
+    // what moves may forbid it, or there are few triangles.
+    void prepare(const FramePlan& plan, const std::vector<OccludableDraw>& draws);
 
     // Whether `sample` has to be drawn whole, so that its depths sort the pieces.
     [[nodiscard]] bool needsDepthsOf(std::uint32_t sample) const;
