@@ -54,6 +54,7 @@ void Occlusion::prepare(const FramePlan& plan, const std::vector<OccludableDraw>
     sorted_.clear();
     sortedBlock_ = -1;
     hidesMuch_ = false;
+    if (!plan.shadows.maps.empty()) return;  // drawn in parts, a ball's facets took shadows from themselves
     if (!seesBoxes(plan) || trianglesOfSample(plan) * (plan.samples.size() - 1) < leastTriangles) return;
     for (const OccludableDraw& draw : draws) {
         const ObjectPlan& object = plan.objects[draw.object];
