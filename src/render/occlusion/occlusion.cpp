@@ -12,10 +12,10 @@ namespace defocus {
 
 namespace {
 
-// Of all samples but the first: what is hidden of fewer takes less time than to read the first one's depths and to
-// sort.
-constexpr std::uint64_t leastTriangles = 500'000;
-constexpr double mostShown = 0.8;  // of all triangles: with more it is faster to draw all
+// What is hidden of fewer takes less time than to read depths and to sort.
+constexpr std::uint64_t leastTriangles = 50'000;  // of a sample
+constexpr std::uint64_t leastInAll = 500'000;     // of all samples but the first
+constexpr double mostShown = 0.8;                 // of all triangles: with more it is faster to draw all
 
 std::uint64_t trianglesOfSample(const FramePlan& plan) {
     std::uint64_t triangles = 0;
@@ -55,7 +55,8 @@ void Occlusion::prepare(const FramePlan& plan, const std::vector<OccludableDraw>
     sortedBlock_ = -1;
     hidesMuch_ = false;
     if (!plan.shadows.maps.empty()) return;  // drawn in parts, a ball's facets took shadows from themselves
-    if (!seesBoxes(plan) || trianglesOfSample(plan) * (plan.samples.size() - 1) < leastTriangles) return;
+    const std::uint64_t triangles = trianglesOfSample(plan);
+    if (triangles < leastTriangles || triangles * (plan.samples.size() - 1) < leastInAll || !seesBoxes(plan)) return;
     for (const OccludableDraw& draw : draws) {
         const ObjectPlan& object = plan.objects[draw.object];
         const VisibleLevel* visible = visibleLevel(object, draw.level);
