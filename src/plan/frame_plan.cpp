@@ -228,7 +228,9 @@ void leaveOutLens(FramePlan& plan, const World& world) {
                      "samples remain",
                      blur, kept, plan.shadows.maps.empty() ? still ? "antialiasing" : "motion" : "shadow")});
     plan.usesLens = false;
+    const double aspect = plan.coc.aspect;  // the image still has it
     plan.coc = {};
+    plan.coc.aspect = aspect;
     plan.apertureDiameter = 0;
     plan.samples.resize(kept);
     for (LensSample& sample : plan.samples) sample.lens = glm::vec2(0);

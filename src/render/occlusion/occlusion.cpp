@@ -54,7 +54,6 @@ void Occlusion::prepare(const FramePlan& plan, const std::vector<OccludableDraw>
     sorted_.clear();
     sortedBlock_ = -1;
     hidesMuch_ = false;
-    if (!plan.shadows.maps.empty()) return;  // drawn in parts, a ball's facets took shadows from themselves
     const std::uint64_t triangles = trianglesOfSample(plan);
     if (triangles < leastTriangles || triangles * (plan.samples.size() - 1) < leastInAll || !seesBoxes(plan)) return;
     for (const OccludableDraw& draw : draws) {

@@ -18,7 +18,8 @@ struct PlaceInImage {
 // What optics say: the ray from the lens point through the place meets the focus plane where the sharp image shows it.
 PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample, const FramePlan& plan) {
     const View& view = plan.view;
-    const glm::dvec3 eye = 0.5e-3 * view.lens.focalLength / view.lens.fStop * glm::dvec3(sample.lens, 0);
+    const double radius = view.lens.dofEnabled ? 0.5e-3 * view.lens.focalLength / view.lens.fStop : 0;
+    const glm::dvec3 eye = radius * glm::dvec3(sample.lens, 0);
     const double focus = view.lens.focusDistance;
     const glm::dvec3 inFocus = eye + (inView - eye) * (focus / -inView.z);
     const glm::dvec2 ndc = glm::dvec2(inFocus) / (focus * plan.tanHalfHorizontal) *
@@ -26,11 +27,11 @@ PlaceInImage seenThroughLens(const glm::dvec3& inView, const LensSample& sample,
     return {0.5 * (ndc + 1.0) * glm::dvec2(view.width, view.height) - glm::dvec2(sample.pixel), -inView.z};
 }
 
-TEST(LensSight, boxesHoldWhatTheLensSees) {
-    const auto small = fiveSpheres();
+// Places in boxes all over the objects, for every sample.
+void expectBoxesHoldWhatIsSeen(const SmallWorld& small) {
     RenderSettings settings;
     settings.sampleCount = 32;
-    const FramePlan plan = planFrame(small->world, small->view, settings);
+    const FramePlan plan = planFrame(small.world, small.view, settings);
     ASSERT_TRUE(seesBoxes(plan));
     std::mt19937 random(1);
     std::uniform_real_distribution<float> side(-1, 1);
@@ -48,7 +49,7 @@ TEST(LensSight, boxesHoldWhatTheLensSees) {
                 for (int k = 0; k < 8; ++k) {
                     const glm::dvec3 place(centre + reach * any());
                     const PlaceInImage pixel = seenThroughLens(glm::dvec3(object.viewFromObject * glm::dvec4(place, 1)),
-                                                        plan.samples[s], plan);
+                                                               plan.samples[s], plan);
                     ASSERT_GE(seen->depth, plan.view.nearPlane / pixel.depth);
                     const glm::dvec2 at = pixel.place;
                     if (at.x < 0 || at.y < 0 || at.x > plan.view.width || at.y > plan.view.height) continue;
@@ -58,6 +59,17 @@ TEST(LensSight, boxesHoldWhatTheLensSees) {
             }
         }
     EXPECT_GT(inside, 10'000);
+}
+
+TEST(LensSight, boxesHoldWhatTheLensSees) {
+    expectBoxesHoldWhatIsSeen(*fiveSpheres());
+}
+
+// A pinhole's plan leaves the lens out.
+TEST(LensSight, boxesHoldWhatAPinholeSees) {
+    const auto small = fiveSpheres();
+    small->view.lens.dofEnabled = false;
+    expectBoxesHoldWhatIsSeen(*small);
 }
 
 // A small box is a few pixels, and its depth is its own.

@@ -96,6 +96,26 @@ TEST_F(OccludedSurfaces, wavesChangeNoBit) {
     }
 }
 
+// All in focus: the plan leaves the lens out, and samples only smooth edges.
+TEST_F(OccludedSurfaces, ofAPinholeChangeNoBit) {
+    const auto small = behindAWall();
+    small->view.lens.dofEnabled = false;
+    FramePlan plan = planFrame(small->world, small->view, sharpLevels(16));
+    ASSERT_FALSE(plan.usesLens);
+    const auto imageOf = [&](double leastHidden) {
+        const auto renderer = methodNamed("accumulation").make(small->world, {});
+        renderer->start(plan);
+        while (renderer->advance()) {
+        }
+        const RenderStats stats = renderer->stats();
+        EXPECT_GE(static_cast<double>(stats.trianglesHidden), leastHidden * static_cast<double>(stats.trianglesDrawn));
+        return renderer->image();
+    };
+    const Image seen = imageOf(0.2);
+    plan.settings.keepAll = true;  // of what is planned already
+    EXPECT_TRUE(seen.pixels == imageOf(0).pixels);
+}
+
 // A surface with holes hides only where it is. One that light passes isn't opaque and hides nothing.
 TEST_F(OccludedSurfaces, holesAndGlassHideNothing) {
     const double behindWall = opaqueDrawn("accumulation", *behindAWall(), sharpLevels(24)).hidden;
