@@ -21,6 +21,17 @@ void Buffer::update(std::size_t offset, std::size_t bytes, const void* data) {
     if (bytes > 0) glNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
+// Through a buffer in main memory: what is read itself, drivers move there, where shaders are slow to write it.
+void Buffer::read(std::size_t offset, std::size_t bytes, void* data) const {
+    if (bytes == 0) return;
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    const GlHandle<destroyBuffer> copy(name);
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes), nullptr, GL_CLIENT_STORAGE_BIT | GL_MAP_READ_BIT);
+    glCopyNamedBufferSubData(handle_.name(), name, static_cast<GLintptr>(offset), 0, static_cast<GLsizeiptr>(bytes));
+    glGetNamedBufferSubData(name, 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
 VertexArray::VertexArray() {
     GLuint name = 0;
     glCreateVertexArrays(1, &name);

@@ -20,6 +20,9 @@ public:
     }
 
     void update(std::size_t offset, std::size_t bytes, const void* data);
+    // Copies `bytes` from `offset` on into `data`, once all that writes them is done. Writes of shaders need a barrier
+    // of GL_BUFFER_UPDATE_BARRIER_BIT before.
+    void read(std::size_t offset, std::size_t bytes, void* data) const;
 
     [[nodiscard]] GLuint name() const { return handle_.name(); }
     [[nodiscard]] std::size_t bytes() const { return bytes_; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/shots.h"
+#include "gl/context.h"
 #include "image/image_io.h"
 
 namespace defocus {
@@ -156,6 +157,8 @@ TEST_F(ShortOfMemory, resumedWithMoreMemoryItGoesOn) {
 }
 
 TEST_F(ShortOfMemory, theMemoryThatIsSaidToDoDoes) {
+    if (!createHeadlessContext()->software())
+        GTEST_SKIP() << "a GPU's own memory may be short, which no option changes";
     const std::string said = run(inTiles({"-o", "x.exr"}, "1MiB")).err;
     const std::string option = "--memory ";
     const std::size_t begin = said.find(option);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "gl/context.h"
+#include "likeness.h"
 #include "plan/tiles.h"
 #include "render/methods.h"
 #include "rendered.h"
@@ -60,7 +61,15 @@ void expectTheBitsOfOnePiece(const SmallWorld& small, const FramePlan& plan, con
     options.wave = 3;
     const auto parts = methodNamed("accumulation").make(small.world, options);
     const Image expected = imageOf(*whole, plan);
-    EXPECT_TRUE(joined(*parts, plan, unevenTiles(plan)).pixels == expected.pixels) << what;
+    const Image found = joined(*parts, plan, unevenTiles(plan));
+    std::size_t others = 0, first = found.pixels.size();
+    for (std::size_t i = found.pixels.size(); i-- > 0;)
+        if (!(found.pixels[i] == expected.pixels[i])) ++others, first = i;
+    if (others == 0) return;
+    const auto width = static_cast<std::size_t>(4 * expected.width);
+    ADD_FAILURE() << what << ": " << others << " values, the first at " << first % width / 4 << ", " << first / width
+                  << ", channel " << first % 4 << ": " << found.pixels[first] << " instead of "
+                  << expected.pixels[first] << ", by at most " << largestDifference(found, expected);
 }
 
 FramePlan planWith(const SmallWorld& small, const View& view, LodMode mode = LodMode::fractional,

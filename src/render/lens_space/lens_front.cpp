@@ -270,7 +270,7 @@ void LensFront::countTiles() {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tileCounts_.name());
     binInto(0, tiles);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    glGetNamedBufferSubData(tileCounts_.name(), 0, static_cast<GLsizeiptr>(tileCounts_.bytes()), counts.data());
+    tileCounts_.read(0, tileCounts_.bytes(), counts.data());
 
     // Where the lists lie; a new band begins where the next tile's would be too much.
     bands_.clear();

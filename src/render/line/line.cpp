@@ -244,7 +244,7 @@ private:
     [[nodiscard]] Counters readCounters() const {
         Counters counters;
         glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-        glGetNamedBufferSubData(output_.name(), 0, sizeof counters, &counters);
+        output_.read(0, sizeof counters, &counters);
         return counters;
     }
 
