@@ -67,7 +67,8 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     transmittingObjects_ = 0;
     blursBackdrop_ = false;
     materialSlots_.clear();
-    commandBytes_ = 0;
+    commands_.clear();
+    commandsOfCount_.clear();
     for (std::size_t index = 0; index < plan.objects.size(); ++index) {
         const ObjectPlan& object = plan.objects[index];
         const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
@@ -94,19 +95,15 @@ void SurfacePass::addDraws(const FramePlan& plan) {
         const Material& material = scene_->material(item.material);
         blursBackdrop_ |= material.transmits() && material.roughnessFactor > 0;
     }
-    commands_ = commandBytes_ > 0 ? Buffer(commandBytes_) : Buffer();
 }
 
 // The samples that `level` draws alone, and the one that it shares.
 void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
     if (level.sampleCount == 0) return;
-    std::vector<DrawCommand> runs;
+    const std::vector<IndexRun> runs =
+        indexRuns(scene_->world(), object, scene_->mesh(object.mesh), level.level, draw.primitive);
     std::uint32_t indexCount = 0;
-    for (const IndexRun& run :
-         indexRuns(scene_->world(), object, scene_->mesh(object.mesh), level.level, draw.primitive)) {
-        runs.push_back({.count = run.count, .firstIndex = run.first});
-        indexCount += run.count;
-    }
+    for (const IndexRun& run : runs) indexCount += run.count;
     if (indexCount == 0) return;
     const Material& material = scene_->material(draw.material);
     auto& list = material.alphaMode == AlphaMode::blend || material.transmits() ? translucent_ : opaque_;
@@ -118,10 +115,9 @@ void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const Lev
         added.sampleCount = end - first;
         added.runs = runs;
         added.triangleCount = indexCount / 3;
-        if (runs.size() > 1) {
-            added.commandOffset = commandBytes_;
-            commandBytes_ += runs.size() * sizeof(DrawCommand);
-        }
+        added.firstCommand = commands_.size();
+        if (runs.size() > 1)
+            for (const IndexRun& run : runs) commands_.push_back({.count = run.count, .firstIndex = run.first});
         added.screenDoor = screenDoor;
         added.program = &program(added);
     };
@@ -184,12 +180,15 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-// Several passes may draw the same meshes, each its own samples.
-void SurfacePass::bindSamples(GpuMesh& mesh) {
-    mesh.vertexArray.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
-    mesh.vertexArray.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
-    if (frame_->moments()) mesh.vertexArray.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec3));
-    if (frame_->bandShifts()) mesh.vertexArray.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
+// From sample `first` on. Several passes may draw the same meshes, each its own samples.
+void SurfacePass::bindSamples(GpuMesh& mesh, std::uint32_t first) {
+    const auto bind = [&](GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride) {
+        mesh.vertexArray.bind(location, buffer, first * stride + offset, stride);
+    };
+    bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
+    bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
+    if (frame_->moments()) bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec3));
+    if (frame_->bandShifts()) bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
 }
 
 // Everything that a draw of samples from `sample` on reads.
@@ -204,7 +203,7 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
     scene_->textures(item.material).attach();
     if (shadows_ != nullptr) shadows_->bind(sample);
     if (info_.look == SurfaceLook::caster) glUniform1i(shadowSlotLocation, shadowSlot_);
-    bindSamples(mesh);
+    bindSamples(mesh, 0);
     bindLevel(mesh, item.level);
     mesh.vertexArray.indices(indices);
     if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && shaded() && item.level > 0) {
@@ -239,19 +238,25 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
 void SurfacePass::drawRuns(const Draw& item, std::uint32_t first, std::uint32_t count) {
     const GLenum mode = modeOf(item.refinement);
     if (item.runs.size() == 1) {
-        drawIndices(mode, item.runs.front().firstIndex, item.runs.front().count, first, count);
+        drawIndices(mode, item.runs.front().first, item.runs.front().count, first, count);
         return;
     }
-    std::vector<DrawCommand> commands = item.runs;
-    for (DrawCommand& command : commands) {
-        command.instanceCount = count;
-        command.baseInstance = first;
-    }
-    commands_.update(item.commandOffset, commands.size() * sizeof(DrawCommand), commands.data());
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+    bindSamples(scene_->mesh(item.mesh), first);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commandsFor(count).name());
     // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
-    const auto* const offset = reinterpret_cast<const void*>(item.commandOffset);
-    glMultiDrawElementsIndirect(mode, GL_UNSIGNED_INT, offset, static_cast<GLsizei>(commands.size()), 0);
+    const auto* const offset = reinterpret_cast<const void*>(item.firstCommand * sizeof(DrawCommand));
+    glMultiDrawElementsIndirect(mode, GL_UNSIGNED_INT, offset, static_cast<GLsizei>(item.runs.size()), 0);
+}
+
+// Made once and never changed: of a buffer that was updated just before, NVIDIA's driver 580 drew what it had held.
+const Buffer& SurfacePass::commandsFor(std::uint32_t instances) {
+    const auto [entry, isNew] = commandsOfCount_.try_emplace(instances);
+    if (isNew) {
+        for (DrawCommand& command : commands_) command.instanceCount = instances;
+        entry->second = Buffer::of(std::span<const DrawCommand>(commands_));
+        glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+    }
+    return entry->second;
 }
 
 void SurfacePass::bindSolid(GLenum depthTest) {
@@ -417,7 +422,8 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
 }
 
 std::size_t SurfacePass::bytes() const {
-    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes() + commands_.bytes() + backdrop_.bytes();
+    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes() + backdrop_.bytes();
+    for (const auto& [count, commands] : commandsOfCount_) total += commands.bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
     return total;
 }

@@ -90,8 +90,8 @@ private:
         int material = -1;
         std::uint32_t firstSample = 0;
         std::uint32_t sampleCount = 0;
-        std::vector<DrawCommand> runs;  // of the primitive's indices; without instances
-        std::size_t commandOffset = 0;  // bytes into commands_, where there are several runs
+        std::vector<IndexRun> runs;    // of the primitive's indices
+        std::size_t firstCommand = 0;  // in commands_, where there are several runs
         std::uint32_t triangleCount = 0;
         bool mirrored = false;
         bool blurMoves = false;
@@ -110,7 +110,8 @@ private:
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
     void bindFrame();
     void bindSolid(GLenum depthTest);
-    void bindSamples(GpuMesh& mesh);
+    void bindSamples(GpuMesh& mesh, std::uint32_t first);
+    const Buffer& commandsFor(std::uint32_t instances);
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
                    GLenum depthTest = GL_GREATER, const ObjectSet& objects = {});
     void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
@@ -136,9 +137,9 @@ private:
     int shadowSlot_ = 0;  // that casters are drawn into
     UniformBlocks<GpuObject> objectBlocks_;
     UniformBlocks<GpuMaterial> materialBlocks_;
-    std::size_t commandBytes_ = 0;
-    Buffer commands_;              // of the draws that have several runs
-    std::vector<GpuPoses> poses_;  // as many as objects
+    std::vector<DrawCommand> commands_;                // of the draws that have several runs; without instances
+    std::map<std::uint32_t, Buffer> commandsOfCount_;  // the same for so many instances
+    std::vector<GpuPoses> poses_;                      // as many as objects
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
     bool marksBlended_ = false;
