@@ -201,8 +201,7 @@ def speed_sentence():
             f"{seconds(drawn['fractional']):.1f} s instead of {seconds(drawn['off']):.1f} s, {drawn['fractional']['speedUp']:.1f} times as fast. "
             f"Coarser levels (`--lod-metric size`) are {levels['speedUp']:.1f} times as fast, at {error_ratio(by_size):.1f} times the error. "
             "[Results](docs/results.md) has all measurements, also against a CPU ray tracer")
-    devices = {json.loads(path.read_text())["device"].split()[0] for path in RESULTS.glob("*.json")}
-    return wrapped(text + ("; none is from a GPU yet." if devices == {"llvmpipe"} else "."))
+    return wrapped(text + " and on [a GPU](docs/results.md#on-a-gpu).")
 
 
 def wrapped(text, width=128):
@@ -492,7 +491,51 @@ def lens_levels():
         "score; errors are against full detail with as many lines", "llvmpipe-lens-space.txt")
 
 
-TABLES = {"speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
+# ---- a GPU ----------------------------------------------------------------------------------------------------------
+
+
+def of_h100():
+    """What each bench of bench/results/h100.txt printed: {the command: lines}."""
+    printed = (RESULTS / "h100.txt").read_text().split("\ndefocus ")[1:]
+    return {"defocus " + text.splitlines()[0]: text.splitlines()[1:] for text in printed}
+
+
+def h100_speed():
+    ((command, lines),) = [(command, lines) for command, lines in of_h100().items() if "speedup" in command]
+    measured = {}
+    for fields in (line.split() for line in lines if line.startswith("samples ")):
+        measured.setdefault(fields[1], {})[fields[5]] = fields
+    rows = []
+    for count, modes in measured.items():
+        off, levels = modes["off"], modes["fractional"]
+        psnr, flip = [float(fields[-3]) for fields in (off, levels)], [float(fields[-1]) for fields in (off, levels)]
+        rows.append([count, f"{float(off[6]):.0f} ms", f"{float(levels[6]):.0f} ms", f"{float(levels[10]):.1f}",
+                     f"{10 ** ((psnr[0] - psnr[1]) / 20):.2f}", f"{flip[1] / flip[0]:.2f}"])
+    return table(["lens samples", "full detail", "levels", "times as fast", "times the RMSE", "times the FLIP"], rows) + source(
+        command, "scene, camera, light, image size, process, lens samples; errors are against 1,024 samples at full detail",
+        "h100.txt")
+
+
+def h100_equal_error():
+    names = {"helmets.gltf": "FlightHelmet 20 times"}
+    text, commands = [], []
+    for command, lines in of_h100().items():
+        begin = [i for i, line in enumerate(lines) if line.startswith("seconds a frame")]
+        if not begin:
+            continue
+        commands.append(command)
+        if not text:
+            text = [["seconds a frame", *(f"RMSE {error}" for error in lines[begin[0]].split()[-3:])]]
+        text.append([f"**{names.get(command.split()[3], 'Fish school')}**", "", "", ""])
+        for line in lines[begin[0] + 1:]:
+            if line.startswith("  ("):
+                break
+            name, *times = re.split(r"\s{2,}", line.strip())
+            text.append([name, *(time for time in times if not time.endswith("x"))])
+    return table(text[0], text[1:]) + source("`, `".join(commands), "scene, camera, lens, image size, light, reference", "h100.txt")
+
+
+TABLES = {"h100 speed": h100_speed, "h100 equal error": h100_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
           "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "rates": rates, "pyramids": pyramids, "truth": truth, "shadows": shadows,
           "stability": stability, "honesty": honesty, "sequences": sequences, "parts": parts,
           "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_levels}
