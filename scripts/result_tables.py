@@ -143,9 +143,9 @@ def flip_ratio(modes):
 
 def measured():
     """What levels by measured error save and cost."""
-    above, below = source_of("speedup-measured")
+    above, below = source_of("speedup-jeong2011")
     rows = []
-    for count, modes in samples_sweep("speedup-measured"):
+    for count, modes in samples_sweep("speedup-jeong2011"):
         full, levels = modes["off"], modes["fractional"]
         rows.append([str(count), f"{full['triangles'] / 1e6:.1f} M", f"{levels['triangles'] / 1e6:.1f} M", f"{seconds(full):.2f} s",
                      f"{seconds(levels):.2f} s", f"{levels['speedUp']:.1f}", f"{levels['sizeOnly']['speedUp']:.1f}",
@@ -159,13 +159,10 @@ def measured():
 def published():
     """The published algorithm beside this program's own: frame times over lens samples, as in the paper's Figure 2."""
     above, below = source_of("speedup-jeong2011")
-    command = command_of("speedup-jeong2011", results_of("speedup-jeong2011"))
-    by_size = command.replace(" --preset jeong2011", "") + " --lod-metric size"
-    below = below.replace(f"`{command}`", f"`{command}` for the rows of the preset, `{by_size}` for the others")
     own = dict(samples_sweep("speedup-jeong2011"))
     rows = []
     for count, theirs in samples_sweep("speedup-jeong2011", "jeong2011"):
-        for name, modes in (("`jeong2011`, Halton", theirs), ("levels by size, Sobol", own[count])):
+        for name, modes in (("`jeong2011`, Halton", theirs), ("today's default, Sobol", own[count])):
             full, levels = modes["off"], modes["fractional"]
             rows.append([str(count), name, f"{seconds(full):.2f} s", f"{seconds(levels):.2f} s", f"{levels['speedUp']:.1f}",
                          f"{levels['sizeOnly']['speedUp']:.1f}", f"{levels['blurOnly']['speedUp']:.1f}",
@@ -194,7 +191,7 @@ def speed_sentence():
     results = results_of("speedup-fish")
     by_size = dict(samples_sweep("speedup-fish"))[64]
     levels, full = by_size["fractional"], by_size["off"]
-    drawn = dict(samples_sweep("speedup-measured"))[64]
+    drawn = dict(samples_sweep("speedup-jeong2011"))[64]
     text = (f"With 64 lens samples, the built-in scene is drawn from {drawn['fractional']['triangles'] / 1e6:.0f} instead of "
             f"{drawn['off']['triangles'] / 1e6:.0f} million triangles, at {error_ratio(drawn):.2f} times the error of full meshes (FLIP: "
             f"{flip_ratio(drawn):.2f} times). On {results['machine']['threads']} CPU cores without a GPU this takes "
