@@ -104,6 +104,9 @@ struct SurfacePoint {
 struct DistantLight {
     glm::vec3 toLight{0};
     glm::vec3 illuminance{0};  // over π
+    // Of the light and the eye alone: the cosine between their directions, the square of their sum's length, half that
+    // length, and how much of the reflectance is that of grazing light.
+    float lv = 0, sum2 = 0, vh = 0, grazing = 0;
 };
 
 // They stand as seen from the eye.
@@ -111,8 +114,14 @@ std::vector<DistantLight> lightsFor(const Eye& eye) {
     std::vector<DistantLight> lights;
     for (const StudioLight& light : studioLights()) {
         const glm::dvec3 seen = light.toLight();
-        lights.push_back({glm::vec3(seen.x * eye.right + seen.y * eye.up + seen.z * eye.towards),
-                          light.color * light.illuminance / std::numbers::pi_v<float>});
+        DistantLight own;
+        own.toLight = glm::vec3(seen.x * eye.right + seen.y * eye.up + seen.z * eye.towards);
+        own.illuminance = light.color * light.illuminance / std::numbers::pi_v<float>;
+        own.lv = glm::dot(own.toLight, glm::vec3(eye.towards));
+        own.sum2 = std::max(2 + 2 * own.lv, 1e-6f);
+        own.vh = 0.5f * std::sqrt(own.sum2);
+        own.grazing = std::pow(std::max(1 - own.vh, 0.0f), 5.0f);
+        lights.push_back(own);
     }
     return lights;
 }
@@ -136,33 +145,46 @@ SeenNormals seenNormals(float nv, float agreement) {
     return seen;
 }
 
-glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point, const SeenNormals& seen,
-                    const glm::vec3& toEye) {
-    const float nv = glm::dot(point.normal, toEye);
+// What of a shiny point all lights share.
+struct Gloss {
+    float nv = 0;
+    float width = 0, alpha2 = 0;
+    float share = 0;  // of the distribution of what the normal's spread makes of it
+    float shownV = 0;
+
+    Gloss(const SurfacePoint& point, const SeenNormals& seen, const glm::vec3& toEye)
+        : nv(glm::dot(point.normal, toEye)), width(point.roughness * point.roughness) {
+        const float spread = 2 * (1 - point.agreement) / point.agreement;
+        alpha2 = std::clamp(width * width + spread, 1e-6f, 1.0f);
+        share = std::min(spread * (1 - width) / alpha2, 1.0f);
+        shownV = std::max(glm::mix(nv, seen.shown, share), 0.0f);
+    }
+
+    // What it reflects of a light that it meets at this cosine, over its reflectance.
+    [[nodiscard]] float reflected(const DistantLight& light, float cosine) const {
+        const float shownL = std::max(glm::mix(cosine, light.vh, share), 0.0f);
+        if (!(shownV > 0 && shownL > 0)) return 0;
+        const float cosines = std::max(cosine + nv, 0.0f);
+        const float cosines2 = cosines * cosines;
+        const float sum2 = light.sum2;
+        const float base = std::max(cosines2 * (alpha2 - 1) + sum2, alpha2 * sum2);
+        float shape = alpha2 / (base * base);  // GGX's
+        if (share > 0) {
+            const float away = std::max(cosines2, 1e-4f * sum2);
+            const float beckmann = std::exp(-std::max(sum2 - away, 0.0f) / (away * alpha2)) / (alpha2 * away * away);
+            shape = glm::mix(shape, beckmann, share);
+        }
+        const float masking = std::max(glm::mix(2 * shownL * shownV, shownL + shownV, width), 1e-4f);
+        return 0.5f * shownL * (sum2 * sum2 * shape) / masking;
+    }
+};
+
+glm::vec3 lightFrom(const DistantLight& light, const SurfacePoint& point, const SeenNormals& seen, const Gloss& gloss) {
     const float cosine = glm::dot(point.normal, light.toLight);
-    const float lv = glm::dot(light.toLight, toEye);
-    const float matt = meanCosine(seen.along * cosine + seen.towards * lv, cosine, seen.spread);
-    const float spread = 2 * (1 - point.agreement) / point.agreement;
-    const float width = point.roughness * point.roughness;
-    const float alpha2 = std::clamp(width * width + spread, 1e-6f, 1.0f);
-    const float share = std::min(spread * (1 - width) / alpha2, 1.0f);
-    const float sum2 = std::max(2 + 2 * lv, 1e-6f);
-    const float vh = 0.5f * std::sqrt(sum2);
-    const float cosines = std::max(cosine + nv, 0.0f);
-    const float cosines2 = cosines * cosines;
-    const float base = std::max(cosines2 * (alpha2 - 1) + sum2, alpha2 * sum2);
-    const float ggx = alpha2 / (base * base);
-    const float away = std::max(cosines2, 1e-4f * sum2);
-    const float beckmann = std::exp(-std::max(sum2 - away, 0.0f) / (away * alpha2)) / (alpha2 * away * away);
-    const float distribution = sum2 * sum2 * glm::mix(ggx, beckmann, share);
-    const float shownL = std::max(glm::mix(cosine, vh, share), 0.0f);
-    const float shownV = std::max(glm::mix(nv, seen.shown, share), 0.0f);
-    const float masking = std::max(glm::mix(2 * shownL * shownV, shownL + shownV, width), 1e-4f);
-    const float specular = shownV > 0 ? 0.5f * shownL * distribution / masking : 0;
-    const float grazing = std::pow(std::max(1 - vh, 0.0f), 5.0f);
-    const glm::vec3 reflectance = point.specular * (1 - grazing) + grazing;
-    return light.illuminance *
-           (point.diffuse * (1.0f - point.specular) * (matt * (1 - grazing)) + reflectance * specular);
+    const float matt = meanCosine(seen.along * cosine + seen.towards * light.lv, cosine, seen.spread);
+    const glm::vec3 reflectance = point.specular * (1 - light.grazing) + light.grazing;
+    return light.illuminance * (point.diffuse * (1.0f - point.specular) * (matt * (1 - light.grazing)) +
+                                reflectance * gloss.reflected(light, cosine));
 }
 
 // The share of a white sky's light that the specular part throws back.
@@ -220,7 +242,7 @@ public:
     void shade(const Put& put) {
         normalise();
         look();
-        for (std::size_t l = 0; l < lights_.size(); ++l) shadeBy(lights_[l].toLight, shares_[l].data());
+        for (std::size_t l = 0; l < lights_.size(); ++l) shadeBy(lights_[l], shares_[l].data());
         for (std::size_t i = 0; i < count_; ++i) {
             glm::vec3 light(skyRadiance);
             for (std::size_t l = 0; l < lights_.size(); ++l) light += shares_[l][i] * lights_[l].illuminance;
@@ -254,14 +276,15 @@ private:
             towards_[i] = seen.towards;
         }
     }
-    void shadeBy(const glm::vec3 toLight, float* const shares) const {
+    void shadeBy(const DistantLight& light, float* const shares) const {
+        const glm::vec3 toLight = light.toLight;
         const float* const x = normal_[0].data();
         const float* const y = normal_[1].data();
         const float* const z = normal_[2].data();
         const float* const spread = spread_.data();
         const float* const along = along_.data();
         const float* const towards = towards_.data();
-        const float lv = glm::dot(toLight, toEye_);
+        const float lv = light.lv;
         for (std::size_t i = 0; i < count_; ++i) {
             const float cosine = x[i] * toLight.x + y[i] * toLight.y + z[i] * toLight.z;
             shares[i] = meanCosine(along[i] * cosine + towards[i] * lv, cosine, spread[i]);
@@ -335,7 +358,8 @@ public:
                                     agreement};
         const SeenNormals seen = seenNormals(glm::dot(point.normal, toEye_), agreement);
         glm::vec3 light = emission + skyLight(point, toEye_);
-        for (const DistantLight& each : lights_) light += lightFrom(each, point, seen, toEye_);
+        const Gloss gloss(point, seen, toEye_);
+        for (const DistantLight& each : lights_) light += lightFrom(each, point, seen, gloss);
         put(cell, light);
     }
 

@@ -134,24 +134,27 @@ bool isUnused(const Anchor& anchor) {
     return anchor.weight[0] == 0 && anchor.weight[1] == 0 && anchor.weight[2] == 0;
 }
 
-Numbered<MeshVertexNumber, Anchored> anchoredValues(const FitSource& source,
-                                                    const Numbered<MeshVertexNumber, Anchor>& anchors) {
+AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertexNumber, Anchor>& anchors) {
     const Vertices& vertices = source.vertices;
-    Numbered<MeshVertexNumber, Anchored> sums(anchors.size());
+    AnchoredValues sums;
+    sums.values.resize(anchors.size());
+    if (!vertices.colors.empty()) sums.colors.resize(anchors.size(), glm::vec4(0));
     for (const MeshVertexNumber v : anchors.numbers()) {
         const MeshVertexNumber other = anchors[v].sharedWith;
-        Anchored& sum = sums[other.isValid() ? other : v];
+        const MeshVertexNumber own = other.isValid() ? other : v;
+        Anchored& sum = sums.values[own];
         sum.area += source.areas[v];
         const glm::vec3& normal = vertices.normals[v.value];
-        const glm::vec3& shared = vertices.normals[(other.isValid() ? other : v).value];
+        const glm::vec3& shared = vertices.normals[own.value];
         const bool acrossEdge = glm::dot(normal, shared) < leastSharedCosine;
         sum.normal += source.areas[v] * (acrossEdge ? shared : normal);
-        if (!vertices.colors.empty()) sum.color += source.areas[v] * vertices.colors[v.value];
+        if (!sums.colors.empty()) sums.colors[own] += source.areas[v] * vertices.colors[v.value];
     }
-    for (Anchored& sum : sums) {
+    for (const MeshVertexNumber v : sums.values.numbers()) {
+        Anchored& sum = sums.values[v];
         if (!(sum.area > 0)) continue;
         sum.normal /= sum.area;
-        sum.color /= sum.area;
+        if (!sums.colors.empty()) sums.colors[v] /= sum.area;
     }
     return sums;
 }

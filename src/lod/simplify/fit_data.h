@@ -30,12 +30,15 @@ bool isUnused(const Anchor& anchor);
 struct Anchored {
     float area = 0;
     glm::vec3 normal{0};  // the mean over the area
-    glm::vec4 color{0};   // the same; 0 without colours
 };
 
-// Returns a value for each vertex. It means nothing for a vertex without an anchor of its own.
-Numbered<MeshVertexNumber, Anchored> anchoredValues(const FitSource& source,
-                                                    const Numbered<MeshVertexNumber, Anchor>& anchors);
+// One for each vertex. It means nothing for a vertex without an anchor of its own.
+struct AnchoredValues {
+    Numbered<MeshVertexNumber, Anchored> values;
+    Numbered<MeshVertexNumber, glm::vec4> colors;  // their means over the area; empty without colours
+};
+
+AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertexNumber, Anchor>& anchors);
 
 // Returns the unit normals of a level's triangles, with their corners at `positions`, which are those of level 0's
 // vertices. A triangle without area gets zero.
@@ -72,8 +75,8 @@ Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& lead
     return groups;
 }
 
-// The equations with every unknown's sums; solutions start at zero. `value` picks the values of what `sums` holds for
-// each of the level's vertices.
+// The equations with every unknown's sums; solutions start at zero. `value` gives the sums of each of the level's
+// vertices.
 template <std::size_t channels, typename Sums, typename Value>
 LeastSquares equations(const LevelMesh& level, const Sums& sums, const Grouping& groups, const Value& value) {
     LeastSquares result;
@@ -85,7 +88,7 @@ LeastSquares equations(const LevelMesh& level, const Sums& sums, const Grouping&
     for (const LevelVertexNumber v : groups.of.numbers()) {
         const UnknownNumber g = groups.of[v];
         weights[g] += sums.vertices[v].weight;
-        for (std::size_t c = 0; c < channels; ++c) targets[g][c] += value(sums.vertices[v])[c];
+        for (std::size_t c = 0; c < channels; ++c) targets[g][c] += value(v)[c];
     }
     result.weights.assign(weights.begin(), weights.end());
     result.sums.resize(groups.count());

@@ -23,11 +23,11 @@ struct VertexSums {
     double weight = 0;
     std::array<double, 3> gap{};  // from the point of the level to the vertex that lies there
     std::array<double, 3> normal{};
-    std::array<double, 4> color{};
 };
 
 struct AnchorSums {
     Numbered<LevelVertexNumber, VertexSums> vertices;
+    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // the same of colours; empty without
     Numbered<TriangleNumber, TriangleSums> triangles;
 };
 
@@ -35,16 +35,17 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
                       const Numbered<MeshVertexNumber, Anchor>& anchors) {
     const Vertices& vertices = source.vertices;
     const Numbered<TriangleNumber, glm::vec3> normals = unitNormals(vertices.positions, level);
-    const Numbered<MeshVertexNumber, Anchored> values = anchoredValues(source, anchors);
+    const AnchoredValues anchored = anchoredValues(source, anchors);
     AnchorSums sums;
     sums.vertices.resize(level.sources.size());
+    if (!anchored.colors.empty()) sums.colors.resize(level.sources.size());
     sums.triangles.resize(level.triangles.count());
     for (const MeshVertexNumber v : anchors.numbers()) {
         const Anchor& anchor = anchors[v];
         const float* w = anchor.weight;
         if (isUnused(anchor)) continue;
         const auto corner = level.triangles.corners(anchor.triangle);
-        const Anchored& value = values[v];
+        const Anchored& value = anchored.values[v];
         const float share = foreshortened(value.area, anchor, normals[anchor.triangle], value.normal);
 
         // Displacements are fitted rather than positions: they are small, so that single precision does far from the
@@ -65,8 +66,8 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
                 own.gap[c] += weight * double{gap[static_cast<glm::length_t>(c)]};
                 own.normal[c] += weight * double{value.normal[static_cast<glm::length_t>(c)]};
             }
-            for (std::size_t c = 0; c < 4; ++c)
-                own.color[c] += weight * double{value.color[static_cast<glm::length_t>(c)]};
+            for (std::size_t c = 0; c < 4 && !sums.colors.empty(); ++c)
+                sums.colors[corner[k]][c] += weight * double{anchored.colors[v][static_cast<glm::length_t>(c)]};
         }
     }
     return sums;
@@ -76,7 +77,7 @@ Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, con
                                                     const AnchorSums& sums) {
     const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
-    auto fit = equations<3>(level, sums, groups, [](const VertexSums& v) { return v.gap; });
+    auto fit = equations<3>(level, sums, groups, [&](LevelVertexNumber v) { return sums.vertices[v].gap; });
     fit.solve();
     Numbered<UnknownNumber, glm::vec3> original;
     original.reserve(groups.count());
@@ -153,7 +154,7 @@ Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const
     const Grouping groups = grouped(
         level, source.vertices.count(), [&](MeshVertexNumber v) { return source.smoothing[v]; }, true);
     const std::vector<glm::vec3>& own = source.vertices.normals;
-    auto fit = equations<3>(level, sums, groups, [](const VertexSums& v) { return v.normal; });
+    auto fit = equations<3>(level, sums, groups, [&](LevelVertexNumber v) { return sums.vertices[v].normal; });
     startFromMeans<3>(
         fit, [&](UnknownNumber g, std::size_t c) { return own[groups.sources[g].value][static_cast<int>(c)]; });
     fit.solve();
@@ -186,7 +187,7 @@ Numbered<LevelVertexNumber, glm::vec4> fitColors(const FitSource& source, const 
     if (own.empty()) return {};
     const Grouping groups = grouped(
         level, source.vertices.count(), [&](MeshVertexNumber v) { return source.shades[v]; }, true);
-    auto fit = equations<4>(level, sums, groups, [](const VertexSums& v) { return v.color; });
+    auto fit = equations<4>(level, sums, groups, [&](LevelVertexNumber v) { return sums.colors[v]; });
     startFromMeans<4>(
         fit, [&](UnknownNumber g, std::size_t c) { return own[groups.sources[g].value][static_cast<int>(c)]; });
     fit.solve();

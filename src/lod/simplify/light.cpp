@@ -135,10 +135,11 @@ struct FollowingMeans {
     std::vector<LightSlopes> slopes;
 };
 
-FollowingMeans followingMeans(const LitSurface& surface, std::span<const std::uint32_t> groups,
-                              std::size_t leastPoints) {
+// Into `result`, which may be large: it isn't made anew.
+void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, std::size_t leastPoints,
+            FollowingMeans& result) {
     const Lights from = lights();
-    FollowingMeans result;
+    result.means = {};
     result.areas.assign(groups.size(), 0);
     result.slopes.assign(groups.size(), LightSlopes{});
     const double area = forEachLitPoint(surface, leastPoints, [&](const std::uint32_t* corners, const LitPoint& point) {
@@ -151,7 +152,7 @@ FollowingMeans followingMeans(const LitSurface& surface, std::span<const std::ui
             result.slopes[group].add(point.weights[k] * point.light, slopes);
         }
     });
-    if (!(area > 0)) return result;
+    if (!(area > 0)) return;
     for (double& mean : result.means) mean /= area;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         LightSlopes scaled;
@@ -159,7 +160,6 @@ FollowingMeans followingMeans(const LitSurface& surface, std::span<const std::ui
         result.slopes[g] = scaled;
         result.areas[g] *= static_cast<float>(1 / area);
     }
-    return result;
 }
 
 // Returns the smallest change of the groups' normals that changes the means by `wanted`, about. It is the smaller, the
@@ -236,34 +236,36 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     constexpr int mostRounds = 8;
     constexpr double enough = 5e-4;
     std::vector<glm::vec3> best(normals.begin(), normals.end());
-    FollowingMeans atBest;
+    FollowingMeans at;
+    const auto followNormals = [&] { follow({positions, normals, colors, indices, true}, groups, pointsOfLight, at); };
     LightMeans wanted{};
     double leastSquares = std::numeric_limits<double>::infinity();
     // Strong at first, so that normals turn no further than the lights ask for, and highlights keep their place.
     double damping = 1;
     for (int round = 0; round < mostRounds; ++round) {
-        FollowingMeans now = followingMeans({positions, normals, colors, indices, true}, groups, pointsOfLight);
+        followNormals();
         LightMeans rest{};
         double squares = 0;
         double worst = 0;
         for (std::size_t l = 0; l < lightCount; ++l) {
-            rest[l] = target[l] - now.means[l];
+            rest[l] = target[l] - at.means[l];
             squares += rest[l] * rest[l];
             worst = std::max(worst, std::abs(rest[l]));
         }
         if (squares < leastSquares) {
             leastSquares = squares;
             std::copy(normals.begin(), normals.end(), best.begin());
-            atBest = std::move(now);
             wanted = rest;
             if (worst <= enough) break;
             damping *= 0.3;
         } else if (round > 0) {
+            std::copy(best.begin(), best.end(), normals.begin());
+            followNormals();
             damping *= 10;
         } else {
             return;  // no numbers
         }
-        turn(best, groups, smallestChange(atBest, wanted, damping), normals);
+        turn(best, groups, smallestChange(at, wanted, damping), normals);
     }
     std::copy(best.begin(), best.end(), normals.begin());
 }

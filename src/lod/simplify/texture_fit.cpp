@@ -128,7 +128,7 @@ void fitCoordinates(const FitSource& source, const LevelMesh& level, const Numbe
     const TextureSums sums = sumTextureGaps(source, level, anchors);
     const Grouping groups = grouped(
         level, source.vertices.count(), [&](MeshVertexNumber v) { return source.charts[v]; }, false);
-    auto solution = equations<4>(level, sums, groups, [](const TextureSums::Vertex& v) { return v.gap; });
+    auto solution = equations<4>(level, sums, groups, [&](LevelVertexNumber v) { return sums.vertices[v].gap; });
     solution.held.reserve(groups.count());
     for (const MeshVertexNumber v : groups.sources) solution.held.push_back(source.seams[v]);
     solution.solve();
