@@ -201,6 +201,20 @@ void turn(std::span<const glm::vec3> before, std::span<const std::uint32_t> grou
     }
 }
 
+// The root of the mean square, over the area, of how far the groups' normals were turned.
+double turned(std::span<const glm::vec3> before, std::span<const glm::vec3> after,
+              std::span<const std::uint32_t> groups, const FollowingMeans& at) {
+    double sum = 0;
+    double areas = 0;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+        const double area = at.areas[groups[v]];
+        const glm::dvec3 change = glm::dvec3(after[v]) - glm::dvec3(before[v]);
+        sum += area * glm::dot(change, change);
+        areas += area;
+    }
+    return areas > 0 ? std::sqrt(sum / areas) : 0;
+}
+
 }  // namespace
 
 std::array<glm::dvec3, lightCount> directionsToLights() {
@@ -235,7 +249,12 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
               std::span<glm::vec3> normals) {
     constexpr int mostRounds = 8;
     constexpr double enough = 5e-4;
-    std::vector<glm::vec3> best(normals.begin(), normals.end());
+    // A turn changes the shading of each point, of which less blur leaves more than of the mean: no further than so
+    // many times what it gains.
+    constexpr double mostTurn = 16;
+    const std::vector<glm::vec3> original(normals.begin(), normals.end());
+    std::vector<glm::vec3> best = original;
+    double worstAtFirst = 0;
     FollowingMeans at;
     const auto followNormals = [&] { follow({positions, normals, colors, indices, true}, groups, pointsOfLight, at); };
     LightMeans wanted{};
@@ -252,7 +271,9 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
             squares += rest[l] * rest[l];
             worst = std::max(worst, std::abs(rest[l]));
         }
+        if (round == 0) worstAtFirst = worst;
         if (squares < leastSquares) {
+            if (round > 0 && turned(original, normals, groups, at) > mostTurn * (worstAtFirst - worst)) break;
             leastSquares = squares;
             std::copy(normals.begin(), normals.end(), best.begin());
             wanted = rest;

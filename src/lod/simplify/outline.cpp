@@ -20,6 +20,7 @@ constexpr int leastResolution = 128;
 constexpr int mostResolution = 512;
 constexpr double cellsPerEdge = 16;  // about, of an even mesh
 
+constexpr double mostUnseen = 5e-3;   // relative differences of areas up to which nothing moves
 constexpr int localRounds = 2;        // each edge of an outline follows level 0's
 constexpr int mostGlobalRounds = 12;  // the covered area of each direction becomes level 0's
 // Relative differences of areas. Levels of many triangles take time, and mostly cover enough.
@@ -203,7 +204,7 @@ public:
         gradients_.assign(count * places_.size(), glm::vec3(0));
         std::vector<double> missing(count, 0);
         double misfit = 0;
-        bool matched = true;
+        double worst = 0;
         for (std::size_t d = 0; d < count; ++d) {
             const double own = forEachPoint(outlines_[d], [&](const OutlinePoint& point) {
                 const glm::dvec3 outward = outlines_[d].inSpace(point.across);
@@ -211,12 +212,16 @@ public:
                 gradients_[count * point.b + d] += glm::vec3(point.length * point.share * outward);
             });
             missing[d] = areas_[d] - own;
-            matched = matched && std::abs(missing[d]) <= enough * areas_[d];
-            if (areas_[d] > 0) misfit += missing[d] * missing[d] / (areas_[d] * areas_[d]);
+            if (!(areas_[d] > 0)) continue;
+            const double relative = missing[d] / areas_[d];
+            misfit += relative * relative;
+            worst = std::max(worst, std::abs(relative));
         }
+        const bool matched = worst <= enough;
         vainRounds_ = matched || misfit < leastMisfit_ ? 0 : vainRounds_ + 1;
         if (vainRounds_ == 0) {
             leastMisfit_ = misfit;
+            worstOfBest_ = worst;
             best_ = places_;
         }
         if (matched || vainRounds_ == mostVainRounds) return false;
@@ -230,6 +235,8 @@ public:
 
     // The last ones, unless the rounds have led away from better ones.
     [[nodiscard]] const std::vector<glm::vec3>& places() const { return vainRounds_ > 0 ? best_ : places_; }
+    // Their largest relative difference of an area.
+    [[nodiscard]] double worst() { return vainRounds_ > 0 ? worstOfBest_ : worstArea(); }
 
 private:
     // Marks what the level covers; its area. Keeps where the places lie, and the edges that may be at its outline.
@@ -321,8 +328,9 @@ private:
     const Bounds& box_;
     std::vector<glm::vec3> best_;                                   // places whose areas were nearest to the outlines'
     double leastMisfit_ = std::numeric_limits<double>::infinity();  // of those: squares of relative differences
-    int vainRounds_ = 0;                                            // since then
-    std::vector<glm::vec3> gradients_;                              // of each place, one a direction
+    double worstOfBest_ = std::numeric_limits<double>::infinity();
+    int vainRounds_ = 0;                // since then
+    std::vector<glm::vec3> gradients_;  // of each place, one a direction
     // As last seen from some direction.
     EdgeFill fill_;
     std::vector<glm::dvec2> cells_;   // of each place
@@ -359,12 +367,22 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     corners.reserve(indices.size());
     for (const std::uint32_t v : indices) corners.push_back(places[v]);
     const double enough = indices.size() > 3 * fewTriangles ? passable : goodEnough;
-    OutlineFit fit(std::move(at), corners, outlines, box);
-    if (fit.worstArea() <= enough) return;
-    for (int round = 0; round < localRounds; ++round) fit.followLocally();
-    for (int round = 0; round < mostGlobalRounds && fit.matchAreas(enough); ++round) {
+    OutlineFit fit(at, corners, outlines, box);
+    if (fit.worstArea() <= mostUnseen) return;
+    const auto matchAreas = [&](OutlineFit& own) {
+        for (int round = 0; round < mostGlobalRounds && own.matchAreas(enough); ++round) {
+        }
+    };
+    matchAreas(fit);
+    std::vector<glm::vec3> best = fit.places();
+    // Edges that follow level 0's outline one by one move farther, and may follow another part's: only where it helps.
+    if (fit.worst() > mostUnseen) {
+        OutlineFit other(std::move(at), corners, outlines, box);
+        for (int round = 0; round < localRounds; ++round) other.followLocally();
+        matchAreas(other);
+        if (other.worst() < fit.worst()) best = other.places();
     }
-    for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = fit.places()[places[v]];
+    for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = best[places[v]];
 }
 
 }  // namespace defocus
