@@ -534,7 +534,8 @@ def h100_equal_error():
     return table(text[0], text[1:]) + source("`, `".join(commands), "scene, camera, lens, image size, light, reference", "h100.txt")
 
 
-TABLES = {"h100 speed": h100_speed, "h100 equal error": h100_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
+TABLES = {"h100 speed": h100_speed, "h100 equal error": h100_equal_error,
+          "speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
           "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "rates": rates, "pyramids": pyramids, "truth": truth, "shadows": shadows,
           "stability": stability, "honesty": honesty, "sequences": sequences, "parts": parts,
           "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_levels}

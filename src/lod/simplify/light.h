@@ -55,8 +55,8 @@ inline constexpr std::size_t pointsOfLight = 12'000;
 // Turns the normals of a coarse surface until each light's mean is about `target`'s (within 5e-4, in the unit of the
 // means, where few rounds of Levenberg 1944 and Marquardt 1963 find that); the change is the smallest in the mean
 // square over the area, and no more than 16 times what it gains, since it shows at each point. Their lengths stay, so
-// that no surface gets rougher or smoother. Vertices with equal numbers in
-// `groups` (below positions.size()) share a normal, and keep it shared.
+// that no surface gets rougher or smoother. Vertices with equal numbers in `groups` (below positions.size()) share a
+// normal, and keep it shared.
 void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> colors,
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
               std::span<glm::vec3> normals);

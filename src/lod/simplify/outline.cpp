@@ -20,7 +20,7 @@ constexpr int leastResolution = 128;
 constexpr int mostResolution = 512;
 constexpr double cellsPerEdge = 16;  // about, of an even mesh
 
-constexpr double mostUnseen = 5e-3;   // relative differences of areas up to which nothing moves
+constexpr double mostUnseen = 5e-3;   // relative difference of areas up to which nothing moves
 constexpr int localRounds = 2;        // each edge of an outline follows level 0's
 constexpr int mostGlobalRounds = 12;  // the covered area of each direction becomes level 0's
 // Relative differences of areas. Levels of many triangles take time, and mostly cover enough.
