@@ -67,8 +67,6 @@ void SurfacePass::addDraws(const FramePlan& plan) {
     transmittingObjects_ = 0;
     blursBackdrop_ = false;
     materialSlots_.clear();
-    commands_.clear();
-    commandsOfCount_.clear();
     for (std::size_t index = 0; index < plan.objects.size(); ++index) {
         const ObjectPlan& object = plan.objects[index];
         const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
@@ -115,9 +113,6 @@ void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const Lev
         added.sampleCount = end - first;
         added.runs = runs;
         added.triangleCount = indexCount / 3;
-        added.firstCommand = commands_.size();
-        if (runs.size() > 1)
-            for (const IndexRun& run : runs) commands_.push_back({.count = run.count, .firstIndex = run.first});
         added.screenDoor = screenDoor;
         added.program = &program(added);
     };
@@ -180,15 +175,12 @@ void SurfacePass::bindFrame() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-// From sample `first` on. Several passes may draw the same meshes, each its own samples.
-void SurfacePass::bindSamples(GpuMesh& mesh, std::uint32_t first) {
-    const auto bind = [&](GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride) {
-        mesh.vertexArray.bind(location, buffer, first * stride + offset, stride);
-    };
-    bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
-    bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
-    if (frame_->moments()) bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec3));
-    if (frame_->bandShifts()) bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
+// Several passes may draw the same meshes, each its own samples.
+void SurfacePass::bindSamples(VertexArray& array) const {
+    array.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
+    array.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
+    if (frame_->moments()) array.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec3));
+    if (frame_->bandShifts()) array.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
 }
 
 // Everything that a draw of samples from `sample` on reads.
@@ -203,7 +195,7 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
     scene_->textures(item.material).attach();
     if (shadows_ != nullptr) shadows_->bind(sample);
     if (info_.look == SurfaceLook::caster) glUniform1i(shadowSlotLocation, shadowSlot_);
-    bindSamples(mesh, 0);
+    bindSamples(mesh.vertexArray);
     bindLevel(mesh, item.level);
     mesh.vertexArray.indices(indices);
     if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && shaded() && item.level > 0) {
@@ -230,33 +222,9 @@ void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t coun
     const SampleSpan samples = samplesOf(item, first, count);
     if (samples.empty()) return;
     bindDraw(item, samples.begin, scene_->mesh(item.mesh).indices);
-    submit(samples.begin, samples.end, item.triangleCount,
-           [&](std::uint32_t at, std::uint32_t size) { drawRuns(item, at, size); });
-}
-
-// Samples [first, first + count), one an instance.
-void SurfacePass::drawRuns(const Draw& item, std::uint32_t first, std::uint32_t count) {
-    const GLenum mode = modeOf(item.refinement);
-    if (item.runs.size() == 1) {
-        drawIndices(mode, item.runs.front().first, item.runs.front().count, first, count);
-        return;
-    }
-    bindSamples(scene_->mesh(item.mesh), first);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commandsFor(count).name());
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
-    const auto* const offset = reinterpret_cast<const void*>(item.firstCommand * sizeof(DrawCommand));
-    glMultiDrawElementsIndirect(mode, GL_UNSIGNED_INT, offset, static_cast<GLsizei>(item.runs.size()), 0);
-}
-
-// Made once and never changed: of a buffer that was updated just before, NVIDIA's driver 580 drew what it had held.
-const Buffer& SurfacePass::commandsFor(std::uint32_t instances) {
-    const auto [entry, isNew] = commandsOfCount_.try_emplace(instances);
-    if (isNew) {
-        for (DrawCommand& command : commands_) command.instanceCount = instances;
-        entry->second = Buffer::of(std::span<const DrawCommand>(commands_));
-        glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
-    }
-    return entry->second;
+    submit(samples.begin, samples.end, item.triangleCount, [&](std::uint32_t at, std::uint32_t size) {
+        for (const IndexRun& run : item.runs) drawIndices(modeOf(item.refinement), run.first, run.count, at, size);
+    });
 }
 
 void SurfacePass::bindSolid(GLenum depthTest) {
@@ -423,7 +391,6 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
 
 std::size_t SurfacePass::bytes() const {
     std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes() + backdrop_.bytes();
-    for (const auto& [count, commands] : commandsOfCount_) total += commands.bytes();
     for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
     return total;
 }

@@ -1,8 +1,8 @@
 #pragma once
 // Draws the surfaces of a FramePlan: one shader program for each set of features that the drawn materials need, and per
 // object, primitive and wave at most two instanced draws (a wave meets at most one boundary between levels); two more
-// where a sample at that boundary is split over its pixels. A level that clusters are left out of is drawn by one
-// indirect draw of all its runs of indices.
+// where a sample at that boundary is split over its pixels. A level that clusters are left out of is drawn run by run
+// of its indices: of indirect draws, NVIDIA's driver 580 dropped some whose commands had been uploaded just before.
 
 #include <map>
 #include <optional>
@@ -68,14 +68,6 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    struct DrawCommand {  // as glMultiDrawElementsIndirect reads it
-        GLuint count = 0;
-        GLuint instanceCount = 0;
-        GLuint firstIndex = 0;
-        GLint baseVertex = 0;
-        GLuint baseInstance = 0;
-    };
-
     enum class ScreenDoor {
         open,         // every pixel
         coarseShare,  // the pixels of a boundary sample that draw the coarser level
@@ -90,8 +82,7 @@ private:
         int material = -1;
         std::uint32_t firstSample = 0;
         std::uint32_t sampleCount = 0;
-        std::vector<IndexRun> runs;    // of the primitive's indices
-        std::size_t firstCommand = 0;  // in commands_, where there are several runs
+        std::vector<IndexRun> runs;  // of the primitive's indices
         std::uint32_t triangleCount = 0;
         bool mirrored = false;
         bool blurMoves = false;
@@ -110,8 +101,7 @@ private:
     [[nodiscard]] ShaderDefines passDefines(bool vertexShaderLayers) const;
     void bindFrame();
     void bindSolid(GLenum depthTest);
-    void bindSamples(GpuMesh& mesh, std::uint32_t first);
-    const Buffer& commandsFor(std::uint32_t instances);
+    void bindSamples(VertexArray& array) const;
     void drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
                    GLenum depthTest = GL_GREATER, const ObjectSet& objects = {});
     void drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
@@ -123,7 +113,6 @@ private:
     void setFaces(const Draw& item) const;
     void bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices);
     void submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples);
-    void drawRuns(const Draw& item, std::uint32_t first, std::uint32_t count);
 
     GpuScene* scene_;
     SurfacePassInfo info_;
@@ -137,8 +126,6 @@ private:
     int shadowSlot_ = 0;  // that casters are drawn into
     UniformBlocks<GpuObject> objectBlocks_;
     UniformBlocks<GpuMaterial> materialBlocks_;
-    std::vector<DrawCommand> commands_;                // of the draws that have several runs; without instances
-    std::map<std::uint32_t, Buffer> commandsOfCount_;  // the same for so many instances
     std::vector<GpuPoses> poses_;                      // as many as objects
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
