@@ -38,20 +38,26 @@ VertexArray::VertexArray() {
     handle_ = GlHandle<destroyVertexArray>(name);
 }
 
+// Of changes to an array that wasn't bound, NVIDIA's driver 580 left some out of the next draw, now and then.
+GLuint VertexArray::bound() {
+    glBindVertexArray(name());
+    return name();
+}
+
 void VertexArray::attribute(GLuint location, GLint components, GLenum type, bool normalized, bool perInstance) {
-    glEnableVertexArrayAttrib(name(), location);
+    glEnableVertexArrayAttrib(bound(), location);
     glVertexArrayAttribFormat(name(), location, components, type, normalized ? GL_TRUE : GL_FALSE, 0);
     glVertexArrayAttribBinding(name(), location, location);
     glVertexArrayBindingDivisor(name(), location, perInstance ? 1 : 0);
 }
 
 void VertexArray::bind(GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride) {
-    glVertexArrayVertexBuffer(name(), location, buffer.name(), static_cast<GLintptr>(offset),
+    glVertexArrayVertexBuffer(bound(), location, buffer.name(), static_cast<GLintptr>(offset),
                               static_cast<GLsizei>(stride));
 }
 
 void VertexArray::indices(const Buffer& buffer) {
-    glVertexArrayElementBuffer(name(), buffer.name());
+    glVertexArrayElementBuffer(bound(), buffer.name());
 }
 
 }  // namespace defocus

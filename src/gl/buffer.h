@@ -33,6 +33,7 @@ private:
     std::size_t bytes_ = 0;
 };
 
+// Every change binds it.
 class VertexArray {
 public:
     VertexArray();
@@ -45,6 +46,8 @@ public:
     [[nodiscard]] GLuint name() const { return handle_.name(); }
 
 private:
+    GLuint bound();
+
     GlHandle<destroyVertexArray> handle_;
 };
 
