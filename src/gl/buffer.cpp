@@ -38,26 +38,20 @@ VertexArray::VertexArray() {
     handle_ = GlHandle<destroyVertexArray>(name);
 }
 
-// Of changes to an array that wasn't bound, NVIDIA's driver 580 left some out of the next draw, now and then.
-GLuint VertexArray::bound() {
-    glBindVertexArray(name());
-    return name();
-}
-
 void VertexArray::attribute(GLuint location, GLint components, GLenum type, bool normalized, bool perInstance) {
-    glEnableVertexArrayAttrib(bound(), location);
+    glEnableVertexArrayAttrib(name(), location);
     glVertexArrayAttribFormat(name(), location, components, type, normalized ? GL_TRUE : GL_FALSE, 0);
     glVertexArrayAttribBinding(name(), location, location);
     glVertexArrayBindingDivisor(name(), location, perInstance ? 1 : 0);
 }
 
 void VertexArray::bind(GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride) {
-    glVertexArrayVertexBuffer(bound(), location, buffer.name(), static_cast<GLintptr>(offset),
+    glVertexArrayVertexBuffer(name(), location, buffer.name(), static_cast<GLintptr>(offset),
                               static_cast<GLsizei>(stride));
 }
 
 void VertexArray::indices(const Buffer& buffer) {
-    glVertexArrayElementBuffer(bound(), buffer.name());
+    glVertexArrayElementBuffer(name(), buffer.name());
 }
 
 }  // namespace defocus

@@ -33,7 +33,6 @@ private:
     std::size_t bytes_ = 0;
 };
 
-// Every change binds it.
 class VertexArray {
 public:
     VertexArray();
@@ -46,8 +45,6 @@ public:
     [[nodiscard]] GLuint name() const { return handle_.name(); }
 
 private:
-    GLuint bound();
-
     GlHandle<destroyVertexArray> handle_;
 };
 
