@@ -493,45 +493,45 @@ def lens_levels():
 # ---- a GPU ----------------------------------------------------------------------------------------------------------
 
 
-def of_h100():
-    """What each bench of bench/results/h100.txt printed: {the command: lines}."""
-    printed = (RESULTS / "h100.txt").read_text().split("\ndefocus ")[1:]
-    return {"defocus " + text.splitlines()[0]: text.splitlines()[1:] for text in printed}
+def on_h100(name):
+    """The results, and what stands below their table."""
+    file = f"h100-{name}.json"
+    results = json.loads((RESULTS / file).read_text())
+    held = results["heldEqual"].rstrip(".")
+    return results, source(results["commands"][0], held, file).replace("the run]", f"the run, commit {results['commit']}]")
 
 
 def h100_speed():
-    ((command, lines),) = [(command, lines) for command, lines in of_h100().items() if "speedup" in command]
-    measured = {}
-    for fields in (line.split() for line in lines if line.startswith("samples ")):
-        measured.setdefault(fields[1], {})[fields[5]] = fields
+    results, below = on_h100("speedup")
     rows = []
-    for count, modes in measured.items():
+    for count in sorted({row["samples"] for row in results["rows"]}):
+        modes = {row["lod"]: row for row in results["rows"] if row["samples"] == count}
         off, levels = modes["off"], modes["fractional"]
-        psnr, flip = [float(fields[-3]) for fields in (off, levels)], [float(fields[-1]) for fields in (off, levels)]
-        rows.append([count, f"{float(off[6]):.0f} ms", f"{float(levels[6]):.0f} ms", f"{float(levels[10]):.1f}",
-                     f"{10 ** ((psnr[0] - psnr[1]) / 20):.2f}", f"{flip[1] / flip[0]:.2f}"])
-    return table(["lens samples", "full detail", "levels", "times as fast", "times the RMSE", "times the FLIP"], rows) + source(
-        command, "scene, camera, light, image size, process, lens samples; errors are against 1,024 samples at full detail",
-        "h100.txt")
+        rows.append([str(count), f"{off['milliseconds']['median']:.0f} ms", f"{levels['milliseconds']['median']:.0f} ms",
+                     f"{levels['speedUp']:.1f}", f"{levels['sizeOnly']['speedUp']:.1f}", f"{levels['blurOnly']['speedUp']:.1f}",
+                     missed(error_ratio(modes), 1.2), missed(flip_ratio(modes), 1.2)])
+    return table(["lens samples", "full detail", "levels", "times as fast", "size only", "blur only", "times the RMSE", "times the FLIP"],
+                 rows) + below
 
 
 def h100_equal_error():
-    names = {"helmets.gltf": "FlightHelmet 20 times"}
-    text, commands = [], []
-    for command, lines in of_h100().items():
-        begin = [i for i, line in enumerate(lines) if line.startswith("seconds a frame")]
-        if not begin:
-            continue
-        commands.append(command)
+    text, below = [], []
+    for name, scene in [("school", "Fish school"), ("helmets", "FlightHelmet 20 times")]:
+        results, command = on_h100(name)
+        methods = results["timesToErrors"]
         if not text:
-            text = [["seconds a frame", *(f"RMSE {error}" for error in lines[begin[0]].split()[-3:])]]
-        text.append([f"**{names.get(command.split()[3], 'Fish school')}**", "", "", ""])
-        for line in lines[begin[0] + 1:]:
-            if line.startswith("  ("):
-                break
-            name, *times = re.split(r"\s{2,}", line.strip())
-            text.append([name, *(time for time in times if not time.endswith("x"))])
-    return table(text[0], text[1:]) + source("`, `".join(commands), "scene, camera, lens, image size, light, reference", "h100.txt")
+            text = [["milliseconds a frame", *(f"RMSE {time['rmse']}" for time in methods[0]["times"])]]
+        text.append([f"**{scene}**", "", "", ""])
+        for method in methods:
+            text.append([method["name"], *(h100_time(time) for time in method["times"])])
+        below.append(command)
+    return table(text[0], text[1:]) + "".join(below)
+
+
+def h100_time(time):
+    if time["milliseconds"] is None:
+        return "not reached"
+    return f"{'< ' if time['atMost'] else ''}{time['milliseconds']:.0f}"
 
 
 TABLES = {"h100 speed": h100_speed, "h100 equal error": h100_equal_error,

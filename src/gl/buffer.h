@@ -42,9 +42,13 @@ public:
     // Attaches a buffer to the binding point of `location`, from byte `offset`, `stride` bytes a vertex.
     void bind(GLuint location, const Buffer& buffer, std::size_t offset, std::size_t stride);
     void indices(const Buffer& buffer);
-    [[nodiscard]] GLuint name() const { return handle_.name(); }
+    // Draws read it from now on. Goes before Program::use: the other way round, NVIDIA's driver 580 now and then left
+    // out the first draw of a program.
+    void use() const { glBindVertexArray(name()); }
 
 private:
+    [[nodiscard]] GLuint name() const { return handle_.name(); }
+
     GlHandle<destroyVertexArray> handle_;
 };
 

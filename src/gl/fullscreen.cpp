@@ -6,8 +6,8 @@ void Fullscreen::draw(const Program& program) const {
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
+    noVertices_.use();
     program.use();
-    glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -15,8 +15,8 @@ void Fullscreen::drawSquares(const Program& program, int count) const {
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_PROGRAM_POINT_SIZE);
+    noVertices_.use();
     program.use();
-    glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_POINTS, 0, count);
     glDisable(GL_PROGRAM_POINT_SIZE);
 }
@@ -34,8 +34,8 @@ void Fullscreen::drawBlended(const Program& program, GLenum kept) const {
     glDisable(GL_CULL_FACE);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, kept);
+    noVertices_.use();
     program.use();
-    glBindVertexArray(noVertices_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_BLEND);
 }

@@ -186,6 +186,7 @@ void SurfacePass::bindSamples(VertexArray& array) const {
 // Everything that a draw of samples from `sample` on reads.
 void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices) {
     GpuMesh& mesh = scene_->mesh(item.mesh);
+    mesh.vertexArray.use();
     item.program->use();
     frame_->bindWave(sample);
     objectBlocks_.bind(1, item.object);
@@ -202,7 +203,6 @@ void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer&
         glUniform4fv(0, 1, &level.leastColor.x);
         glUniform4fv(1, 1, &level.mostColor.x);
     }
-    glBindVertexArray(mesh.vertexArray.name());
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     if (modeOf(item.refinement) == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
 }
@@ -381,11 +381,11 @@ void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
         sky_ = Program({std::move(shaders), skyDefines_, info_.shaderFolder});
     }
     bindFrame();
+    skyArray_.use();
     sky_.use();
     glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
     glDepthFunc(GL_GEQUAL);  // equal to the cleared depth only where nothing was drawn
-    glBindVertexArray(skyArray_.name());
     glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
 }
 

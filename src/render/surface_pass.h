@@ -2,7 +2,7 @@
 // Draws the surfaces of a FramePlan: one shader program for each set of features that the drawn materials need, and per
 // object, primitive and wave at most two instanced draws (a wave meets at most one boundary between levels); two more
 // where a sample at that boundary is split over its pixels. A level that clusters are left out of is drawn run by run
-// of its indices: of indirect draws, NVIDIA's driver 580 dropped some whose commands had been uploaded just before.
+// of its indices.
 
 #include <map>
 #include <optional>

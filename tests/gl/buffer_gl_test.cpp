@@ -116,7 +116,7 @@ TEST_F(GlVertexArray, readsAttributesByOffsetStrideTypeAndInstance) {
     glClear(GL_COLOR_BUFFER_BIT);
     glDisable(GL_DEPTH_TEST);
     points.use();
-    glBindVertexArray(array.name());
+    array.use();
     glDrawElementsInstanced(GL_POINTS, 3, GL_UNSIGNED_SHORT, nullptr, 2);
     const Image image = readBack(texture, 4);
     for (int instance = 0; instance < 2; ++instance)

@@ -103,13 +103,13 @@ void LensRays::trace(const DepthLayers& layers, const glm::vec2& pinhole, std::u
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
+    samples_.use();
     trace_.use();
     layers.colors().attach(0);
     layers.surfaces().attach(1);
     reach_.attach(2);
     glUniform1i(0, static_cast<GLint>(layers.count()));
     glUniform2f(2, pinhole.x, pinhole.y);
-    glBindVertexArray(samples_.name());
     glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
 }
 

@@ -217,6 +217,7 @@ void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool
         GpuMesh& mesh = scene_->mesh(object.mesh);
         const GpuPoses& poses = poses_[vertices.object];
         const Program& program = vertexProgram(vertices, attributes);
+        mesh.vertexArray.use();
         program.use();
         const float place = static_cast<float>(moment) + fraction;
         if (poses.moving || (changesBlur(vertices) && !attributes))
@@ -225,7 +226,6 @@ void LensFront::makeVertices(const Buffer& target, std::size_t vertexBytes, bool
         if (poses.texels) poses.texels.attach(6);
         if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
         bindLevel(mesh, vertices.level);
-        glBindVertexArray(mesh.vertexArray.name());
         glBindBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, target.name(),
                           static_cast<GLintptr>(vertices.first * vertexBytes),
                           static_cast<GLsizeiptr>(vertices.count * vertexBytes));
