@@ -130,17 +130,13 @@ FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions,
     return source;
 }
 
-bool isUnused(const Anchor& anchor) {
-    return anchor.weight[0] == 0 && anchor.weight[1] == 0 && anchor.weight[2] == 0;
-}
-
 AnchoredValues anchoredValues(const FitSource& source, const Numbered<MeshVertexNumber, Anchor>& anchors) {
     const Vertices& vertices = source.vertices;
     AnchoredValues sums;
     sums.values.resize(anchors.size());
     if (!vertices.colors.empty()) sums.colors.resize(anchors.size(), glm::vec4(0));
     for (const MeshVertexNumber v : anchors.numbers()) {
-        const MeshVertexNumber other = anchors[v].sharedWith;
+        const MeshVertexNumber other = anchors[v].shared();
         const MeshVertexNumber own = other.isValid() ? other : v;
         Anchored& sum = sums.values[own];
         sum.area += source.areas[v];

@@ -23,9 +23,6 @@ struct Coordinates {
 
 Coordinates coordinatesOf(const Vertices& vertices, MeshVertexNumber v);
 
-// Returns whether the anchor leaves its vertex out of the fit.
-bool isUnused(const Anchor& anchor);
-
 // The vertices that an anchor stands for: its own, and those that share it.
 struct Anchored {
     float area = 0;
@@ -54,6 +51,21 @@ struct Grouping {
     Numbered<LevelVertexNumber, UnknownNumber> of;
     Numbered<UnknownNumber, MeshVertexNumber> sources;  // whose value each group starts from
     [[nodiscard]] std::size_t count() const { return sources.size(); }
+
+    // For each group the sum of value(vertex), from `zero` on.
+    template <typename T, typename Value>
+    [[nodiscard]] Numbered<UnknownNumber, T> summed(const T& zero, const Value& value) const {
+        Numbered<UnknownNumber, T> sums(count(), zero);
+        for (const LevelVertexNumber v : of.numbers()) addTo(sums[of[v]], value(v));
+        return sums;
+    }
+
+private:
+    static void addTo(double& sum, double value) { sum += value; }
+    template <std::size_t n>
+    static void addTo(std::array<double, n>& sum, const std::array<double, n>& value) {
+        for (std::size_t c = 0; c < n; ++c) sum[c] += value[c];
+    }
 };
 
 // `leaderOf` says which of the `count` mesh vertices leads another's group. With `sidesApart`, vertices that stand
@@ -75,25 +87,22 @@ Grouping grouped(const LevelMesh& level, std::size_t count, const LeaderOf& lead
     return groups;
 }
 
-// The equations with every unknown's sums; solutions start at zero. `value` gives the sums of each of the level's
-// vertices.
-template <std::size_t channels, typename Sums, typename Value>
-LeastSquares equations(const LevelMesh& level, const Sums& sums, const Grouping& groups, const Value& value) {
+// The equations with every unknown's sums; solutions start at zero. `weight` and `value` give the sums of each of the
+// level's vertices.
+template <std::size_t channels, typename Weight, typename Value>
+LeastSquares equations(const LevelMesh& level, std::span<const TriangleSums> triangles, const Grouping& groups,
+                       const Weight& weight, const Value& value) {
     LeastSquares result;
-    result.triangles = sums.triangles;
+    result.triangles = triangles;
     result.corners.reserve(level.triangles.indices.size());
     for (const LevelVertexNumber v : level.triangles.indices) result.corners.push_back(groups.of[v]);
-    Numbered<UnknownNumber, double> weights(groups.count(), 0);
-    Numbered<UnknownNumber, std::array<double, channels>> targets(groups.count());
-    for (const LevelVertexNumber v : groups.of.numbers()) {
-        const UnknownNumber g = groups.of[v];
-        weights[g] += sums.vertices[v].weight;
-        for (std::size_t c = 0; c < channels; ++c) targets[g][c] += value(v)[c];
+    result.weights.reserve(groups.count());
+    for (const double sum : groups.summed(0.0, weight)) result.weights.push_back(static_cast<float>(sum));
+    result.sums.reserve(groups.count());
+    for (const auto& sum : groups.summed(std::array<double, channels>{}, value)) {
+        LeastSquares::Row& row = result.sums.emplace_back(LeastSquares::Row{});
+        for (std::size_t c = 0; c < channels; ++c) row[c] = static_cast<float>(sum[c]);
     }
-    result.weights.assign(weights.begin(), weights.end());
-    result.sums.resize(groups.count());
-    for (const UnknownNumber g : targets.numbers())
-        for (std::size_t c = 0; c < channels; ++c) result.sums[g][c] = static_cast<float>(targets[g][c]);
     result.solution.assign(groups.count(), LeastSquares::Row{});
     return result;
 }

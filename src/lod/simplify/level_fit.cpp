@@ -18,17 +18,23 @@ namespace {
 // Normals that agree less have none that could stand for them.
 constexpr float leastAgreement = 0.125f;
 
-// What the anchors give a vertex of the level: sums of share · weight, and of that times their own values.
-struct VertexSums {
-    double weight = 0;
-    std::array<double, 3> gap{};  // from the point of the level to the vertex that lies there
-    std::array<double, 3> normal{};
-};
-
+// What the anchors give the vertices of the level: sums of share · weight, and of that times their own values.
 struct AnchorSums {
-    Numbered<LevelVertexNumber, VertexSums> vertices;
-    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // the same of colours; empty without
+    using Three = std::array<double, 3>;
+    Numbered<LevelVertexNumber, double> weights;
+    Numbered<LevelVertexNumber, Three> gaps;  // from the point of the level to the vertex that lies there
+    Numbered<LevelVertexNumber, Three> normals;
+    Numbered<LevelVertexNumber, std::array<double, 4>> colors;  // empty without
     Numbered<TriangleNumber, TriangleSums> triangles;
+
+    template <std::size_t channels>
+    [[nodiscard]] LeastSquares equationsOf(
+        const LevelMesh& level, const Grouping& groups,
+        const Numbered<LevelVertexNumber, std::array<double, channels>>& values) const {
+        return equations<channels>(
+            level, triangles, groups, [&](LevelVertexNumber v) { return weights[v]; },
+            [&](LevelVertexNumber v) { return values[v]; });
+    }
 };
 
 AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
@@ -37,13 +43,16 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
     const Numbered<TriangleNumber, glm::vec3> normals = unitNormals(vertices.positions, level);
     const AnchoredValues anchored = anchoredValues(source, anchors);
     AnchorSums sums;
-    sums.vertices.resize(level.sources.size());
-    if (!anchored.colors.empty()) sums.colors.resize(level.sources.size());
+    const std::size_t count = level.sources.size();
+    sums.weights.resize(count);
+    sums.gaps.resize(count);
+    sums.normals.resize(count);
+    if (!anchored.colors.empty()) sums.colors.resize(count);
     sums.triangles.resize(level.triangles.count());
     for (const MeshVertexNumber v : anchors.numbers()) {
         const Anchor& anchor = anchors[v];
         const float* w = anchor.weight;
-        if (isUnused(anchor)) continue;
+        if (anchor.isUnused()) continue;
         const auto corner = level.triangles.corners(anchor.triangle);
         const Anchored& value = anchored.values[v];
         const float share = foreshortened(value.area, anchor, normals[anchor.triangle], value.normal);
@@ -60,11 +69,10 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
             if (weight == 0) continue;
             triangle[k] += share * w[k] * w[k];
             triangle[3 + k] += share * w[k] * w[(k + 1) % 3];
-            VertexSums& own = sums.vertices[corner[k]];
-            own.weight += weight;
+            sums.weights[corner[k]] += weight;
             for (std::size_t c = 0; c < 3; ++c) {
-                own.gap[c] += weight * double{gap[static_cast<glm::length_t>(c)]};
-                own.normal[c] += weight * double{value.normal[static_cast<glm::length_t>(c)]};
+                sums.gaps[corner[k]][c] += weight * double{gap[static_cast<glm::length_t>(c)]};
+                sums.normals[corner[k]][c] += weight * double{value.normal[static_cast<glm::length_t>(c)]};
             }
             for (std::size_t c = 0; c < 4 && !sums.colors.empty(); ++c)
                 sums.colors[corner[k]][c] += weight * double{anchored.colors[v][static_cast<glm::length_t>(c)]};
@@ -73,11 +81,12 @@ AnchorSums sumAnchors(const FitSource& source, const LevelMesh& level,
     return sums;
 }
 
-Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, const LevelMesh& level,
-                                                    const AnchorSums& sums) {
+// Spends the gaps.
+Numbered<LevelVertexNumber, glm::vec3> fitPositions(const FitSource& source, const LevelMesh& level, AnchorSums& sums) {
     const auto leaderOf = [&](MeshVertexNumber v) { return source.positions.first[source.positions.id[v]]; };
     const Grouping groups = grouped(level, source.vertices.count(), leaderOf, false);
-    auto fit = equations<3>(level, sums, groups, [&](LevelVertexNumber v) { return sums.vertices[v].gap; });
+    auto fit = sums.equationsOf(level, groups, sums.gaps);
+    sums.gaps = {};
     fit.solve();
     Numbered<UnknownNumber, glm::vec3> original;
     original.reserve(groups.count());
@@ -121,7 +130,7 @@ Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMe
     Numbered<UnknownNumber, double> weights(groups.count(), 0);
     for (const MeshVertexNumber v : anchors.numbers()) {
         const Anchor& anchor = anchors[v];
-        if (isUnused(anchor)) continue;
+        if (anchor.isUnused()) continue;
         const auto corner = level.triangles.corners(anchor.triangle);
         const glm::vec3& own = source.vertices.normals[v.value];
         glm::vec3 interpolated(0);
@@ -144,36 +153,44 @@ Numbered<UnknownNumber, float> agreements(const FitSource& source, const LevelMe
     return result;
 }
 
-// A fit that is no normal of the triangles around it, with their corners at `positions`, is replaced by theirs, of
-// length 1.
-Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const LevelMesh& level,
-                                                  const Numbered<MeshVertexNumber, Anchor>& anchors,
-                                                  const AnchorSums& sums,
-                                                  const Numbered<LevelVertexNumber, glm::vec3>& positions) {
-    // Fitted as vectors: their means are shorter than 1 where they differ.
-    const Grouping groups = grouped(
-        level, source.vertices.count(), [&](MeshVertexNumber v) { return source.smoothing[v]; }, true);
+// As vectors: their means are shorter than 1 where normals differ. Spends the sums of normals.
+LeastSquares::Rows meanNormals(const FitSource& source, const LevelMesh& level, const Grouping& groups,
+                               AnchorSums& sums) {
     const std::vector<glm::vec3>& own = source.vertices.normals;
-    auto fit = equations<3>(level, sums, groups, [&](LevelVertexNumber v) { return sums.vertices[v].normal; });
+    auto fit = sums.equationsOf(level, groups, sums.normals);
+    sums.normals = {};
     startFromMeans<3>(
         fit, [&](UnknownNumber g, std::size_t c) { return own[groups.sources[g].value][static_cast<int>(c)]; });
     fit.solve();
+    return std::move(fit.solution);
+}
+
+// A fit that is no normal of the triangles around it, with their corners at `positions`, is replaced by theirs, of
+// length 1.
+Numbered<LevelVertexNumber, glm::vec3> fitNormals(const FitSource& source, const LevelMesh& level,
+                                                  const Numbered<MeshVertexNumber, Anchor>& anchors, AnchorSums& sums,
+                                                  const Numbered<LevelVertexNumber, glm::vec3>& positions) {
+    const Grouping groups = grouped(
+        level, source.vertices.count(), [&](MeshVertexNumber v) { return source.smoothing[v]; }, true);
+    LeastSquares::Rows means = meanNormals(source, level, groups, sums);
 
     const Numbered<UnknownNumber, glm::dvec3> faces = faceNormals(positions, level, groups);
     Numbered<UnknownNumber, glm::vec3> directions(groups.count());
     Numbered<UnknownNumber, std::uint8_t> replaced(groups.count(), 0);
     for (const UnknownNumber g : directions.numbers()) {
-        const auto& row = fit.solution[g];
+        const auto& row = means[g];
         const glm::vec3 normal(row[0], row[1], row[2]);
         const float length = glm::length(normal);
         const double faceLength = glm::length(faces[g]);
         if (length > leastAgreement && glm::dot(glm::dvec3(normal), faces[g]) >= 0) {
             directions[g] = normal / length;
         } else {
-            directions[g] = faceLength > 0 ? glm::vec3(faces[g] / faceLength) : own[groups.sources[g].value];
+            directions[g] =
+                faceLength > 0 ? glm::vec3(faces[g] / faceLength) : source.vertices.normals[groups.sources[g].value];
             replaced[g] = 1;
         }
     }
+    means = {};
     const Numbered<UnknownNumber, float> agreement = agreements(source, level, anchors, groups, directions);
     Numbered<LevelVertexNumber, glm::vec3> fitted;
     fitted.reserve(groups.of.size());
@@ -187,7 +204,7 @@ Numbered<LevelVertexNumber, glm::vec4> fitColors(const FitSource& source, const 
     if (own.empty()) return {};
     const Grouping groups = grouped(
         level, source.vertices.count(), [&](MeshVertexNumber v) { return source.shades[v]; }, true);
-    auto fit = equations<4>(level, sums, groups, [&](LevelVertexNumber v) { return sums.colors[v]; });
+    auto fit = sums.equationsOf(level, groups, sums.colors);
     startFromMeans<4>(
         fit, [&](UnknownNumber g, std::size_t c) { return own[groups.sources[g].value][static_cast<int>(c)]; });
     fit.solve();
@@ -281,7 +298,7 @@ void conserveLight(const FitSource& source, const LevelMesh& level, LevelFit& fi
 LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<MeshVertexNumber, Anchor> anchors) {
     LevelFit fit;
     fitCoordinates(source, level, anchors, fit);
-    const AnchorSums sums = sumAnchors(source, level, anchors);
+    AnchorSums sums = sumAnchors(source, level, anchors);
     fit.positions = fitPositions(source, level, sums);
     fit.normals = fitNormals(source, level, anchors, sums, fit.positions);
     anchors = {};

@@ -41,12 +41,18 @@ FitSource prepareFit(const Vertices& vertices, const WeldedPositions& positions,
                      const TriangleSet<MeshVertexNumber>& triangles);
 
 // Where a vertex of level 0 lies on a coarser level: a point of one of its triangles, as a weighted mean of the
-// corners. Weights of 0 leave the vertex out.
+// corners. Weights of 0 leave the vertex out of the fit.
 struct Anchor {
     TriangleNumber triangle;
     float weight[3] = {0, 0, 0};
-    // Valid if the vertex has no anchor of its own: its area, colour and normal count at the anchor of this near one.
-    MeshVertexNumber sharedWith = {};
+
+    // Of a vertex that has no anchor of its own: its area, colour and normal count at the anchor of `near`.
+    static Anchor sharedWith(MeshVertexNumber near) { return {{near.value}}; }
+    [[nodiscard]] bool isUnused() const { return weight[0] == 0 && weight[1] == 0 && weight[2] == 0; }
+    // The vertex whose anchor this one shares; invalid if there is none.
+    [[nodiscard]] MeshVertexNumber shared() const {
+        return isUnused() ? MeshVertexNumber{triangle.value} : MeshVertexNumber{};
+    }
 };
 
 // Says how a component of a level grows once it is fitted. It is scaled about `centre` until it has `area`, which is

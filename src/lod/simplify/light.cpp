@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/memory.h"
 #include "lod/simplify/triangle.h"
 
 namespace defocus {
@@ -95,35 +96,70 @@ void solve(LightMatrix& matrix, LightMeans& values) {
     }
 }
 
+constexpr std::size_t pairCount = lightCount / 2;  // of opposite lights
+using PairRow = std::array<float, pairCount>;
+
 // What each light's mean gains for a change of a normal along x, y and z.
 struct LightSlopes {
-    LightRow x{}, y{}, z{};
+    LightRow x, y, z;
+};
 
-    void add(float weight, const LightSlopes& other) {
-        for (std::size_t l = 0; l < lightCount; ++l) {
+// The same for the normal of a group, in parts: one that changes its sign with the light's direction d and is `odd` ·
+// d, and one that opposite lights share.
+struct GroupSlopes {
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  // odd
+    PairRow x{}, y{}, z{};
+
+    void add(float weight, const GroupSlopes& other) {
+        xx += weight * other.xx;
+        xy += weight * other.xy;
+        xz += weight * other.xz;
+        yy += weight * other.yy;
+        yz += weight * other.yz;
+        zz += weight * other.zz;
+        for (std::size_t l = 0; l < pairCount; ++l) {
             x[l] += weight * other.x[l];
             y[l] += weight * other.y[l];
             z[l] += weight * other.z[l];
         }
     }
+
+    [[nodiscard]] LightSlopes of(const Lights& lights) const {
+        LightSlopes all;
+        for (std::size_t l = 0; l < lightCount; ++l) {
+            const std::size_t pair = l % pairCount;
+            all.x[l] = xx * lights.x[l] + xy * lights.y[l] + xz * lights.z[l] + x[pair];
+            all.y[l] = xy * lights.x[l] + yy * lights.y[l] + yz * lights.z[l] + y[pair];
+            all.z[l] = xz * lights.x[l] + yz * lights.y[l] + zz * lights.z[l] + z[pair];
+        }
+        return all;
+    }
 };
 
-// Of meanCosine(), for a point's normal that turns: those along its own direction are 0.
-LightSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
+// Of meanCosine(), for a point's normal that turns: those along its own direction are 0. `values` are what it throws
+// back.
+GroupSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& values) {
     constexpr float leastRoot = 0.02f;  // the slope jumps where light grazes a normal that stands for itself
     const glm::vec3& n = point.normal;
+    const float half = 0.5f * point.agreement;
     const float spread = normalSpread(point.agreement);
-    LightSlopes slopes;
-    for (std::size_t l = 0; l < lightCount; ++l) {
+    GroupSlopes slopes;
+    slopes.xx = half * (1 - n.x * n.x);
+    slopes.xy = half * -n.x * n.y;
+    slopes.xz = half * -n.x * n.z;
+    slopes.yy = half * (1 - n.y * n.y);
+    slopes.yz = half * -n.y * n.z;
+    slopes.zz = half * (1 - n.z * n.z);
+    for (std::size_t l = 0; l < pairCount; ++l) {
         const float cosine = n.x * lights.x[l] + n.y * lights.y[l] + n.z * lights.z[l];
         const float mean = point.agreement * cosine;
         const float root = std::sqrt(mean * mean + spread * std::max(1 - cosine * cosine, 0.0f));
-        values[l] = 0.5f * (mean + root);
-        const float slope =
-            0.5f * (point.agreement + (point.agreement * mean - spread * cosine) / std::max(root, leastRoot));
-        slopes.x[l] = slope * (lights.x[l] - cosine * n.x);
-        slopes.y[l] = slope * (lights.y[l] - cosine * n.y);
-        slopes.z[l] = slope * (lights.z[l] - cosine * n.z);
+        values[l] = 0.5f * (root + mean);
+        values[l + pairCount] = 0.5f * (root - mean);
+        const float even = 0.5f * (point.agreement * mean - spread * cosine) / std::max(root, leastRoot);
+        slopes.x[l] = even * (lights.x[l] - cosine * n.x);
+        slopes.y[l] = even * (lights.y[l] - cosine * n.y);
+        slopes.z[l] = even * (lights.z[l] - cosine * n.z);
     }
     return slopes;
 }
@@ -132,7 +168,7 @@ LightSlopes slopesAt(const Lights& lights, const LitPoint& point, LightRow& valu
 struct FollowingMeans {
     LightMeans means{};
     std::vector<float> areas;  // of each group; the whole surface has 1
-    std::vector<LightSlopes> slopes;
+    LargeVector<GroupSlopes> slopes;
 };
 
 // Into `result`, which may be large: it isn't made anew.
@@ -141,10 +177,10 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     const Lights from = lights();
     result.means = {};
     result.areas.assign(groups.size(), 0);
-    result.slopes.assign(groups.size(), LightSlopes{});
+    result.slopes.assign(groups.size(), GroupSlopes{});
     const double area = forEachLitPoint(surface, leastPoints, [&](const std::uint32_t* corners, const LitPoint& point) {
         LightRow values;
-        const LightSlopes slopes = slopesAt(from, point, values);
+        const GroupSlopes slopes = slopesAt(from, point, values);
         for (std::size_t l = 0; l < lightCount; ++l) result.means[l] += double{point.light * values[l]};
         for (glm::length_t k = 0; k < 3; ++k) {
             const std::uint32_t group = groups[corners[k]];
@@ -155,7 +191,7 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
     if (!(area > 0)) return;
     for (double& mean : result.means) mean /= area;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        LightSlopes scaled;
+        GroupSlopes scaled;
         scaled.add(static_cast<float>(1 / area), result.slopes[g]);
         result.slopes[g] = scaled;
         result.areas[g] *= static_cast<float>(1 / area);
@@ -165,10 +201,11 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
 // Returns the smallest change of the groups' normals that changes the means by `wanted`, about. It is the smaller, the
 // larger `damping` is, in units of the equations' mean diagonal: hardly nine of the lights are independent.
 std::vector<glm::vec3> smallestChange(const FollowingMeans& at, LightMeans wanted, double damping) {
+    const Lights from = lights();
     LightMatrix matrix{};
     for (std::size_t g = 0; g < at.areas.size(); ++g) {
         if (!(at.areas[g] > 0)) continue;
-        const LightSlopes& slopes = at.slopes[g];
+        const LightSlopes slopes = at.slopes[g].of(from);
         const float weight = 1 / at.areas[g];
         for (std::size_t i = 0; i < lightCount; ++i)
             for (std::size_t j = 0; j <= i; ++j)
@@ -183,7 +220,7 @@ std::vector<glm::vec3> smallestChange(const FollowingMeans& at, LightMeans wante
     solve(matrix, wanted);
     for (std::size_t g = 0; g < change.size(); ++g) {
         if (!(at.areas[g] > 0)) continue;
-        const LightSlopes& slopes = at.slopes[g];
+        const LightSlopes slopes = at.slopes[g].of(from);
         for (std::size_t l = 0; l < lightCount; ++l)
             change[g] += static_cast<float>(wanted[l]) / at.areas[g] * glm::vec3(slopes.x[l], slopes.y[l], slopes.z[l]);
     }

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/memory.h"
+
 namespace defocus {
 
 // A number of one kind of thing, from 0 on; by default it names none.
@@ -90,10 +92,10 @@ auto numbersBelow(std::size_t count) {
     return std::views::iota(std::size_t{0}, count) | std::views::transform(itemAt<Key>);
 }
 
-// A std::vector with one value an item, found by the item's number.
+// A LargeVector with one value an item, found by the item's number.
 template <typename Key, typename T>
-class Numbered : std::vector<T> {
-    using Values = std::vector<T>;
+class Numbered : LargeVector<T> {
+    using Values = LargeVector<T>;
 
 public:
     using typename Values::const_iterator;

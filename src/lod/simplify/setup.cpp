@@ -1,6 +1,7 @@
 // The surface at unit size with its quadrics: boundary constraints after Garland and Heckbert 1997.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -61,17 +62,28 @@ double rimConstraint(const Crosses& crosses, FaceHandle face, FaceHandle beyond)
     return lengths > 0 ? rimWeight * std::max(0.0, 0.5 - glm::dot(mine, theirs) / lengths) : 0;
 }
 
-void buildAttributeQuadrics(SurfaceMesh& mesh) {
-    mesh.wedges.startQuadrics();
+std::array<WedgeNumber, 3> wedgesOf(const SurfaceMesh& mesh, const FaceCorners& corners) {
+    return {mesh.wedge(corners.at[0]), mesh.wedge(corners.at[1]), mesh.wedge(corners.at[2])};
+}
+
+std::vector<bool> changingWedges(const SurfaceMesh& mesh) {
+    std::vector<bool> changing(mesh.wedges.size(), false);
     forEachFace(mesh, [&](FaceHandle face) {
-        glm::dvec3 places[3];
-        WedgeNumber wedges[3];
+        const auto wedges = wedgesOf(mesh, cornersOf(mesh, face));
+        if (!mesh.wedges.changes(wedges.data())) return;
+        for (const WedgeNumber w : wedges) changing[w.value] = true;
+    });
+    return changing;
+}
+
+void buildAttributeQuadrics(SurfaceMesh& mesh) {
+    mesh.wedges.startQuadrics(changingWedges(mesh));
+    forEachFace(mesh, [&](FaceHandle face) {
         const FaceCorners corners = cornersOf(mesh, face);
-        for (std::size_t i = 0; i < 3; ++i) {
-            wedges[i] = mesh.wedge(corners.at[i]);
-            places[i] = mesh.place(mesh.from_vertex_handle(corners.at[i]));
-        }
-        mesh.wedges.addFace(wedges, places);
+        const auto wedges = wedgesOf(mesh, corners);
+        glm::dvec3 places[3];
+        for (std::size_t i = 0; i < 3; ++i) places[i] = mesh.place(mesh.from_vertex_handle(corners.at[i]));
+        mesh.wedges.addFace(wedges.data(), places);
     });
 }
 

@@ -301,7 +301,7 @@ Numbered<MeshVertexNumber, Anchor> anchors(const Origin& origin, const Snapshot&
         if (!survivor.is_valid()) continue;
         const std::uint32_t stride = strides[survivor];
         if (waiting[survivor]++ % stride != 0) {
-            anchor.sharedWith = lastOf[survivor];
+            anchor = Anchor::sharedWith(lastOf[survivor]);
             continue;
         }
         lastOf[survivor] = own;

@@ -46,7 +46,7 @@ TextureSums sumTextureGaps(const FitSource& source, const LevelMesh& level,
     sums.triangles.resize(level.triangles.count());
     for (const MeshVertexNumber v : anchors.numbers()) {
         const Anchor& anchor = anchors[v];
-        if (isUnused(anchor)) continue;
+        if (anchor.isUnused()) continue;
         const float* w = anchor.weight;
         const auto corner = level.triangles.corners(anchor.triangle);
         Coordinates gap = coordinatesOf(source.vertices, v);
@@ -128,7 +128,9 @@ void fitCoordinates(const FitSource& source, const LevelMesh& level, const Numbe
     const TextureSums sums = sumTextureGaps(source, level, anchors);
     const Grouping groups = grouped(
         level, source.vertices.count(), [&](MeshVertexNumber v) { return source.charts[v]; }, false);
-    auto solution = equations<4>(level, sums, groups, [&](LevelVertexNumber v) { return sums.vertices[v].gap; });
+    auto solution = equations<4>(
+        level, sums.triangles, groups, [&](LevelVertexNumber v) { return sums.vertices[v].weight; },
+        [&](LevelVertexNumber v) { return sums.vertices[v].gap; });
     solution.held.reserve(groups.count());
     for (const MeshVertexNumber v : groups.sources) solution.held.push_back(source.seams[v]);
     solution.solve();

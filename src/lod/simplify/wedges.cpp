@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <tuple>
 #include <type_traits>
 
 namespace defocus {
@@ -27,10 +26,6 @@ AttributeRow<n> rowOf(std::span<const float> row) {
     return result;
 }
 
-// How many attributes the quadrics of a vector have.
-template <typename Quadrics>
-constexpr std::size_t attributesOf = std::tuple_size_v<decltype(std::remove_cvref_t<Quadrics>::value_type::offset)>;
-
 // Squares of what attributes [first, last) differ by, as weighed in rows.
 double squares(std::span<const float> a, std::span<const float> b, std::size_t first, std::size_t last) {
     float sum = 0;
@@ -39,8 +34,8 @@ double squares(std::span<const float> a, std::span<const float> b, std::size_t f
 }
 
 template <std::size_t n>
-void addFaceTo(LargeVector<AttributeQuadric<n>>& quadrics, const WedgeTable& table, const WedgeNumber* corners,
-               const glm::dvec3* places, float weight) {
+AttributeQuadric<n> quadricOf(const WedgeTable& table, const WedgeNumber* corners, const glm::dvec3* places,
+                              float weight) {
     AttributeRow<n> rows[3];
     const AttributeRow<n>* rowsOf[3];
     const glm::dvec3* points[3];
@@ -51,7 +46,7 @@ void addFaceTo(LargeVector<AttributeQuadric<n>>& quadrics, const WedgeTable& tab
     }
     AttributeQuadric<n> face;
     face.addFace(attributeGradients(points, rowsOf), weight);
-    for (std::size_t i = 0; i < 3; ++i) quadrics[corners[i].value].addFaces(face);
+    return face;
 }
 
 }  // namespace
@@ -87,25 +82,34 @@ void WedgeTable::assign(const Vertices& vertices, float uvScale) {
     }
 }
 
-void WedgeTable::startQuadrics() {
+bool WedgeTable::changes(const WedgeNumber* corners) const {
+    const auto first = row(corners[0]);
+    return !std::ranges::equal(first, row(corners[1])) || !std::ranges::equal(first, row(corners[2]));
+}
+
+void WedgeTable::startQuadrics(const std::vector<bool>& changing) {
+    const std::size_t count = sources_.size();
     switch (attributeCount_) {
         case 3:
-            quadrics_.emplace<0>(sources_.size());
+            if (2 * static_cast<std::size_t>(std::ranges::count(changing, true)) < count)
+                quadrics_.emplace<SparseQuadrics<3>>(changing);
+            else
+                quadrics_.emplace<DenseQuadrics<3>>(count);
             break;
         case 5:
-            quadrics_.emplace<1>(sources_.size());
+            quadrics_.emplace<DenseQuadrics<5>>(count);
             break;
         case 6:
-            quadrics_.emplace<2>(sources_.size());
+            quadrics_.emplace<DenseQuadrics<6>>(count);
             break;
         case 8:
-            quadrics_.emplace<3>(sources_.size());
+            quadrics_.emplace<DenseQuadrics<8>>(count);
             break;
         case 9:
-            quadrics_.emplace<4>(sources_.size());
+            quadrics_.emplace<DenseQuadrics<9>>(count);
             break;
         default:
-            quadrics_.emplace<5>(sources_.size());
+            quadrics_.emplace<DenseQuadrics<11>>(count);
             break;
     }
 }
@@ -120,13 +124,7 @@ void WedgeTable::keep(std::span<const WedgeNumber> order) {
     rows_.resize(order.size() * attributeCount_);
     giveBackRoom(sources_);
     giveBackRoom(rows_);
-    std::visit(
-        [&](auto& quadrics) {
-            for (std::size_t i = 0; i < order.size(); ++i) quadrics[i] = quadrics[order[i].value];
-            quadrics.resize(order.size());
-            giveBackRoom(quadrics);
-        },
-        quadrics_);
+    std::visit([&](auto& quadrics) { quadrics.keep(order); }, quadrics_);
 }
 
 double WedgeTable::uvDifference(WedgeNumber a, WedgeNumber b) const {
@@ -150,15 +148,20 @@ void WedgeTable::addFace(const WedgeNumber* corners, const glm::dvec3* places) {
     }
     const double doubleArea = glm::length(glm::cross(places[1] - places[0], places[2] - places[0]));
     if (!(doubleArea > leastQuality * squaredEdges)) return;
-    std::visit([&](auto& quadrics) { addFaceTo(quadrics, *this, corners, places, static_cast<float>(doubleArea / 6)); },
-               quadrics_);
+    std::visit(
+        [&](auto& quadrics) {
+            constexpr std::size_t n = std::remove_cvref_t<decltype(quadrics)>::attributes;
+            const auto face = quadricOf<n>(*this, corners, places, static_cast<float>(doubleArea / 6));
+            for (std::size_t i = 0; i < 3; ++i) quadrics.addFace(corners[i], face);
+        },
+        quadrics_);
 }
 
 float WedgeTable::cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) const {
     return std::visit(
         [&](const auto& quadrics) {
-            constexpr std::size_t n = attributesOf<decltype(quadrics)>;
-            return quadrics[from.value].at(step, changeBetween<n>(row(from), row(to))) + quadrics[to.value].squares.c;
+            constexpr std::size_t n = std::remove_cvref_t<decltype(quadrics)>::attributes;
+            return quadrics[from].at(step, changeBetween<n>(row(from), row(to))) + quadrics.costInPlace(to);
         },
         quadrics_);
 }
@@ -166,27 +169,21 @@ float WedgeTable::cost(WedgeNumber from, WedgeNumber to, const glm::vec3& step) 
 void WedgeTable::moveQuadric(WedgeNumber from, WedgeNumber to, const glm::vec3& step) {
     std::visit(
         [&](auto& quadrics) {
-            constexpr std::size_t n = attributesOf<decltype(quadrics)>;
-            if (!(quadrics[from.value].squares.weight > 0)) return;
-            quadrics[to.value].add(quadrics[from.value], step, changeBetween<n>(row(from), row(to)));
-            quadrics[from.value] = {};
+            constexpr std::size_t n = std::remove_cvref_t<decltype(quadrics)>::attributes;
+            if (!(quadrics[from].squares.weight > 0)) return;
+            quadrics.move(from, to, step, changeBetween<n>(row(from), row(to)));
         },
         quadrics_);
 }
 
 void WedgeTable::prefetchStart(WedgeNumber w) const {
     __builtin_prefetch(&rows_[w.value * attributeCount_]);
-    std::visit([&](const auto& quadrics) { __builtin_prefetch(&quadrics[w.value]); }, quadrics_);
+    std::visit([&](const auto& quadrics) { quadrics.prefetchStart(w); }, quadrics_);
 }
 
 void WedgeTable::prefetch(WedgeNumber w) const {
     __builtin_prefetch(&rows_[w.value * attributeCount_]);
-    std::visit(
-        [&](const auto& quadrics) {
-            const auto* const bytes = reinterpret_cast<const std::byte*>(&quadrics[w.value]);
-            for (std::size_t i = 0; i < sizeof(quadrics[0]); i += 64) __builtin_prefetch(bytes + i);
-        },
-        quadrics_);
+    std::visit([&](const auto& quadrics) { quadrics.prefetch(w); }, quadrics_);
 }
 
 }  // namespace defocus

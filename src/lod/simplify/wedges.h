@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/memory.h"
+#include "lod/simplify/attribute_quadrics.h"
 #include "lod/simplify/number.h"
-#include "lod/simplify/quadric.h"
 #include "scene/mesh.h"
 
 namespace defocus {
@@ -32,8 +32,11 @@ public:
     // Makes one wedge a vertex, with the weighted attributes that the vertices have. `uvScale` leads from uv to lengths
     // of the unit frame.
     void assign(const Vertices& vertices, float uvScale);
-    // Gives each wedge an empty quadric. Must be called before addFace().
-    void startQuadrics();
+    // Whether attributes change over a face with these wedges at its corners.
+    [[nodiscard]] bool changes(const WedgeNumber* corners) const;
+    // Gives each wedge an empty quadric. Must be called before addFace(). `changing` says of each wedge whether it is
+    // on a face that changes().
+    void startQuadrics(const std::vector<bool>& changing);
     // Keeps the wedges that are named, in this order (ascending).
     void keep(std::span<const WedgeNumber> order);
 
@@ -70,9 +73,8 @@ public:
 private:
     // All numbers of attributes that a mesh can have: its normals alone, or with uv (2), with colours (3), with blurs
     // (3), with some of them.
-    using Quadrics = std::variant<LargeVector<AttributeQuadric<3>>, LargeVector<AttributeQuadric<5>>,
-                                  LargeVector<AttributeQuadric<6>>, LargeVector<AttributeQuadric<8>>,
-                                  LargeVector<AttributeQuadric<9>>, LargeVector<AttributeQuadric<11>>>;
+    using Quadrics = std::variant<DenseQuadrics<3>, DenseQuadrics<5>, DenseQuadrics<6>, DenseQuadrics<8>,
+                                  DenseQuadrics<9>, DenseQuadrics<11>, SparseQuadrics<3>>;
 
     std::size_t attributeCount_ = 3;
     bool hasColors_ = false;
@@ -80,7 +82,7 @@ private:
     bool hasUv_ = false;
     LargeVector<float> rows_;  // attributeCount_ a wedge
     LargeVector<MeshVertexNumber> sources_;
-    Quadrics quadrics_;
+    Quadrics quadrics_ = DenseQuadrics<3>(0);
 };
 
 }  // namespace defocus

@@ -129,8 +129,7 @@ TEST(LevelFit, whatSharesAnAnchorCountsThere) {
     for (std::uint32_t v = 3; v + 1 < t.anchors.size(); v += 2) {
         t.vertices.colors[v].r = 0.2f;
         t.vertices.colors[v + 1].r = 0.8f;
-        t.anchors[{v + 1}] = {};
-        t.anchors[{v + 1}].sharedWith = {v};
+        t.anchors[{v + 1}] = Anchor::sharedWith({v});
     }
     for (std::uint32_t v = 0; v < 3; ++v) t.vertices.colors[v].r = 0.5f;
     t.vertices.colors.back().r = 0.5f;
