@@ -334,7 +334,7 @@ def pyramids():
          f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)"],
         ["loading the pyramids of 1.8 M triangles from the cache (`defocus_cache_bench`)", f"{cache()} s"]]
     return table(["what", "figure"], rows) + source(
-        "defocus_pyramid_bench MODEL…", "mesh and number of triangles; for the images also camera, lens, level and lens samples",
+        "defocus_pyramid_bench --million MODEL…", "mesh and number of triangles; for the images also camera, lens, level and lens samples",
         "llvmpipe-pyramids.txt")
 
 

@@ -48,7 +48,7 @@ private:
 };
 
 // For meshes most of whose faces have the same attributes all over, as flat-shaded ones do. The quadrics of such faces
-// don't depend on the place: they need a fifth of the memory of others, and so do their sums.
+// don't depend on the place: they need a quarter of the memory of others, and so do their sums.
 template <std::size_t n>
 class SparseQuadrics {
 public:
