@@ -494,16 +494,16 @@ def lens_levels():
 # ---- a GPU ----------------------------------------------------------------------------------------------------------
 
 
-def on_h100(name):
+def on_gpu(name):
     """The results, and what stands below their table."""
-    file = f"h100-{name}.json"
+    file = f"h200-{name}.json"
     results = json.loads((RESULTS / file).read_text())
     held = results["heldEqual"].rstrip(".")
     return results, source(results["commands"][0], held, file).replace("the run]", f"the run, commit {results['commit']}]")
 
 
-def h100_speed():
-    results, below = on_h100("speedup")
+def gpu_speed():
+    results, below = on_gpu("speedup")
     rows = []
     for count in sorted({row["samples"] for row in results["rows"]}):
         modes = {row["lod"]: row for row in results["rows"] if row["samples"] == count}
@@ -515,27 +515,27 @@ def h100_speed():
                  rows) + below
 
 
-def h100_equal_error():
+def gpu_equal_error():
     text, below = [], []
     for name, scene in [("school", "Fish school"), ("helmets", "FlightHelmet 20 times")]:
-        results, command = on_h100(name)
+        results, command = on_gpu(name)
         methods = results["timesToErrors"]
         if not text:
             text = [["milliseconds a frame", *(f"RMSE {time['rmse']}" for time in methods[0]["times"])]]
         text.append([f"**{scene}**", "", "", ""])
         for method in methods:
-            text.append([method["name"], *(h100_time(time) for time in method["times"])])
+            text.append([method["name"], *(gpu_time(time) for time in method["times"])])
         below.append(command)
     return table(text[0], text[1:]) + "".join(below)
 
 
-def h100_time(time):
+def gpu_time(time):
     if time["milliseconds"] is None:
         return "not reached"
     return f"{'< ' if time['atMost'] else ''}{time['milliseconds']:.0f}"
 
 
-TABLES = {"h100 speed": h100_speed, "h100 equal error": h100_equal_error,
+TABLES = {"gpu speed": gpu_speed, "gpu equal error": gpu_equal_error,
           "speed": speed_sentence, "demo": demo, "seeds": seeds, "speedup": speedup, "measured": measured, "published": published,
           "lenses": lenses, "helmets": helmets, "scaling": scaling, "popping": popping, "rates": rates, "pyramids": pyramids, "truth": truth, "shadows": shadows,
           "stability": stability, "honesty": honesty, "sequences": sequences, "parts": parts,
