@@ -68,6 +68,18 @@ bool isIdentity(const Numbered<MeshVertexNumber, FileVertexNumber>& first, std::
     return true;
 }
 
+// So few equal vertices that a copy without them would take more than they do.
+bool areFew(std::size_t equal, std::size_t count) {
+    return equal < count / 4;
+}
+
+// Numbers vertices as the file does. Triangles still use the first of equal ones, and none the others.
+void leaveApart(WeldedVertices& unique, TriangleSet<MeshVertexNumber>& triangles, std::size_t count) {
+    for (MeshVertexNumber& v : triangles.indices) v = {unique.first[v].value};
+    unique.first.resize(count);
+    for (const MeshVertexNumber v : unique.first.numbers()) unique.first[v] = {v.value};
+}
+
 // Mean and greatest length of all faces' edges.
 void measureEdges(PyramidLevel& level, std::span<const std::uint32_t> indices) {
     double sum = 0;
@@ -239,14 +251,17 @@ Pyramid assembled(const Mesh& mesh, const PyramidOptions& options, std::size_t h
     WeldedVertices unique = weldVertices(mesh);
     std::vector<FittedLevel> levels(1);
     levels[0].triangles = allTriangles(mesh, unique.id);
+    const bool hasNormals = !mesh.vertices.normals.empty();
     if (isScattered(levels[0].triangles, unique.first.size())) {
         sortSpatially(unique, mesh.vertices.positions);
         levels[0].triangles = allTriangles(mesh, unique.id);
         sortSpatially(levels[0].triangles);
+    } else if (hasNormals && areFew(mesh.vertices.count() - unique.first.size(), mesh.vertices.count())) {
+        leaveApart(unique, levels[0].triangles, mesh.vertices.count());
     }
     unique.id = {};
-    Vertices joined;  // unless the mesh has them as they are
-    const bool asTheyAre = !mesh.vertices.normals.empty() && isIdentity(unique.first, mesh.vertices.count());
+    Vertices joined;  // unless the mesh has them as they are, or with a few equal ones that no triangle uses
+    const bool asTheyAre = hasNormals && isIdentity(unique.first, mesh.vertices.count());
     if (!asTheyAre) joined = gathered(mesh.vertices, plain(unique.first));
     if (!asTheyAre && joined.normals.empty())
         joined.normals = smoothNormals(joined.positions, plain(levels[0].triangles.indices));

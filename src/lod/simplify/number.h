@@ -30,7 +30,8 @@ struct Number {
 };
 
 using FileVertexNumber = Number<struct FileVertexKind>;  // into Mesh::vertices
-// Of the mesh that is simplified, in which equal vertices are one. Twins (see Simplification) come after its own.
+// Of the mesh that is simplified, whose triangles use one of equal vertices. Twins (see Simplification) come after its
+// own.
 using MeshVertexNumber = Number<struct MeshVertexKind>;
 using PositionNumber = Number<struct PositionKind>;            // of a place, which several vertices may share
 using SurfaceVertexNumber = Number<struct SurfaceVertexKind>;  // of the manifold, before any collapse
