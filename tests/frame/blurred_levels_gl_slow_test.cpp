@@ -61,7 +61,7 @@ TEST_P(BlurredLevels, errAfterBoxesByNoMoreThanThreeTimesTheSamples) {
     for (const double distance : {focus, 4 * focus}) {
         frame_.view.lens.focusDistance = distance;
         ReferenceOptions options;
-        options.samples = 1024;
+        options.samples = 512;
         const Image reference = renderedReference(frame_.world, frame_.view, options).image;
         const double full = boxDifference(reference, image(LodMode::off), boxSize);
         const std::uint64_t all = triangles_;

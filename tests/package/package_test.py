@@ -114,8 +114,8 @@ def main():
     build, source, cmake, compiler = (Path(word) for word in sys.argv[1:5])
     with tempfile.TemporaryDirectory(prefix="defocus-package-") as name:
         root = Path(name)
-        scene = root / "scene.glb"
-        shutil.copy(source / "meshes" / "swimmers.glb", scene)
+        scene = root / "scene.glb"  # it moves
+        shutil.copy(source / "meshes" / "reed.glb", scene)
         environment = dict(os.environ, XDG_CACHE_HOME=str(root / "cache"))
         outputs = []
         for kind in ["static", "shared"]:
