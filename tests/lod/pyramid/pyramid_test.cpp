@@ -418,6 +418,31 @@ TEST(Pyramid, UnsharedVerticesAreJoinedAndUnusedOnesDropped) {
     EXPECT_EQ(pyramid.levels.back().triangleCount, 64u);
 }
 
+// Whether the copies are many or so few that the mesh is simplified as it is.
+TEST(Pyramid, CopiesOfVerticesChangeNothing) {
+    const Mesh mesh = sphere(48, 24, 0.1);
+    const Pyramid without = buildPyramid(mesh);
+    for (const std::size_t stride : {3, 97}) {
+        Mesh copied = mesh;
+        std::vector<std::uint32_t>& indices = copied.primitives[0].indices;
+        for (std::size_t i = 0; i < indices.size(); i += stride) {
+            const std::uint32_t v = indices[i];
+            indices[i] = static_cast<std::uint32_t>(copied.vertices.count());
+            copied.vertices.positions.push_back(mesh.vertices.positions[v]);
+            copied.vertices.normals.push_back(mesh.vertices.normals[v]);
+            copied.vertices.uv0.push_back(mesh.vertices.uv0[v]);
+        }
+        const Pyramid with = buildPyramid(copied);
+        expectPyramidInvariants(copied, with);
+        EXPECT_EQ(with.source, without.source) << stride;
+        EXPECT_EQ(with.indices, without.indices) << stride;
+        ASSERT_EQ(with.levels.size(), without.levels.size()) << stride;
+        for (std::size_t l = 0; l < with.levels.size(); ++l)
+            for (std::size_t v = 0; v < with.levels[l].positions.size(); ++v)
+                ASSERT_LT(glm::distance(with.levels[l].positions[v], without.levels[l].positions[v]), 1e-4) << stride;
+    }
+}
+
 TEST(Pyramid, VerticesThatDifferOnlyInAMorphTargetStayApart) {
     Mesh mesh = flatGrid(1);
     mesh.vertices.uv0.clear();
