@@ -27,12 +27,19 @@ layout(location = 0) out vec4 layerOut;
 layout(location = 1) out vec4 ownBlurOut;
 #endif
 
+#ifdef LEVEL_COLOR_RANGE
+layout(location = 0) uniform vec4 leastOfLevel;   // what the level's vertices have
+layout(location = 1) uniform vec4 mostOfLevel;
+#endif
+
 // Rasterisers round corners to a fraction of a pixel, so a triangle that is narrower than that can cover a pixel far outside its own
 // plane equations. What the corners have bounds what lies between them. Normals and directions need no bound, as only their way
 // counts, and texture coordinates that run as fast pick the smallest mipmap.
 vec4 surfaceColor() {
-#if defined(VERTEX_COLOR_RANGES) || defined(LEVEL_COLOR_RANGE)
+#if defined(VERTEX_COLOR_RANGES)
     return clamp(surface.color, surface.leastColor, surface.mostColor);
+#elif defined(LEVEL_COLOR_RANGE)
+    return clamp(surface.color, material.baseColor * leastOfLevel, material.baseColor * mostOfLevel);
 #else
     return surface.color;
 #endif

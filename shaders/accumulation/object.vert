@@ -33,9 +33,6 @@ layout(location = 14) in float bandShiftIn;     // an instance
 #endif
 #ifdef VERTEX_COLOR_RANGES
 layout(location = 15) in vec4 colorRangeIn;     // of the corners around; of a channel, 256 times the most plus the least, in 1/255
-#elif defined(LEVEL_COLOR_RANGE)
-layout(location = 0) uniform vec4 leastOfLevel;
-layout(location = 1) uniform vec4 mostOfLevel;
 #endif
 #ifdef SHADOW_CASTER
 #include "include/shadow_projection.glsl"
@@ -107,9 +104,6 @@ void main() {
     vec4 most = floor(colorRangeIn / 256.0);
     STAGE_OUT.leastColor = material.baseColor * ((colorRangeIn - 256.0 * most) / 255.0);
     STAGE_OUT.mostColor = material.baseColor * (most / 255.0);
-#elif defined(LEVEL_COLOR_RANGE)
-    STAGE_OUT.leastColor = material.baseColor * leastOfLevel;
-    STAGE_OUT.mostColor = material.baseColor * mostOfLevel;
 #endif
 #ifndef UNLIT
 #ifdef COARSE_LEVEL

@@ -1,8 +1,8 @@
 // What the vertex stage hands to the fragment stage; only what the material needs.
 
     vec4 color;
-#if defined(VERTEX_COLOR_RANGES) || defined(LEVEL_COLOR_RANGE)
-    flat vec4 leastColor; // what the corners around have, or all of the level
+#ifdef VERTEX_COLOR_RANGES
+    flat vec4 leastColor; // what the corners around have
     flat vec4 mostColor;
 #endif
 #ifndef UNLIT

@@ -6,7 +6,7 @@
 
 void writeSurface(vec3 weights) {
     SURFACE_OUT.color = SURFACE_WEIGHTED(color);
-#if defined(VERTEX_COLOR_RANGES) || defined(LEVEL_COLOR_RANGE)
+#ifdef VERTEX_COLOR_RANGES
     SURFACE_OUT.leastColor = SURFACE_CORNERS[0].leastColor;
     SURFACE_OUT.mostColor = SURFACE_CORNERS[0].mostColor;
 #endif
