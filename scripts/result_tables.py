@@ -23,8 +23,7 @@ def lines_of(name):
 
 
 # What these runs' commands need since levels are chosen by measured error: the runs had levels by size without being told.
-BY_SIZE = {"demo": " --lod-metric size", "methods-fish": " --metrics size",
-           "speedup-fish": " --lod-metric size"}
+BY_SIZE = {"methods-fish": " --metrics size", "speedup-fish": " --lod-metric size"}
 # These runs had one near component and a near field of coverage where nothing was said of them.
 CIRCULAR_BY_COVERAGE = ("methods-fish", "methods-lens-space")
 
@@ -222,7 +221,7 @@ def demo():
     psnr, ssim, flip = numbers_after(lines, "image difference")
     text = table(["1024 × 768, 64 lens samples", "frame", "a sample", "triangles drawn", "peak memory"], rows)
     text += f"\nThe second frame is {ratio:.1f} times as fast. The two images differ by PSNR {psnr:.1f} dB, SSIM {ssim:.3f}, FLIP {flip:.4f}.\n"
-    return text + source("scripts/demo" + BY_SIZE["demo"], "program, renderer, lens samples, buffers, and the removal of triangles that face away or lie "
+    return text + source("scripts/demo", "program, renderer, lens samples, buffers, and the removal of triangles that face away or lie "
                          "outside the image", "llvmpipe-demo.txt")
 
 
@@ -237,8 +236,8 @@ def seeds():
             value = numbers(line)[0]
             rows[-1].append(f"{value:.1f} dB" if line.startswith("psnr") else f"{value:.4f}")
     return table(["against full detail", "RMSE", "PSNR", "SSIM", "FLIP"], rows) + source(
-        "defocus render --lod off -o full.exr; defocus render --lod off --seed 1 -o seed.exr; defocus render --lod-metric size -o "
-        "levels.exr; defocus compare full.exr seed.exr; defocus compare full.exr levels.exr", "scene, camera, lens, image size, number of lens samples", "llvmpipe-seeds.txt")
+        "defocus render --samples 64 --lod off -o full.exr; defocus render --samples 64 --lod off --seed 1 -o seed.exr; defocus render "
+        "--samples 64 -o levels.exr; defocus compare full.exr seed.exr; defocus compare full.exr levels.exr", "scene, camera, lens, image size, number of lens samples", "llvmpipe-seeds.txt")
 
 
 def scaling():
