@@ -11,16 +11,12 @@
 
 #include "capture/frame_files.h"
 #include "capture/frame_writer.h"
-#include "capture/tile_files.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "frame/tiled_frame.h"
 #include "image/image_rows.h"
 #include "lens/photographic_exposure.h"
-#include "plan/frame_plan.h"
-#include "render/frame_run.h"
 
 namespace defocus {
 
@@ -60,7 +56,7 @@ struct FrameTimes {
     double writeMilliseconds = 0;  // encoding included
 };
 
-void appendTimes(const FilmOptions& options, const FilmFrame& film, const SequenceFrame& frame,
+void appendTimes(const FilmOptions& options, std::uint64_t memoryLimit, const FilmFrame& film, const FrameMoment& frame,
                  const RenderStats& stats, const FrameTimes& times) {
     nlohmann::ordered_json line = {{"frame", film.frame},
                                    {"file", film.files.front().string()},
@@ -71,7 +67,7 @@ void appendTimes(const FilmOptions& options, const FilmFrame& film, const Sequen
                                    {"trianglesDrawn", stats.trianglesDrawn},
                                    {"samples", stats.samples},
                                    {"wave", stats.wave},
-                                   {"memoryLimit", options.memoryLimit},
+                                   {"memoryLimit", memoryLimit},
                                    {"device", stats.device}};
     if (stats.estimatedError) line["estimatedError"] = *stats.estimatedError;
     const std::string text = line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -83,70 +79,41 @@ void appendTimes(const FilmOptions& options, const FilmFrame& film, const Sequen
 // ---- one frame
 // -------------------------------------------------------------------------------------------------------
 
-// What the writer needs of a frame; the renderer goes on meanwhile.
+// What the writer needs of a frame; the driver goes on meanwhile.
 struct DrawnFrame {
-    SequenceFrame frame;
-    Image image;
-    FramePart part;
+    FrameMoment moment;
+    Image image;     // of a frame in one piece
+    FramePart part;  // of a range of samples
     Metadata metadata;
     RenderStats stats;
     FrameTimes times;
+    bool written = false;  // a frame in tiles is written while it is drawn
 };
 
-void takeMoment(World& world, const SequenceFrame& frame) {
-    world.pose = frame.pose;
-    world.shutter = frame.shutter;
-    world.lights = frame.lights;
-}
-
-RenderSettings settingsOf(const SequenceFrame& frame, const FilmOptions& options) {
-    RenderSettings settings = frame.settings;
-    if (options.automatic) settings.sampleCount = automaticSamples;
+RenderSettings settingsOf(const FrameMoment& moment, const FilmOptions& options) {
+    RenderSettings settings = moment.settings;
+    if (isAutomatic(options.settings.request)) settings.sampleCount = automaticSamples;
     return settings;
 }
 
-DrawnFrame drawFrame(SequenceFrame frame, World& world, Renderer& renderer, const FilmOptions& options,
-                     const FilmMetadata& metadata, const std::function<void(double)>& step) {
-    const Clock::time_point start = Clock::now();
-    takeMoment(world, frame);
-    DrawnFrame drawn;
-    FramePlan plan;
-
-    // The whole frame, or some of its samples.
-    if (options.sampleRange) {
-        plan = planFrame(world, frame.view, frame.settings);
-        drawn.times.planMilliseconds = millisecondsSince(start);
-        drawn.part = renderPart(renderer, plan, *options.sampleRange, [&] { step(0.5); });
-        drawn.stats = renderer.stats();
-        drawn.stats.samples = drawn.part.frameSamples;
-    } else {
-        FrameRun run(world, renderer);
-        run.start(frame.view, settingsOf(frame, options), options.stop);
-        drawn.times.planMilliseconds = run.planMilliseconds();
-        do {
-            step(static_cast<double>(run.samples()) / run.sampleTotal());
-        } while (run.advance());
-        drawn.image = renderer.image();
-        drawn.stats = run.stats();
-        plan = run.plan();
-    }
-    drawn.frame = std::move(frame);
-    drawn.times.renderMilliseconds = millisecondsSince(start);
-    drawn.metadata = metadata(drawn.frame, plan, drawn.stats);
-    drawn.part.metadata = drawn.metadata;
-    return drawn;
+// The time limit ends the run, not a frame: a frame gets the same samples whenever it is rendered.
+StopSettings stopOf(const FilmOptions& options) {
+    StopSettings stop = options.settings.request.stop;
+    stop.timeLimit.reset();
+    return stop;
 }
 
-// Of a file of the frame: all that its frame has, and what it is made of.
+// Returns the frame's metadata with the settings hash of one of its files.
 Metadata fileMetadata(const FilmFrame& film, std::size_t file, const Metadata& ofFrame) {
     Metadata metadata = ofFrame;
     metadata[settingsAttribute] = film.settings[file];
     const std::string ending = film.files[file].extension().string();
-    if (ending != ".exr" && ending != ".png") metadata["comments"] = film.settings[file];  // all that a JPEG holds
+    if (ending != ".exr" && ending != ".png")
+        metadata["comments"] = film.settings[file];  // the only text that a JPEG holds
     return metadata;
 }
 
-void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& options) {
+void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& options, std::uint64_t memoryLimit) {
     const Clock::time_point start = Clock::now();
     for (std::size_t i = 0; i < film.files.size(); ++i) {
         const fs::path& path = film.files[i];
@@ -158,69 +125,77 @@ void writeFrame(const FilmFrame& film, DrawnFrame& drawn, const FilmOptions& opt
         writeImage(path, drawn.image, fileMetadata(film, i, drawn.metadata), film.write);
     }
     drawn.times.writeMilliseconds = millisecondsSince(start);
-    appendTimes(options, film, drawn.frame, drawn.stats, drawn.times);
+    appendTimes(options, memoryLimit, film, drawn.moment, drawn.stats, drawn.times);
 }
 
-// ---- what fits
-// -------------------------------------------------------------------------------------------------------
+// Writes a frame in tiles to its files, row by row.
+class RowsToFiles {
+public:
+    RowsToFiles(const FilmFrame& film, std::function<Metadata()> metadata)
+        : film_(film), metadata_(std::move(metadata)) {}
 
-// How the frames of a film fit into memory, by its first one: all have the same size.
-struct FilmMemory {
-    bool alone = false;  // one piece, once the frames before are written
-    Tiling tiles;        // no bands: in one piece
+    void take(Image&& rows, int width, int height) {
+        const Clock::time_point start = Clock::now();
+        if (writers_.empty()) {
+            const Metadata ofFrame = metadata_();
+            for (std::size_t i = 0; i < film_.files.size(); ++i)
+                writers_.emplace_back(film_.files[i], width, height, rows.channels, fileMetadata(film_, i, ofFrame),
+                                      film_.write);
+        }
+        for (ImageRowWriter& writer : writers_) writer.write(rows);
+        milliseconds_ += millisecondsSince(start);
+    }
+    // Returns the milliseconds that writing took.
+    double finish() {
+        const Clock::time_point start = Clock::now();
+        for (ImageRowWriter& writer : writers_) writer.finish();
+        return milliseconds_ + millisecondsSince(start);
+    }
+
+private:
+    const FilmFrame& film_;
+    std::function<Metadata()> metadata_;
+    std::vector<ImageRowWriter> writers_;
+    double milliseconds_ = 0;
 };
 
-FilmMemory memoryOf(const SequenceFrame& frame, World& world, Renderer& renderer, const FilmOptions& options) {
-    FilmMemory memory;
-    if (!options.method->needsGl) return memory;
-    takeMoment(world, frame);
-    const FramePlan plan = planOfTiles(world, frame.view, settingsOf(frame, options));
-    Request request = options.settings.request;
-    request.stop = options.stop;
-    if (mustDrawInTiles(world, plan, request, *options.method, options.memoryLimit)) {
-        if (options.sampleRange) refuseTiles(plan, options.memoryLimit, "--sample-range keeps sums of the whole image");
-        memory.tiles = chosenTiling(measuredNeeds(world, plan, request, renderer, options.memoryLimit));
-        renderer.setWave(memory.tiles.wave);
-        return memory;
-    }
-    TilingNeeds needs = needsBeforeUpload(world, plan, request, options.memoryLimit);
-    const std::uint64_t pixels = std::uint64_t(plan.view.width) * std::uint64_t(plan.view.height);
-    needs.keptBytes = (framesWaiting + 1) * pixels * bandPixelBytes;
-    if (request.memory) renderer.setWave(waveWithin(needs));
-    memory.alone = request.memory && !fitsInOnePiece(needs);
-    return memory;
-}
-
-// Draws the frame and writes it row by row: no more of it is ever in memory.
-DrawnFrame filmInTiles(const FilmFrame& film, SequenceFrame frame, World& world, Renderer& renderer,
-                       const Tiling& tiling, const FilmOptions& options, const FilmMetadata& metadata,
-                       const std::function<void(double)>& step) {
+// Draws the whole frame, or some of its samples.
+DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, FrameDriver& driver,
+                     const FilmOptions& options, const FilmMetadata& metadata,
+                     const std::function<void(double)>& step) {
     const Clock::time_point start = Clock::now();
-    takeMoment(world, frame);
-    const FramePlan plan = planOfTiles(world, frame.view, settingsOf(frame, options));
+    applyMoment(moment, world);
+    const auto ofFrame = [&] { return metadata(moment, driver.plan(), driver.stats()); };
+    RowsToFiles rows(film, ofFrame);
+    FrameOrder order{moment.view, settingsOf(moment, options), stopOf(options), options.sampleRange};
+    if (!options.sampleRange)
+        order.takeRows = [&](const RowRange&, Image&& pixels) {
+            rows.take(std::move(pixels), moment.view.width, moment.view.height);
+        };
+    driver.start(std::move(order));
+    do {
+        step(driver.share());
+    } while (driver.advance());
+
     DrawnFrame drawn;
-    drawn.times.planMilliseconds = millisecondsSince(start);
-    TileRun run{.renderer = renderer, .plan = plan, .metadata = {}};
-    run.step = [&](double rows) { step(rows / plan.view.height); };
-    std::vector<ImageRowWriter> writers;
-    for (const Band& band : tiling.bands) {
-        const Image rows = drawnBand(band, run, band.rows.first);
-        drawn.times.renderMilliseconds = millisecondsSince(start) - drawn.times.writeMilliseconds;
-        const Clock::time_point writing = Clock::now();
-        if (writers.empty()) {
-            drawn.metadata = metadata(frame, plan, run.stats);
-            for (std::size_t i = 0; i < film.files.size(); ++i)
-                writers.emplace_back(film.files[i], plan.view.width, plan.view.height, rows.channels,
-                                     fileMetadata(film, i, drawn.metadata), film.write);
-        }
-        for (ImageRowWriter& writer : writers) writer.write(rows);
-        if (&band == &tiling.bands.back())
-            for (ImageRowWriter& writer : writers) writer.finish();
-        drawn.times.writeMilliseconds += millisecondsSince(writing);
+    drawn.written = driver.inTiles();
+    drawn.stats = driver.stats();
+    if (options.sampleRange) {
+        drawn.part = driver.sums();
+        drawn.stats.samples = drawn.part.frameSamples;
+    } else if (!drawn.written) {
+        drawn.image = driver.image();
     }
-    drawn.stats = run.stats;
-    drawn.frame = std::move(frame);
-    appendTimes(options, film, drawn.frame, drawn.stats, drawn.times);
+    drawn.times.planMilliseconds = driver.planMilliseconds();
+    drawn.times.renderMilliseconds = millisecondsSince(start);
+    drawn.metadata = metadata(moment, driver.plan(), drawn.stats);
+    drawn.part.metadata = drawn.metadata;
+    if (drawn.written) {
+        drawn.times.writeMilliseconds = rows.finish();
+        drawn.times.renderMilliseconds -= drawn.times.writeMilliseconds;
+    }
+    drawn.moment = std::move(moment);
+    if (drawn.written) appendTimes(options, driver.memoryLimit(), film, drawn.moment, drawn.stats, drawn.times);
     return drawn;
 }
 
@@ -238,11 +213,12 @@ std::string stageText(int frame, const FilmFigures& figures, double milliseconds
 // ---------------------------------------------------------------------------------------------------
 
 FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, const FilmOptions& options) {
-    const SequenceFrame frame = frameAt(shot, base, number);
+    const FrameMoment frame = frameAt(shot, base, number);
     FilmFrame film;
     film.frame = number;
     film.finished = options.resume;
-    film.write = {options.toneMap, options.exposure.value_or(photographicExposure(frame.view.lens))};
+    const Request& request = options.settings.request;
+    film.write = {request.toneMap, request.exposure.value_or(photographicExposure(frame.view.lens))};
     for (const std::string& pattern : options.outputs) {
         FilmSettings settings = options.settings;
         settings.encoding = encodingOf(pattern, film.write, options.metered);
@@ -292,7 +268,7 @@ std::vector<FilmFrame> filmFrames(const Shot& shot, const SequenceBase& base, co
     return film;
 }
 
-FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, Renderer& renderer,
+FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, FrameDriver& driver,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress) {
     // What an earlier run left; its times are kept only where its frames are.
@@ -310,7 +286,6 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
     const Clock::time_point start = Clock::now();
     FilmFigures figures;
     FrameWriter writer(framesWaiting);
-    std::optional<FilmMemory> memory;
     const auto total = static_cast<double>(std::max(wanted, 1));
     for (const FilmFrame& film : frames) {
         if (film.finished) {
@@ -326,29 +301,24 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
             report(progress, stage, static_cast<std::uint64_t>(1000 * (figures.rendered + share)),
                    static_cast<std::uint64_t>(1000 * total));
         };
-        SequenceFrame frame = frameAt(shot, base, film.frame);
-        if (!memory) memory = memoryOf(frame, world, renderer, options);
-        const bool tiles = !memory->tiles.bands.empty();
-        auto drawn = std::make_shared<DrawnFrame>(
-            tiles ? filmInTiles(film, std::move(frame), world, renderer, memory->tiles, options, metadata, step)
-                  : drawFrame(std::move(frame), world, renderer, options, metadata, step));
+        const auto drawn = std::make_shared<DrawnFrame>(
+            drawFrame(film, frameAt(shot, base, film.frame), world, driver, options, metadata, step));
         ++figures.rendered;
+        figures.tiles = driver.tiles();
         figures.renderMilliseconds += drawn->times.renderMilliseconds;
         figures.triangles += drawn->stats.trianglesDrawn;
-        if (figures.rendered == 1 && options.firstDrawn && !options.sampleRange && !tiles)
+        if (figures.rendered == 1 && options.firstDrawn && !drawn->image.empty())
             options.firstDrawn(drawn->image, film.write);
-        if (memory->alone)
-            writeFrame(film, *drawn, options);
-        else if (!tiles)
-            writer.add([drawn, &film, &options] { writeFrame(film, *drawn, options); });
+        const auto write = [drawn, &film, &options, limit = driver.memoryLimit()] {
+            writeFrame(film, *drawn, options, limit);
+        };
+        if (driver.crowded() && !drawn->written)
+            write();
+        else if (!drawn->written)
+            writer.add(write);
     }
     writer.finish();
     figures.totalMilliseconds = millisecondsSince(start);
-    if (memory) {
-        int tiles = 0;
-        for (const Band& band : memory->tiles.bands) tiles += static_cast<int>(band.tiles.size());
-        figures.tiles = std::max(tiles, 1);
-    }
     return figures;
 }
 

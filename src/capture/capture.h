@@ -12,12 +12,10 @@
 #include <vector>
 
 #include "capture/frame_sequence.h"
-#include "capture/partial.h"
-#include "capture/settings_hash.h"
 #include "core/progress.h"
+#include "frame/frame_driver.h"
+#include "frame/settings_hash.h"
 #include "image/image_io.h"
-#include "render/methods.h"
-#include "render/renderer.h"
 
 namespace defocus {
 
@@ -35,18 +33,12 @@ struct FilmFrame {
 struct FilmOptions {
     std::vector<std::string> outputs;        // patterns, see frame_files.h
     std::optional<SampleRange> sampleRange;  // write parts of the frames: FRAME.partFIRST-END.exr; one EXR output only
-    ToneMap toneMap = ToneMap::none;         // of PNG, JPEG and video, as is the exposure
-    std::optional<double> exposure;          // EV; none: what each frame's lens makes
-    bool metered = false;                    // the exposure is that of a meter, which is read later
-    bool automatic = false;                  // each frame gets as many samples as it asks for
-    StopSettings stop;                       // of each frame; no time limit, which no two runs would keep alike
-    FilmSettings settings;                   // all but the encoding
+    FilmSettings settings;                   // all but the encoding; of its request's stop only the target error counts
+    bool metered = false;                    // the exposure is metered later, see FilmFrame::write
     std::filesystem::path timings;           // the sidecar
-    bool resume = false;                     // keep what is finished
-    // Gets the image of the first frame that is drawn whole, and how its pictures are written.
+    bool resume = false;                     // keep finished frames
+    // Called with the first image that is drawn in one piece, and how its 8-bit files are written.
     std::function<void(const Image&, const WriteOptions&)> firstDrawn;
-    const Method* method = nullptr;  // that draws
-    std::uint64_t memoryLimit = 0;   // bytes that the process may take in all
 };
 
 // "frames/timings.jsonl", or of shard 2 of 8 "frames/timings.2-of-8.jsonl".
@@ -68,13 +60,16 @@ struct FilmFigures {
 };
 
 // Metadata of a frame's files, without times.
-using FilmMetadata = std::function<Metadata(const SequenceFrame&, const FramePlan&, const RenderStats&)>;
+using FilmMetadata = std::function<Metadata(const FrameMoment&, const FramePlan&, const RenderStats&)>;
 
-// Renders those that aren't finished. `world` takes each frame's pose and lights; `renderer` was made for it. Before
-// each frame `stop` is asked. Frames that don't fit into memory in one piece are drawn in tiles and written row by row,
-// with the same bits; those that fit alone are written before the next is drawn. Throws Error for a file that can't be
-// written, with what is finished kept, and for frames that fit in no way.
-FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, Renderer& renderer,
+// Bytes a pixel of the images that wait for the writer, for DriverOptions.
+inline constexpr std::uint64_t filmPixelBytes = 3 * 16;
+
+// Renders the frames that aren't finished. `driver` was made for `world`, which takes each frame's pose and lights.
+// Asks `stop` before each frame. Frames in tiles are written row by row; if memory is short, each frame is written
+// before the next is drawn. Throws Error for a file that can't be written, with finished frames kept, and for frames
+// that don't fit into memory.
+FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world, FrameDriver& driver,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress = {});
 

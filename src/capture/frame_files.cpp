@@ -1,10 +1,8 @@
 #include "capture/frame_files.h"
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <set>
-#include <string_view>
 #include <system_error>
 
 #include "core/error.h"
@@ -44,25 +42,13 @@ FrameState frameState(const fs::path& path, int width, int height, const std::st
         const Image image = readImage(path, metadata);
         if (image.width != width || image.height != height) return FrameState::other;
         // A JPEG holds one comment and nothing else.
-        for (const char* name : {settingsAttribute, "comments"}) {
-            const auto found = metadata.find(name);
-            const auto* text = found == metadata.end() ? nullptr : std::get_if<std::string>(&found->second);
-            if (text != nullptr && *text == settings) return FrameState::finished;
-        }
+        for (const char* name : {settingsAttribute, "comments"})
+            if (const std::string* text = textAttribute(metadata, name); text != nullptr && *text == settings)
+                return FrameState::finished;
         return FrameState::other;
     } catch (const Error&) {
         return FrameState::missing;
     }
-}
-
-void dropFileAttributes(Metadata& metadata) {
-    std::erase_if(metadata, [](const auto& entry) {
-        static constexpr std::string_view ofFile[] = {
-            "compression", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
-            "name",        "chunkCount",       "PixelAspectRatio",   "version"};
-        return entry.first.starts_with("openexr:") || entry.first.starts_with("oiio:") ||
-               std::ranges::find(ofFile, entry.first) != std::end(ofFile);
-    });
 }
 
 void removeUnfinished(const std::vector<fs::path>& paths) {

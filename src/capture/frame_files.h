@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image_io.h"
+#include "render/tiles/part_header.h"
 
 namespace defocus {
 
@@ -14,9 +14,6 @@ namespace defocus {
 void checkFramePattern(const std::string& pattern);
 std::filesystem::path framePath(const std::string& pattern, int frame);
 
-// The metadata that says of what a frame was made; equal for equal frames.
-inline constexpr const char* settingsAttribute = "defocus:settings";
-
 // What is there under a frame's name.
 enum class FrameState {
     missing,   // nothing, or a file that is damaged
@@ -24,9 +21,6 @@ enum class FrameState {
     other,     // a whole image, but not that
 };
 FrameState frameState(const std::filesystem::path& path, int width, int height, const std::string& settings);
-
-// Takes out what the file format says of itself (compression, windows, …), which isn't the frame's.
-void dropFileAttributes(Metadata& metadata);
 
 // Removes what a process that was killed left beside these files: temporary ones of their names. What another process
 // is writing just now stays.

@@ -87,7 +87,7 @@ double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose
     return std::get<double>(target);
 }
 
-double focusAt(const FocusTrack& focus, const Scene& scene, const SequenceFrame& frame, const Lens& lens) {
+double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& frame, const Lens& lens) {
     View view = frame.view;
     view.lens = lens;
     // Only the keys that have a say at this frame: a node far from its turn may be anywhere.
@@ -142,7 +142,7 @@ void followCamera(const SequenceBase& base, const Camera& camera, Lens& lens) {
                 [&](std::string_view name) { return base.fixedLens.contains(name) || camera.lens.contains(name); });
 }
 
-Lens lensAt(const Shot& shot, const SequenceBase& base, const SequenceFrame& frame) {
+Lens lensAt(const Shot& shot, const SequenceBase& base, const FrameMoment& frame) {
     Lens lens = frame.view.lens;
     if (const auto placed = cameraOfFile(base, frame.pose)) followCamera(base, placed->camera, lens);
     for (const auto& [name, track] : shot.lens) {
@@ -179,9 +179,9 @@ std::uint32_t frameSeed(std::uint32_t seed, int frame) {
 
 }  // namespace
 
-SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame) try {
+FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame) try {
     const int clip = clipOf(shot, *base.scene);
-    SequenceFrame result;
+    FrameMoment result;
     result.frame = frame;
     result.time = timeAt(shot, *base.scene, clip, frame / shot.frameRate);
     const double middle = shutterMiddle(base.shutter);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capture/shot.h"
+#include "frame/frame_moment.h"
 #include "plan/shutter.h"
 
 namespace defocus {
@@ -25,19 +26,9 @@ struct SequenceBase {
     ShutterSettings shutter;  // of each frame; the shot's camera moves while the shutter is open, too
 };
 
-struct SequenceFrame {
-    int frame = 0;
-    double time = 0;  // s into the animation clip
-    Pose pose;        // in the middle of the exposure
-    Shutter shutter;
-    std::vector<PlacedLight> lights;
-    View view;
-    RenderSettings settings;
-};
-
 // Throws Error naming the shot's file and the frame for what can't be filmed: nodes and clips that don't exist, a focus
 // behind the camera or on nothing, an impossible lens.
-SequenceFrame frameAt(const Shot& shot, const SequenceBase& base, int frame);
+FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame);
 
 // Frames of `range` that shard `shard` of `shards` renders: every shards-th, so that each has its part of whatever
 // takes long.

@@ -44,7 +44,8 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
     PreparedFrame frame = placeFrame(arguments.request, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     addPyramids(frame, progress);
-    printFrameWarnings(frame, global);
+    printCacheUse(frame, global);
+    WarningPrinter(global).print(frameWarnings(frame));
 
     PoppingOptions options = arguments.options;
     options.plan = frame.settings;

@@ -27,12 +27,10 @@
 #include "core/message.h"
 #include "core/stopwatch.h"
 #include "frame/exposure.h"
-#include "frame/memory_budget.h"
 #include "frame/picture_warnings.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
-#include "frame/unused_settings.h"
 #include "gl/context.h"
 #include "render/methods.h"
 
@@ -95,11 +93,6 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
     FilmOptions options;
     options.outputs = shot.outputs;
     options.sampleRange = arguments.sampleRange;
-    options.toneMap = arguments.request.toneMap;
-    options.exposure = arguments.request.exposure;
-    options.automatic = isAutomatic(arguments.request);
-    options.stop = arguments.request.stop;
-    options.stop.timeLimit.reset();  // the run's: the same frame gets the same samples whenever it is rendered
     options.settings = settings;
     options.timings = timingsPath(shot.outputs.front(), arguments.shard.index, arguments.shard.count);
     options.resume = arguments.resume;
@@ -117,9 +110,8 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
     fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
                "triangles", "file");
     for (const FilmFrame& each : film) {
-        const SequenceFrame frame = frameAt(arguments.shot, base, each.frame);
-        prepared.world.pose = frame.pose;
-        prepared.world.shutter = frame.shutter;
+        const FrameMoment frame = frameAt(arguments.shot, base, each.frame);
+        applyMoment(frame, prepared.world);
         const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
         const Lens& lens = frame.view.lens;
         fmt::print("{:>7} {:>9.3f} {:>10.4g} {:>8.3g} {:>8.4g} {:>12}  {}{}\n", each.frame, frame.time,
@@ -133,7 +125,7 @@ void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const
 // Metadata as of `render`, less what differs from run to run. `exposure`: of all frames; none: their lens's.
 FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method,
                         std::optional<double> exposure) {
-    return [&arguments, &prepared, method, exposure](const SequenceFrame& frame, const FramePlan& plan,
+    return [&arguments, &prepared, method, exposure](const FrameMoment& frame, const FramePlan& plan,
                                                      const RenderStats& stats) {
         Request options = arguments.request;
         options.time = frame.time;
@@ -147,24 +139,19 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
     };
 }
 
-// Of the first frame.
+// Plans the first frame for its warnings.
 void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
-                       const std::vector<FilmFrame>& film, const MethodUse& use, const GlobalOptions& global) {
-    const SequenceFrame frame = frameAt(arguments.shot, base, film.front().frame);
-    prepared.world.pose = frame.pose;
-    prepared.world.shutter = frame.shutter;
-    const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
-    printWarnings(unusedSettings(arguments.request, *prepared.scene, frame.view.lens), global);
-    printWarnings(planWarnings(plan, use), global);
+                       const std::vector<FilmFrame>& film, const MethodUse& use, WarningPrinter& warnings) {
+    const FrameMoment frame = frameAt(arguments.shot, base, film.front().frame);
+    applyMoment(frame, prepared.world);
+    warnings.print(planWarnings(planFrame(prepared.world, frame.view, frame.settings), use));
 }
 
 // All frames are exposed as the shot's first one is metered, whichever of them this run renders.
 void meterFilm(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                std::vector<FilmFrame>& film, const GlobalOptions& global) {
-    const SequenceFrame frame = frameAt(arguments.shot, base, arguments.shot.range.first);
-    prepared.world.pose = frame.pose;
-    prepared.world.shutter = frame.shutter;
-    prepared.world.lights = frame.lights;
+    const FrameMoment frame = frameAt(arguments.shot, base, arguments.shot.range.first);
+    applyMoment(frame, prepared.world);
     const double exposure = meteredExposure(prepared.world, frame.view, frame.settings, global.shaderDir);
     for (FilmFrame& each : film) each.write.exposure = exposure;
 }
@@ -187,17 +174,11 @@ void printFigures(const FilmFigures& figures, std::size_t frames) {
 FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                          const std::vector<FilmFrame>& film, FilmOptions& options, const MethodUse& use,
                          const GlobalOptions& global, const Progress& progress) try {
-    options.method = use.method;
-    options.memoryLimit = memoryLimit(arguments.request);
-    RendererOptions rendererOptions;
-    rendererOptions.layerFormat = arguments.request.layerFormat;
-    rendererOptions.wave = arguments.request.wave;
-    rendererOptions.waveBytes = waveBytesWithin(options.memoryLimit);
-    rendererOptions.shaderFolder = global.shaderDir;
-    rendererOptions.settings = use.settings;
-    const std::unique_ptr<Renderer> renderer = use.method->make(prepared.world, rendererOptions);
+    const Request& request = arguments.request;
+    FrameDriver driver(prepared.world,
+                       {use, {request.memory, request.wave, request.layerFormat}, global.shaderDir, filmPixelBytes});
     const std::optional<double> exposure =
-        options.metered ? std::optional(film.front().write.exposure) : options.exposure;
+        options.metered ? std::optional(film.front().write.exposure) : request.exposure;
     stopWhenAsked();
     // With a time limit at least one frame is rendered, so that run after run ends some day.
     const Clock::time_point start = Clock::now();
@@ -207,7 +188,7 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
         const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;
         return stopAsked() || late;
     };
-    return renderFilm(arguments.shot, base, prepared.world, *renderer, film, options,
+    return renderFilm(arguments.shot, base, prepared.world, driver, film, options,
                       metadataOf(arguments, prepared, use.text(), exposure), stop, progress);
 } catch (const Error& error) {
     fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
@@ -254,9 +235,10 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) context = createHeadlessContext();
     if (!allThere || meters || arguments.dryRun) addPyramids(prepared, progress);
     progress = {};
-    printFrameWarnings(prepared, global);
-    printWarnings(ignoredWarnings(*prepared.scene), global);
-    if (!allThere) printPlanWarnings(arguments, prepared, base, film, use, global);
+    printCacheUse(prepared, global);
+    WarningPrinter warnings(global);
+    warnings.print(requestWarnings(arguments.request, prepared));
+    if (!allThere) printPlanWarnings(arguments, prepared, base, film, use, warnings);
     if (arguments.dryRun) return printPlan(arguments, prepared, base, film);
     if (meters) meterFilm(arguments, prepared, base, film, global);
     progress = terminalProgress(global);
@@ -267,7 +249,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (!shot.video.empty() || std::ranges::any_of(shot.outputs, hasCurve))
         options.firstDrawn = [&](const Image& image, const WriteOptions& write) {
             progress = {};  // the line of the progress makes room
-            printWarnings(clippingWarnings(image, write), global);
+            warnings.print(clippingWarnings(image, write));
             progress = terminalProgress(global);
         };
     FilmFigures figures;

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,11 +28,19 @@ void addCommands(CLI::App& program, GlobalOptions& global);
 // shows nothing.
 Progress terminalProgress(const GlobalOptions& global);
 
-// A line each on stderr, unless --quiet.
-void printWarnings(const std::vector<std::string>& lines, const GlobalOptions& global);
+// Prints warnings on stderr, each line once, unless --quiet.
+class WarningPrinter {
+public:
+    explicit WarningPrinter(const GlobalOptions& global) : quiet_(global.quiet) {}
+    void print(const std::vector<std::string>& lines);
 
-// frameWarnings; with --verbose, also how many pyramids came from the cache.
-void printFrameWarnings(const PreparedFrame& frame, const GlobalOptions& global);
+private:
+    bool quiet_;
+    std::set<std::string> printed_;
+};
+
+// With --verbose, says how many pyramids came from the cache.
+void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global);
 
 void addRenderCommand(CLI::App& program, const GlobalOptions& global);
 void addViewCommand(CLI::App& program, const GlobalOptions& global);

@@ -268,8 +268,9 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
     const std::vector<std::size_t> objects = objectsPerMesh(scene, pose);
     const Totals totals = totalsOf(scene, objects);
     const glm::dvec3 size = pose.bounds.size();
-    line("scene",
-         options.seen.scene.empty() ? scene.name : fmt::format("{} ({})", printable(options.seen.scene.string()), scene.name));
+    line("scene", options.seen.scene.empty()
+                      ? scene.name
+                      : fmt::format("{} ({})", printable(options.seen.scene.string()), scene.name));
     line("size", fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x, size.y, size.z));
     line("triangles", fmt::format("{}, {} in the scene", grouped(totals.triangles), grouped(totals.trianglesInScene)));
     line("vertices", grouped(totals.vertices));
@@ -306,7 +307,8 @@ void runCameraInfo(const InfoOptions& options, const GlobalOptions& global) {
     Request seen = options.seen;
     if (options.camera != flagOnly) seen.camera = options.camera;
     const PreparedFrame frame = placeFrame(seen, terminalProgress(global));
-    printFrameWarnings(frame, global);
+    printCacheUse(frame, global);
+    WarningPrinter(global).print(frameWarnings(frame));
     fmt::print("{}", options.json ? cameraJson(frame, options.question) : cameraTable(frame, options.question));
     std::fflush(stdout);
 }

@@ -7,8 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "capture/partial.h"
-#include "capture/tile_files.h"
 #include "cli/command.h"
 #include "cli/image_output.h"
 #include "cli/option_text.h"
@@ -17,6 +15,8 @@
 #include "core/message.h"
 #include "gl/context.h"
 #include "image/image_io.h"
+#include "render/tiles/row_file.h"
+#include "render/tiles/sum_file.h"
 
 namespace defocus {
 
@@ -44,15 +44,15 @@ std::string shownOutputs(const MergeArguments& arguments) {
 }
 
 void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
-    const std::vector<TileFile> tiles = completeTiles(arguments.parts);
+    const std::vector<RowFile> tiles = completeRows(arguments.parts);
     Metadata metadata = tiles.front().header.metadata;
     metadata.try_emplace("capDate", std::string());  // as the frames of a film: no time of writing
-    std::vector<TileOutput> outputs;
+    std::vector<JoinedOutput> outputs;
     for (const std::filesystem::path& path : arguments.outputs) {
         if (isStandardOutput(path)) throw UsageError("tiles are joined to files alone");
         outputs.push_back({path, {arguments.toneMap, arguments.exposure.value_or(ownExposure(metadata))}});
     }
-    joinTiles(tiles, outputs, metadata);
+    joinRows(tiles, outputs, metadata);
     if (!global.quiet)
         printMessage("{}: {}x{}, {} tiles\n", shownOutputs(arguments), tiles.front().header.width,
                      tiles.front().header.height, tiles.size());
@@ -60,7 +60,7 @@ void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
 
 void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
     checkImageOutputs(arguments.outputs, {}, arguments.parts);
-    if (isTileFile(arguments.parts.front())) return mergeTiles(arguments, global);
+    if (isRowFile(arguments.parts.front())) return mergeTiles(arguments, global);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     const MergedFrame merged = mergeParts(arguments.parts);
     const WriteOptions write{arguments.toneMap, arguments.exposure.value_or(ownExposure(merged.metadata))};

@@ -9,7 +9,6 @@
 #include "cli/request_options.h"
 #include "frame/plan_warnings.h"
 #include "frame/prepared_frame.h"
-#include "frame/unused_settings.h"
 #include "plan/frame_plan.h"
 #include "plan/plan_text.h"
 #include "render/automatic_samples.h"
@@ -32,10 +31,10 @@ void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
         plan = planFrame(frame.world, frame.view, settings);
     }
     fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
-    printFrameWarnings(frame, global);
-    printWarnings(ignoredWarnings(*frame.scene), global);
-    printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
-    printWarnings(planWarnings(plan, parseMethodUse("accumulation")), global);
+    printCacheUse(frame, global);
+    WarningPrinter warnings(global);
+    warnings.print(requestWarnings(arguments.request, frame));
+    warnings.print(planWarnings(plan, parseMethodUse("accumulation")));
 }
 
 }  // namespace

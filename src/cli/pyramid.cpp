@@ -345,14 +345,14 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
         context = createHeadlessContext();
     }
 
-    printWarnings(damageWarnings(scene), global);
+    WarningPrinter(global).print(damageWarnings(scene));
     PyramidOptions options;
     options.vertices = arguments.request.settings.levelVertices;
     const Finishes finishes(scene);
     options.finishes = &finishes;
     if (const std::string failure = buildAll(scene, arguments.cacheFolder, options, reports, progress);
         !failure.empty())
-        printWarnings({"a pyramid was not stored: " + failure}, global);
+        WarningPrinter(global).print({"a pyramid was not stored: " + failure});
     if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
     std::size_t files = 0;
     if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);

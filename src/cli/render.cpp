@@ -6,43 +6,28 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "capture/partial.h"
 #include "cli/command.h"
 #include "cli/image_output.h"
 #include "cli/option_text.h"
-#include "cli/render_tiles.h"
 #include "cli/stop_signal.h"
 #include "core/error.h"
-#include "core/file.h"
 #include "core/message.h"
-#include "frame/exposure.h"
-#include "frame/memory_budget.h"
+#include "core/stopwatch.h"
+#include "frame/frame_output.h"
 #include "frame/picture_warnings.h"
-#include "frame/plan_warnings.h"
-#include "frame/prepared_frame.h"
 #include "frame/program_facts.h"
-#include "frame/render_report.h"
-#include "frame/tiled_frame.h"
-#include "frame/unused_settings.h"
-#include "gl/context.h"
 #include "image/image_io.h"
-#include "image/tone_map.h"
 #include "plan/swept_work.h"
-#include "render/aov/aov.h"
 #include "render/aov/work.h"
-#include "render/frame_run.h"
 
 namespace defocus {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 void parseAovs(const std::string& text, AovRequest& aovs) {
     const std::vector<std::string> names = {"depth", "coc", "level", "rate", "work", "swept-work"};
@@ -116,6 +101,15 @@ std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
     return paths;
 }
 
+FrameFiles filesOf(const RenderArguments& arguments) {
+    FrameFiles files{arguments.outputs, arguments.sampleRange, arguments.tile, arguments.resume, {}};
+    if (arguments.aovs.any())
+        files.whole = "--aov shows the whole image";
+    else if (std::ranges::any_of(arguments.outputs, isStandardOutput))
+        files.whole = "tiles are joined to files alone";
+    return files;
+}
+
 void checkOutputs(const RenderArguments& arguments) {
     std::vector<std::filesystem::path> more = aovPaths(arguments);
     if (!arguments.stats.empty()) more.push_back(arguments.stats);
@@ -123,38 +117,7 @@ void checkOutputs(const RenderArguments& arguments) {
     checkImageOutputs(arguments.outputs, more, {request.scene, request.environment, request.lens.apertureImage});
     if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
         fail("--aov writes files beside the first output, which must be a file");
-    if (!arguments.sampleRange) return;
-    if (arguments.request.stop.given())
-        throw UsageError("--sample-range needs a number of samples, which --target-error and --time-limit leave open");
-    if (arguments.request.settings.sampleCount == automaticSamples)
-        throw UsageError("--sample-range is a part of a number of samples: give --samples N too");
-    checkSampleRange(*arguments.sampleRange, arguments.request.settings.sampleCount);
-    if (arguments.outputs.size() != 1 || arguments.outputs.front().extension() != ".exr" || arguments.aovs.any())
-        fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
-}
-
-// Between two waves.
-void stepOrStop(const Progress& progress, std::uint64_t samples, std::uint64_t total) {
-    if (stopAsked()) fail("stopped after {} of {} samples: nothing is written", samples, total);
-    report(progress, "samples", samples, total);
-}
-
-Image renderImage(FrameRun& run, Renderer& renderer, const RenderArguments& arguments, const PreparedFrame& frame,
-                  const Progress& progress) {
-    run.start(frame.view, runSettings(frame, arguments.request), arguments.request.stop);
-    stopWhenAsked();
-    do stepOrStop(progress, run.samples(), run.sampleTotal());
-    while (run.advance());
-    return renderer.image();
-}
-
-// Part of the samples: their sums, block by block, to one file.
-void writeSums(const RenderArguments& arguments, FramePart part, const PreparedFrame& frame,
-               const std::filesystem::path& shaderFolder, const Metadata& metadata) {
-    part.settings = frameSettings(arguments, frame, shaderFolder);
-    part.metadata = metadata;
-    part.metadata["defocus:samples"] = static_cast<int>(part.frameSamples);
-    writePart(arguments.outputs.front(), part);
+    FrameOutput::check(filesOf(arguments), request);
 }
 
 void writeAovs(const RenderArguments& arguments, const AovImages& images, const Metadata& metadata) {
@@ -189,130 +152,81 @@ void writeSweptWork(const RenderArguments& arguments, const Image& work, const M
     if (!quiet) printMessage("swept work: {:.1f} triangles a pixel, at most {:.0f}\n", summary.mean, summary.most);
 }
 
-void printSummary(const RenderArguments& arguments, const RenderReport& report) {
+void printSummary(const RenderArguments& arguments, const RenderReport& report, int rowsKept) {
     std::string names;
     for (const std::filesystem::path& path : arguments.outputs)
         names += (names.empty() ? "" : ", ") + shownOutput(path);
     for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
     printMessage("{}: {}\n", names, summary(report));
+    if (rowsKept > 0) printMessage("{} of {} rows there before\n", rowsKept, report.plan.view.height);
 }
 
-void printChoices(const GlContext* context, const FramePlan& plan, const RenderReport& report) {
-    if (context != nullptr)
-        for (const std::string& line : context->log()) printMessage("{}\n", line);
+void printChoices(const GlContext& context, const RenderReport& report) {
+    for (const std::string& line : context.log()) printMessage("{}\n", line);
     printMessage("{} layers of {} at once\n", report.stats.wave, report.stats.layerFormat);
-    for (const LeftOut& entry : plan.leftOut) printMessage("left out: {}: {}\n", entry.what, entry.reason);
+    for (const LeftOut& entry : report.plan.leftOut) printMessage("left out: {}: {}\n", entry.what, entry.reason);
     printMessage("load {:.0f} ms, pyramids {:.0f} ms, set-up {:.0f} ms, render {:.0f} ms\n",
                  report.frame.loadMilliseconds, report.frame.pyramidMilliseconds, report.stats.setupMilliseconds,
                  report.stats.renderMilliseconds);
 }
 
-void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
-    // Faults first: method, outputs, scene, lens, device; only then the long work.
-    const Clock::time_point start = Clock::now();
-    const MethodUse use = chosenMethod(arguments.request);
-    const Method& method = *use.method;
-    checkStop(arguments.request);
-    checkOutputs(arguments);
-    checkTileOptions(arguments, method);
-    Progress progress = terminalProgress(global);
-    PreparedFrame frame = placeFrame(arguments.request, progress);
-    std::unique_ptr<GlContext> context;
-    if (method.needsGl || arguments.aovs.any()) context = createHeadlessContext();
-    addPyramids(frame, progress);
-
-    // What is worth knowing before the work; where it decides how many samples there are, the rest comes after it.
-    progress = {};
-    printFrameWarnings(frame, global);
-    printWarnings(ignoredWarnings(*frame.scene), global);
-    printWarnings(unusedSettings(arguments.request, *frame.scene, frame.view.lens), global);
-    const auto warnOfPlan = [&](const FramePlan& plan, std::uint64_t samples = 0) {
-        printWarnings(planWarnings(plan, use, samples), global);
+// Draws the frame; what goes to files in parts is written meanwhile.
+void draw(FrameOutput& output, const SceneDriver& driver, const Progress& progress) {
+    const FrameDriver& frame = driver.driver();
+    const auto step = [&] {
+        if (stopAsked()) fail("{}", output.stopMessage());
+        if (frame.inTiles())
+            report(progress, "rows", static_cast<std::uint64_t>(1000 * output.share()), 1000);
+        else
+            report(progress, "samples", frame.samples(), frame.sampleTotal());
     };
-    const bool counted = !arguments.request.stop.given() && !isAutomatic(arguments.request);
-    if (counted) warnOfPlan(planFrame(frame.world, frame.view, frame.settings));
-    progress = terminalProgress(global);
+    stopWhenAsked();
+    do step();
+    while (output.advance());
+}
 
-    // Plan and render.
-    const std::uint64_t limit = memoryLimit(arguments.request);
-    const bool inTiles = drawsInTiles(arguments, frame, method, limit);
-    RendererOptions options;
-    options.layerFormat = arguments.request.layerFormat;
-    options.wave = arguments.request.wave;
-    options.waveBytes = waveBytesWithin(limit);
-    if (method.needsGl && arguments.request.memory)
-        options.wave = waveWithin(
-            needsBeforeUpload(frame.world, planOfTiles(frame.world, frame.view, runSettings(frame, arguments.request)),
-                              arguments.request, limit));
-    options.shaderFolder = global.shaderDir;
-    options.settings = use.settings;
-    const std::unique_ptr<Renderer> renderer = method.make(frame.world, options);
-    FrameRun run(frame.world, *renderer);
-    FramePlan plan;
-    Image image;
-    FramePart part;
-    std::optional<TiledFrame> tiled;
-    const auto metadataOf = [&](const FramePlan& drawn, const RenderStats& drawnStats) {
-        return renderMetadata({arguments.request, use.text(), frame, drawn, drawnStats});
-    };
-    if (inTiles) {
-        tiled = renderTiles(arguments, frame, *renderer, limit, frameSettings(arguments, frame, global.shaderDir),
-                            metadataOf, progress);
-        plan = tiled->plan;
-    } else if (arguments.sampleRange) {
-        plan = planFrame(frame.world, frame.view, frame.settings);
-        stopWhenAsked();
-        part = renderPart(*renderer, plan, *arguments.sampleRange,
-                          [&] { stepOrStop(progress, renderer->samples(), renderer->sampleTotal()); });
-    } else {
-        image = renderImage(run, *renderer, arguments, frame, progress);
-        plan = run.plan();
-    }
-    const RenderStats stats = tiled ? tiled->stats : arguments.sampleRange ? renderer->stats() : run.stats();
-    progress = {};
-    if (!counted) warnOfPlan(plan, stats.samples);
-    if (tiled) printWarnings(tiledSamplesNote(plan, isAutomatic(arguments.request)), global);
-
-    // Write.
-    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    const bool software = context == nullptr || context->software();
-    if (metersExposure(arguments.request, *frame.scene, frame.view.lens) && !context) context = createHeadlessContext();
-    const double exposure =
-        chosenExposure(arguments.request, frame.world, frame.view, frame.settings, global.shaderDir);
-    const RenderReport report{.options = arguments.request,
-                              .method = use.text(),
-                              .frame = frame,
-                              .plan = plan,
-                              .stats = stats,
-                              .softwareDriver = software,
-                              .totalMilliseconds = milliseconds,
-                              .exposure = exposure,
-                              .command = commandLine(global.words),
-                              .memoryLimit = limit,
-                              .tiles = tiled ? tiled->tiles : 1};
-    const Metadata metadata = renderMetadata(report);
+void writeImages(const RenderArguments& arguments, const Image& image, SceneDriver& driver, WarningPrinter& warnings) {
+    const WriteOptions options = driver.writeOptions();
     const auto hasCurve = [](const std::filesystem::path& path) {
         return !path.string().starts_with("exr:") && path.extension() != ".exr";
     };
-    if (!image.empty() && std::ranges::any_of(arguments.outputs, hasCurve))
-        printWarnings(clippingWarnings(image, {arguments.request.toneMap, exposure}), global);
-    if (arguments.sampleRange)
-        writeSums(arguments, std::move(part), frame, global.shaderDir, metadata);
-    else if (tiled)
-        joinRenderedTiles(arguments, metadata, {arguments.request.toneMap, exposure});
-    else
-        for (const std::filesystem::path& path : arguments.outputs)
-            writeOutput(path, image, metadata, WriteOptions{arguments.request.toneMap, exposure});
-    if (arguments.aovs.surfaces())
-        writeAovs(arguments, renderAovs(frame.world, plan, global.shaderDir, use.sharesImages()), metadata);
-    if (arguments.aovs.work)
-        writeWork(arguments, plan, renderWork(frame.world, plan, global.shaderDir), metadata, global.quiet);
-    if (arguments.aovs.sweptWork) writeSweptWork(arguments, sweptWork(plan, frame.world), metadata, global.quiet);
+    if (std::ranges::any_of(arguments.outputs, hasCurve)) warnings.print(clippingWarnings(image, options));
+    const Metadata metadata = driver.metadata();
+    for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, options);
+}
+
+void writeAllAovs(const RenderArguments& arguments, SceneDriver& driver, bool quiet) {
+    if (!arguments.aovs.any()) return;
+    const Metadata metadata = driver.metadata();
+    if (arguments.aovs.surfaces()) writeAovs(arguments, driver.aovs(), metadata);
+    if (arguments.aovs.work) writeWork(arguments, driver.driver().plan(), driver.work(), metadata, quiet);
+    if (arguments.aovs.sweptWork) writeSweptWork(arguments, driver.sweptWork(), metadata, quiet);
+}
+
+void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
+    const Clock::time_point start = Clock::now();
+    checkOutputs(arguments);
+    Progress progress = terminalProgress(global);
+    SceneDriver driver(nullptr, arguments.request, global.shaderDir, progress);
+    FrameOutput output(driver, filesOf(arguments));
+    output.start(progress);
+
+    // Warnings come before the work, as far as they are known.
+    progress = {};  // ends the progress line
+    WarningPrinter warnings(global);
+    printCacheUse(driver.frame(), global);
+    warnings.print(driver.warnings());
+    progress = terminalProgress(global);
+    draw(output, driver, progress);
+    progress = {};
+    warnings.print(driver.warnings());
+
+    if (const std::optional<Image> image = output.finish()) writeImages(arguments, *image, driver, warnings);
+    writeAllAovs(arguments, driver, global.quiet);
+    const RenderReport report = driver.report(commandLine(global.words), millisecondsSince(start));
     if (!arguments.stats.empty()) writeOutput(arguments.stats, statsJson(report));
-    if (global.verbose) printChoices(context.get(), plan, report);
-    if (!global.quiet) printSummary(arguments, report);
-    if (!global.quiet && tiled && tiled->rowsKept > 0)
-        printMessage("{} of {} rows there before\n", tiled->rowsKept, plan.view.height);
+    if (global.verbose) printChoices(driver.context(), report);
+    if (!global.quiet) printSummary(arguments, report, output.rowsKept());
 }
 
 }  // namespace

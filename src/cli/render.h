@@ -5,10 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "capture/partial.h"
-#include "capture/tile_files.h"
 #include "cli/request_options.h"
-#include "image/tone_map.h"
+#include "render/tiles/part_header.h"
 
 namespace defocus {
 

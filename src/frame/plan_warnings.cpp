@@ -9,6 +9,7 @@
 
 #include "core/number_text.h"
 #include "defocus/settings.h"
+#include "frame/unused_settings.h"
 #include "lens/lens_fields.h"
 #include "plan/lens_cells.h"
 #include "render/automatic_samples.h"
@@ -104,6 +105,14 @@ std::vector<std::string> ignoredWarnings(const Scene& scene) {
                                         ignored.what, ignored.reason));
     }
     if (more > 0) lines.push_back(fmt::format("{} more kinds of things are ignored", grouped(more)));
+    return lines;
+}
+
+std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame) {
+    std::vector<std::string> lines = frameWarnings(frame);
+    const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
+    add(ignoredWarnings(*frame.scene));
+    add(unusedSettings(request, *frame.scene, frame.view.lens));
     return lines;
 }
 

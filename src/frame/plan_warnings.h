@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/prepared_frame.h"
 #include "plan/frame_plan.h"
 #include "render/methods.h"
 
@@ -22,5 +23,8 @@ std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& us
 // Returns a line for each thing in the scene's file that isn't drawn, up to 20. For faults of the file see
 // damageWarnings (prepared_frame.h).
 std::vector<std::string> ignoredWarnings(const Scene& scene);
+
+// Returns all warnings of a request that need no plan: of the frame's scene and camera, and of settings without effect.
+std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame);
 
 }  // namespace defocus

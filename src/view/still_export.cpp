@@ -9,28 +9,23 @@
 namespace defocus {
 
 StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request)
-    : frame_(&frame), request_(request), use_(chosenMethod(request.options)), begin_(std::chrono::steady_clock::now()) {
+    : frame_(&frame), request_(request), begin_(Clock::now()) {
+    const Request& options = request.options;
     checkImageExtension(request.output);
     checkWritable(request.output);
-    checkStop(request.options);
-    RendererOptions options;
-    options.layerFormat = request.options.layerFormat;
-    options.wave = request.options.wave > 0 ? request.options.wave : (request.software ? 2 : 8);
-    options.shaderFolder = request.shaderFolder;
-    options.settings = use_.settings;
-    renderer_ = use_.method->make(frame.world, options);
-    run_.emplace(frame.world, *renderer_);
-    run_->start(request.view, request.options.settings, request.options.stop);
+    checkStop(options);
+    // Small waves keep the window awake.
+    const std::uint32_t wave = options.wave > 0 ? options.wave : (request.software ? 2 : 8);
+    driver_.emplace(
+        frame.world,
+        DriverOptions{chosenMethod(options), {options.memory, wave, options.layerFormat}, request.shaderFolder});
+    driver_->start({request.view, options.settings, options.stop});
 }
 
 bool StillExport::step() {
-    if (run_->advance()) return true;
+    if (driver_->advance()) return true;
     write();
     return false;
-}
-
-double StillExport::share() const {
-    return static_cast<double>(run_->samples()) / run_->sampleTotal();
 }
 
 double StillExport::secondsLeft() const {
@@ -39,11 +34,9 @@ double StillExport::secondsLeft() const {
 }
 
 void StillExport::write() {
-    const Image image = renderer_->image();
-    const double milliseconds = millisecondsSince(begin_);
-    const RenderReport report{request_.options, use_.text(),       *frame_,     run_->plan(),
-                              run_->stats(),    request_.software, milliseconds};
-    writeImage(request_.output, image, renderMetadata(report), request_.write);
+    const RenderReport report{request_.options,  driver_->method().text(), *frame_, driver_->plan(), driver_->stats(),
+                              request_.software, millisecondsSince(begin_)};
+    writeImage(request_.output, driver_->image(), renderMetadata(report), request_.write);
 }
 
 }  // namespace defocus

@@ -4,12 +4,11 @@
 
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
+#include "frame/frame_driver.h"
 #include "frame/prepared_frame.h"
 #include "image/image_io.h"
-#include "render/frame_run.h"
 
 namespace defocus {
 
@@ -30,8 +29,8 @@ public:
 
     // One wave of samples, and after the last one the file. False once it is written.
     bool step();
-    [[nodiscard]] double share() const;        // 0 … 1
-    [[nodiscard]] double secondsLeft() const;  // as so far; infinity before the first wave
+    [[nodiscard]] double share() const { return driver_->share(); }  // 0 … 1
+    [[nodiscard]] double secondsLeft() const;                        // as so far; infinity before the first wave
     [[nodiscard]] const StillRequest& request() const { return request_; }
 
 private:
@@ -39,9 +38,7 @@ private:
 
     const PreparedFrame* frame_;
     StillRequest request_;
-    MethodUse use_;
-    std::unique_ptr<Renderer> renderer_;
-    std::optional<FrameRun> run_;
+    std::optional<FrameDriver> driver_;
     std::chrono::steady_clock::time_point begin_;
 };
 

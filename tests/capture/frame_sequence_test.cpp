@@ -41,11 +41,11 @@ protected:
         base_.fixedLens = {"focalLength"};
     }
 
-    [[nodiscard]] SequenceFrame frame(const char* shot, int number) const {
+    [[nodiscard]] FrameMoment frame(const char* shot, int number) const {
         return frameAt(parseShot(shot, "x.json"), base_, number);
     }
-    [[nodiscard]] static glm::dvec3 placeOf(const SequenceFrame& frame) { return frame.view.worldFromCamera[3]; }
-    [[nodiscard]] static glm::dvec3 forwardOf(const SequenceFrame& frame) {
+    [[nodiscard]] static glm::dvec3 placeOf(const FrameMoment& frame) { return frame.view.worldFromCamera[3]; }
+    [[nodiscard]] static glm::dvec3 forwardOf(const FrameMoment& frame) {
         return -glm::dvec3(frame.view.worldFromCamera[2]);
     }
     static void expectNear(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::length(a - b), 1e-12); }
@@ -69,11 +69,11 @@ TEST_F(FrameSequence, cameraKeysLookFromPositionToTarget) {
     const char* shot = R"({"frameRate": 10, "camera": {"interpolation": "linear", "keys": [
         {"frame": 0, "position": [0, 0, 2], "target": "Rising"},
         {"frame": 10, "position": [4, 0, -2], "target": "Rising"}]}})";
-    const SequenceFrame middle = frame(shot, 5);
+    const FrameMoment middle = frame(shot, 5);
     expectNear(placeOf(middle), {2, 0, 0});
     expectNear(forwardOf(middle), glm::normalize(glm::dvec3(0, 0.5, -2) - glm::dvec3(2, 0, 0)));
     EXPECT_NEAR(middle.view.worldFromCamera[0].y, 0, 1e-12) << "upright";
-    const SequenceFrame down =
+    const FrameMoment down =
         frame(R"({"camera": {"keys": [{"frame": 0, "position": [0, 3, 0], "target": [0, 0, 0]}]}})", 0);
     expectNear(forwardOf(down), {0, -1, 0});
     expectNear(glm::dvec3(down.view.worldFromCamera[1]), {0, 0, -1});
@@ -107,7 +107,7 @@ TEST_F(FrameSequence, theShutterOpensAroundItsFrame) {
     base_.shutter.seconds = 0.05;
     const char* shot = R"({"frameRate": 10, "range": [0, 90], "camera": {"dolly": {"distance": 3, "frames": [10, 20],
                         "interpolation": "linear"}}})";
-    const SequenceFrame moving = frame(shot, 15);
+    const FrameMoment moving = frame(shot, 15);
     expectNear(placeOf(moving), {0, 0, -1.5});
     ASSERT_EQ(moving.view.shutterCameras.size(), 2u);
     expectNear(glm::dvec3(moving.view.shutterCameras[0][3]), {0, 0, -1.425});
@@ -290,7 +290,7 @@ TEST_F(FrameSequence, exposureFollowsTheLens) {
     EXPECT_NEAR(film[1].write.exposure, film[0].write.exposure + 1, 1e-12);
     EXPECT_NEAR(film[2].write.exposure, -std::log2(4 / 0.04 * 100 / 400) - std::log2(1.2), 1e-12);
     EXPECT_NE(film[0].settings, film[1].settings);
-    options.exposure = -1.5;
+    options.settings.request.exposure = -1.5;
     EXPECT_EQ(filmFrames(shot, base_, {0, 1}, options)[1].write.exposure, -1.5);
 
     const char* switched =

@@ -13,9 +13,7 @@
 #include <utility>
 
 #include "capture/frame_files.h"
-#include "capture/partial.h"
 #include "capture/shot_json.h"
-#include "capture/tile_files.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/memory_limits.h"
@@ -28,6 +26,8 @@
 #include "lod/pyramid/file.h"
 #include "lod/shapes.h"
 #include "plan/frame_plan.h"
+#include "render/tiles/row_file.h"
+#include "render/tiles/sum_file.h"
 #include "scene/gltf/builder.h"
 #include "scene/gltf/gltf.h"
 #include "scene/ground.h"
@@ -229,7 +229,7 @@ constexpr std::size_t mostImagePixels = 1 << 14;
 
 // As a tile of a frame: its rows, and the frame that it makes up.
 void runRows(const std::filesystem::path& path) {
-    static_cast<void>(isTileFile(path));
+    static_cast<void>(isRowFile(path));
     try {
         ImageRowReader reader(path);
         if (std::size_t(reader.width()) * std::size_t(reader.height()) > mostImagePixels) return;
@@ -237,9 +237,9 @@ void runRows(const std::filesystem::path& path) {
     } catch (const Error&) {
     }
     try {
-        const std::vector<TileFile> tiles = completeTiles({path});
-        joinTiles(tiles, {{path.parent_path() / "joined.exr", {}}, {path.parent_path() / "joined.png", {}}},
-                  tiles.front().header.metadata);
+        const std::vector<RowFile> tiles = completeRows({path});
+        joinRows(tiles, {{path.parent_path() / "joined.exr", {}}, {path.parent_path() / "joined.png", {}}},
+                 tiles.front().header.metadata);
     } catch (const Error&) {
     }
 }

@@ -1,4 +1,4 @@
-#include "capture/settings_hash.h"
+#include "frame/settings_hash.h"
 
 #include <fmt/format.h>
 
@@ -79,32 +79,32 @@ FilmSettings filmSettings(const PreparedFrame& frame, const Request& request,
     return {.world = worldHash(frame.world, frame.view, shaderFolder), .request = request, .encoding = ""};
 }
 
-std::string settingsHash(const FilmSettings& film, const SequenceFrame& frame) {
+std::string settingsHash(const FilmSettings& film, const FrameMoment& moment) {
     HashedText hashed;
     hashed.add(film.world, programVersion(), film.encoding);
-    hashed.add(frame.frame, frame.time);
-    addPose(hashed, frame.pose);
-    hashed.add(frame.shutter.perSample);
-    for (const Pose& pose : frame.shutter.poses) addPose(hashed, pose);
-    for (const glm::dmat4& worldFromCamera : frame.view.shutterCameras) hashed.add(worldFromCamera);
-    for (const PlacedLight& placed : frame.lights) {
+    hashed.add(moment.frame, moment.time);
+    addPose(hashed, moment.pose);
+    hashed.add(moment.shutter.perSample);
+    for (const Pose& pose : moment.shutter.poses) addPose(hashed, pose);
+    for (const glm::dmat4& worldFromCamera : moment.view.shutterCameras) hashed.add(worldFromCamera);
+    for (const PlacedLight& placed : moment.lights) {
         const Light& light = placed.light;
         hashed.add(placed.position);
         hashed.add(placed.direction);
         hashed.add(light.color.r, light.color.g, light.color.b, light.intensity, light.range, light.innerConeAngle,
                    light.outerConeAngle, light.angularDiameter, light.radius);
     }
-    hashed.add(frame.view.worldFromCamera);
-    hashed.add(frame.view.nearPlane, frame.view.width, frame.view.height);
-    addLens(hashed, frame.view.lens);
-    for (const auto& [name, value] : frame.view.methodValues) hashed.add(name, value);
+    hashed.add(moment.view.worldFromCamera);
+    hashed.add(moment.view.nearPlane, moment.view.width, moment.view.height);
+    addLens(hashed, moment.view.lens);
+    for (const auto& [name, value] : moment.view.methodValues) hashed.add(name, value);
     Request request = film.request;
-    request.settings = frame.settings;
+    request.settings = moment.settings;
     if (isAutomatic(film.request)) request.settings.sampleCount = automaticSamples;
     addSettings(hashed, request);
     const LodThresholds thresholds =
-        chosenThresholds(frame.settings.thresholds, frame.settings.metric, frame.settings.sampleCount);
-    hashed.add(frame.settings.firstSample, thresholds.blur, thresholds.size, thresholds.light);
+        chosenThresholds(moment.settings.thresholds, moment.settings.metric, moment.settings.sampleCount);
+    hashed.add(moment.settings.firstSample, thresholds.blur, thresholds.size, thresholds.light);
     return hashed.hash();
 }
 

@@ -1,12 +1,9 @@
-#include "capture/partial.h"
+#include "render/tiles/sum_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
-#include "capture/frame_files.h"
 #include "core/error.h"
-#include "plan/sample_range.h"
 #include "render/accumulation/block_merge.h"
 #include "render/frame_uniforms.h"
 
@@ -66,10 +63,6 @@ std::uint32_t sampleAttribute(const Metadata& metadata, const char* name, const 
     return static_cast<std::uint32_t>(value);
 }
 
-std::string rangeText(const SampleRange& range) {
-    return fmt::format("{}:{}", range.first, range.end);
-}
-
 struct NamedPart {
     fs::path path;
     FramePart part;
@@ -97,54 +90,6 @@ void checkComplete(const std::vector<NamedPart>& parts) {
 }
 
 }  // namespace
-
-SampleRange parseSampleRange(std::string_view text) {
-    const auto number = [&](std::string_view part) {
-        std::uint32_t value = 0;
-        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (fault != std::errc() || end != part.data() + part.size() || value > mostSamples)
-            fail("'{}' is not FIRST:END, samples from 0 to {}, such as 64:128", text, mostSamples);
-        return value;
-    };
-    const std::size_t colon = std::min(text.find(':'), text.size());
-    const SampleRange range{number(text.substr(0, colon)), number(text.substr(std::min(colon + 1, text.size())))};
-    if (range.first >= range.end) fail("'{}': the range holds no sample", text);
-    if (range.first % blockSamples != 0)
-        fail("'{}' cuts a block of {} samples: begin at a multiple of {}", text, blockSamples, blockSamples);
-    return range;
-}
-
-void checkSampleRange(const SampleRange& range, std::uint32_t samples) {
-    if (range.end > samples) fail("samples {}: the frame has {} (--samples)", rangeText(range), samples);
-    if (range.end % blockSamples != 0 && range.end != samples)
-        fail("samples {} cut a block of {}: end at a multiple of {} or with the last sample, {}", rangeText(range),
-             blockSamples, blockSamples, samples);
-}
-
-FramePart renderPart(Renderer& renderer, const FramePlan& plan, const SampleRange& range,
-                     const std::function<void()>& step) {
-    FramePart part;
-    part.frameSamples = static_cast<std::uint32_t>(plan.samples.size());
-    part.range = {std::min(range.first, part.frameSamples), std::min(range.end, part.frameSamples)};
-    part.width = plan.view.width;
-    part.height = plan.view.height;
-    if (part.range.first == part.range.end) return part;  // a frame that needs fewer samples than were asked for
-    // Both weigh a frame's samples against each other, which a part cannot do by itself.
-    const Lens& lens = plan.view.lens;
-    if (plan.usesLens && (lens.catEye > 0 || lens.axialChromaticAberration != 0))
-        fail(
-            "--sample-range: a frame with a cat's eye or axial chromatic aberration cannot be parted; render it whole");
-    renderer.start(samplesOf(plan, part.range.first, part.range.end - part.range.first));
-    for (bool more = true; more;) {
-        more = renderer.advance();
-        if (more && renderer.samples() % blockSamples != 0) continue;
-        std::optional<BlockSum> block = renderer.blockSum();
-        if (!block) fail("only the method 'accumulation' can render a part of a frame's samples");
-        part.blocks.push_back(std::move(*block));
-        if (step) step();
-    }
-    return part;
-}
 
 void writePart(const fs::path& path, const FramePart& part) {
     std::vector<ImageLayer> layers;

@@ -1,6 +1,6 @@
 // The hash that tells a frame which is there already: what changes the picture changes it, and nothing else does.
 
-#include "capture/settings_hash.h"
+#include "frame/settings_hash.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 std::string hashOf(const Request& request) {
     FilmSettings film;
     film.request = request;
-    SequenceFrame frame;
+    FrameMoment frame;
     frame.settings = request.settings;
     return settingsHash(film, frame);
 }

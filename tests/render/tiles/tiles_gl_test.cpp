@@ -10,7 +10,7 @@
 #include "likeness.h"
 #include "plan/tiles.h"
 #include "render/methods.h"
-#include "rendered.h"
+#include "render/rendered.h"
 #include "small_world.h"
 
 namespace defocus {

@@ -4,10 +4,9 @@
 
 #include <cstdlib>
 
-#include "capture/partial.h"
 #include "core/error.h"
+#include "frame/frame_driver.h"
 #include "gl/context.h"
-#include "render/methods.h"
 #include "small_world.h"
 
 namespace defocus {
@@ -28,12 +27,22 @@ protected:
     }
     void TearDown() override { fs::remove_all(folder_); }
 
-    static FramePlan planWith(const SmallWorld& small, LodMode mode) {
+    static RenderSettings settingsWith(LodMode mode) {
         RenderSettings settings;
         settings.sampleCount = 150;
         settings.lod = mode;
         settings.thresholds = {0.5, 2};
-        return planFrame(small.world, small.view, settings);
+        return settings;
+    }
+
+    // Draws the samples of `range`, or all of them, `wave` at once.
+    static FrameDriver drawn(const SmallWorld& small, LodMode mode, std::optional<SampleRange> range,
+                             std::uint32_t wave = 0) {
+        FrameDriver driver(small.world, {parseMethodUse("accumulation"), {{}, wave}, {}});
+        driver.start({small.view, settingsWith(mode), {}, range});
+        while (driver.advance()) {
+        }
+        return driver;
     }
 
     fs::path folder_;
@@ -43,21 +52,13 @@ std::unique_ptr<GlContext> Partial::context_;
 TEST_F(Partial, mergedBlocksAreTheSingleRun) {
     const auto small = fiveSpheres();
     for (const LodMode mode : {LodMode::fractional, LodMode::continuous}) {
-        const FramePlan plan = planWith(*small, mode);
-        const auto whole = methodNamed("accumulation").make(small->world, {});
-        whole->start(plan);
-        while (whole->advance()) {
-        }
-        const Image expected = whole->image();
+        const Image expected = drawn(*small, mode, {}).image();
 
-        // Each part by a renderer of its own, with waves of its own, through a file.
+        // Each part by a driver of its own, with waves of its own, through a file.
         std::vector<fs::path> paths;
         std::uint32_t wave = 3;
         for (const SampleRange& range : {SampleRange{0, 64}, SampleRange{64, 150}}) {
-            RendererOptions options;
-            options.wave = wave += 4;
-            const auto renderer = methodNamed("accumulation").make(small->world, options);
-            FramePart part = renderPart(*renderer, plan, range);
+            FramePart part = drawn(*small, mode, range, wave += 4).sums();
             part.settings = "same";
             paths.push_back(folder_ / fmt::format("{}.exr", range.first));
             writePart(paths.back(), part);
@@ -69,14 +70,13 @@ TEST_F(Partial, mergedBlocksAreTheSingleRun) {
 // Finished blocks are all that a part keeps: their number and samples, and that they are the sum.
 TEST_F(Partial, blocksHoldTheSumOfTheirSamples) {
     const auto small = fiveSpheres();
-    const FramePlan plan = planWith(*small, LodMode::fractional);
-    const auto renderer = methodNamed("accumulation").make(small->world, {});
-    const FramePart part = renderPart(*renderer, plan, {64, 150});
+    FrameDriver driver = drawn(*small, LodMode::fractional, SampleRange{64, 150});
+    const Image mean = driver.image();
+    const FramePart part = driver.sums();
     ASSERT_EQ(part.blocks.size(), 2u);
     EXPECT_EQ(part.blocks[0].samples, 64u);
     EXPECT_EQ(part.blocks[1].samples, 22u);
     EXPECT_EQ(part.frameSamples, 150u);
-    const Image mean = renderer->image();
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
         double sum = 0;
         for (const BlockSum& block : part.blocks)

@@ -1,6 +1,6 @@
 // How a frame is cut: bands cover it once, and what they take is what there is.
 
-#include "render/tiling.h"
+#include "render/tiles/tiling.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "image/image.h"
 #include "render/renderer.h"
-#include "render/tiling.h"
+#include "render/tiles/tiling.h"
 
 namespace defocus {
 

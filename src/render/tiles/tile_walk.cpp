@@ -1,4 +1,4 @@
-#include "render/tile_walk.h"
+#include "render/tiles/tile_walk.h"
 
 #include <algorithm>
 #include <utility>

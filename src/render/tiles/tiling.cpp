@@ -1,4 +1,4 @@
-#include "render/tiling.h"
+#include "render/tiles/tiling.h"
 
 #include <algorithm>
 #include <string>

@@ -1,0 +1,168 @@
+#include "render/tiles/memory_needs.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/memory_limits.h"
+#include "gl/context.h"
+#include "gl/device_memory.h"
+#include "render/frame_uniforms.h"
+#include "render/layer_format.h"
+#include "render/shadow_maps.h"
+
+namespace defocus {
+
+namespace {
+
+// A software driver's own memory: its compiled programs, and the triangles that it bins until a layer is done.
+constexpr std::uint64_t programBytes = 80u << 20;
+constexpr std::uint64_t binnedTriangleBytes = 96;
+constexpr std::uint64_t maxBinnedBytes = 256u << 20;
+
+std::uint64_t threeQuarters(std::uint64_t bytes) {
+    return bytes / 4 * 3;
+}
+
+// a − b, at least 0.
+std::uint64_t remainder(std::uint64_t a, std::uint64_t b) {
+    return a > b ? a - b : 0;
+}
+
+std::uint64_t pixelsOf(int width, int height) {
+    return std::uint64_t(width) * std::uint64_t(height);
+}
+
+// Bytes that a software driver takes for the plan's meshes, the scene's textures and its own programs.
+std::uint64_t bytesToUpload(const World& world, const FramePlan& plan) {
+    std::uint64_t bytes = programBytes;
+    for (std::size_t mesh = 0; mesh < world.pyramids.size(); ++mesh) {
+        const Pyramid& pyramid = world.pyramids[mesh];
+        std::uint64_t vertices = 0;
+        for (std::size_t level = 0; level < pyramid.levels.size(); ++level) {
+            if (!plan.levelsUsed[mesh][level]) continue;
+            const PyramidLevel& own = pyramid.levels[level];
+            vertices = std::max<std::uint64_t>(vertices, own.vertexCount);
+            bytes += own.positions.size() * (2 * sizeof(glm::vec3)) + own.colors.size() * (2 * sizeof(glm::u16vec4)) +
+                     (own.uv0.size() + own.uv1.size()) * sizeof(glm::vec2) +
+                     std::uint64_t{own.triangleCount} * 3 * sizeof(std::uint32_t);
+        }
+        const Mesh& source = world.scene->meshes[mesh];
+        bytes += vertices * ((source.vertices.tangents.empty() ? 0 : sizeof(glm::vec4)) +
+                             (source.vertices.blurs.empty() ? 0 : sizeof(VertexBlur)));
+        for (const MorphTarget& morph : source.morphTargets)
+            bytes += (morph.positions.size() + morph.normals.size() + morph.tangents.size()) * sizeof(glm::vec3);
+    }
+    for (const Texture& texture : world.scene->textures)
+        if (texture.image >= 0) {
+            const TextureImage& image = world.scene->images[static_cast<std::size_t>(texture.image)];
+            bytes += image.rgba.size() / 3 * (texture.mipmaps ? 4 : 3);
+        }
+    return bytes;
+}
+
+// What the frame needs and has, as the process is now. `drawn`: bytes of layers and sums that are about to be replaced.
+// `heldByDevice`: bytes that the scene takes on a GPU.
+TilingNeeds currentNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, std::uint64_t limit,
+                         std::uint64_t drawn = 0, std::uint64_t heldByDevice = 0) {
+    TilingNeeds needs;
+    needs.width = plan.view.width;
+    needs.height = plan.view.height;
+    needs.rows = {0, plan.view.height};
+    const std::uint64_t backdropFactor = plan.usesTransmission ? 2 : 1;
+    needs.layerPixel = layerPixelBytes(chosenLayerFormat(world, plan, limits.layerFormat)) * backdropFactor;
+    needs.layerMaps = shadowMapBytes(plan);
+    needs.waveBytes = RendererOptions{}.waveBytes;
+    needs.askedWave = limits.wave;
+    needs.shared = currentIsSoftware();
+    if (needs.shared) {
+        needs.layerPixel += sizeof(float);  // a copy of the depths, for the occlusion test
+        needs.layerMaps += std::min(
+            plan.trianglesDrawn / std::max<std::size_t>(plan.samples.size(), 1) * binnedTriangleBytes, maxBinnedBytes);
+    }
+    needs.elsewhere = remainder(residentMemory(), needs.shared ? drawn : 0);
+    needs.hostMemory = remainder(limit, needs.elsewhere);
+    needs.deviceMemory = needs.hostMemory;
+    if (!needs.shared) {
+        const std::uint64_t free = threeQuarters(freeDeviceMemory().value_or(freeMemory()) + drawn);
+        needs.deviceMemory = limits.memory ? std::min(free, remainder(*limits.memory, heldByDevice)) : free;
+    }
+    needs.mayUseCells = !plan.usesTransmission;
+    return needs;
+}
+
+// The first row of the plan's first cell, which costs all that a tile costs beside its own pixels.
+Tile trialTile(const FramePlan& plan) {
+    const PixelRectangle frame{0, 0, plan.view.width, plan.view.height};
+    const PixelRectangle cell = plan.usesTransmission ? frame : cellsOf(frame.width, frame.height).front();
+    return {{cell.left, cell.top, cell.width, 1}, cell};
+}
+
+// Bytes of the trial's layer, its shadow maps and its sums.
+std::uint64_t trialBytes(const TilingNeeds& needs, const Tile& trial) {
+    return pixelsOf(trial.cell.width, trial.cell.height) * needs.layerPixel + needs.layerMaps +
+           pixelsOf(trial.area.width, trial.area.height) * sumPixelBytes;
+}
+
+}  // namespace
+
+std::uint64_t memoryLimit(const DrawLimits& limits) {
+    return limits.memory.value_or(residentMemory() + threeQuarters(freeMemory()));
+}
+
+std::uint64_t waveBytesWithin(std::uint64_t limit) {
+    return std::min(RendererOptions{}.waveBytes, remainder(limit, residentMemory()) / 4);
+}
+
+std::uint32_t waveWithin(const TilingNeeds& needs) {
+    if (needs.askedWave > 0) return needs.askedWave;
+    const std::uint64_t pixels = pixelsOf(needs.width, needs.height);
+    const std::uint64_t others = pixels * (sumPixelBytes + (needs.shared ? wholePixelBytes : 0));
+    const std::uint64_t bytes =
+        std::min({needs.waveBytes, needs.deviceMemory / 4, remainder(needs.deviceMemory, others)});
+    const std::uint64_t layer = pixels * needs.layerPixel + needs.layerMaps;
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(bytes / layer, 1, blockSamples));
+}
+
+TilingNeeds needsBeforeUpload(const World& world, const FramePlan& plan, const DrawLimits& limits,
+                              std::uint64_t limit) {
+    TilingNeeds needs = currentNeeds(world, plan, limits, limit);
+    if (!needs.shared) return needs;
+    const std::uint64_t upload = bytesToUpload(world, plan);
+    needs.elsewhere += upload;
+    needs.hostMemory = needs.deviceMemory = remainder(needs.hostMemory, upload);
+    return needs;
+}
+
+TilingNeeds measuredNeeds(const World& world, const FramePlan& plan, const DrawLimits& limits, Renderer& renderer,
+                          std::uint64_t limit) {
+    const Tile trial = trialTile(plan);
+    const std::uint64_t drawn = trialBytes(currentNeeds(world, plan, limits, limit), trial);
+    renderer.setWave(1);
+    renderer.start(tileOf(plan, trial));
+    renderer.advance();
+    static_cast<void>(renderer.image());  // drivers hold on to layers until what was drawn of them is read
+    return currentNeeds(world, plan, limits, limit, drawn, remainder(renderer.stats().peakBytes, drawn));
+}
+
+bool surelyFits(int width, int height, bool mapsPossible, const DrawLimits& limits, std::uint64_t limit) {
+    const std::uint64_t pixel = 2 * layerPixelBytes(LayerFormat::rgba32f) + sumPixelBytes + wholePixelBytes;
+    const bool oneCell = cellsOf(width, height).size() == 1;
+    return !limits.memory && oneCell && !mapsPossible &&
+           pixelsOf(width, height) * pixel <= remainder(limit, residentMemory());
+}
+
+bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits& limits, const Method& method,
+                     std::uint64_t limit) {
+    if (!method.needsGl || (!method.drawsTiles && !limits.memory)) return false;
+    if (fitsInOnePiece(needsBeforeUpload(world, plan, limits, limit))) return false;
+    if (!method.drawsTiles)
+        refuseTiles(plan, limit, fmt::format("method '{}' can't draw tiles; 'accumulation' can", method.name));
+    return true;
+}
+
+void refuseTiles(const FramePlan& plan, std::uint64_t limit, const std::string& reason) {
+    fail("{} x {} px don't fit into {} in one piece, and {}", plan.view.width, plan.view.height, bytesText(limit),
+         reason);
+}
+
+}  // namespace defocus

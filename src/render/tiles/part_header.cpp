@@ -1,0 +1,74 @@
+#include "render/tiles/part_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+
+#include "core/error.h"
+#include "core/parse.h"
+#include "defocus/settings.h"
+#include "render/frame_uniforms.h"
+
+namespace defocus {
+
+std::string rangeText(const SampleRange& range) {
+    return fmt::format("{}:{}", range.first, range.end);
+}
+
+SampleRange parseSampleRange(std::string_view text) {
+    const auto number = [&](std::string_view part) {
+        std::uint32_t value = 0;
+        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (fault != std::errc() || end != part.data() + part.size() || value > mostSamples)
+            fail("'{}' is not FIRST:END, samples from 0 to {}, such as 64:128", text, mostSamples);
+        return value;
+    };
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const SampleRange range{number(text.substr(0, colon)), number(text.substr(std::min(colon + 1, text.size())))};
+    if (range.first >= range.end) fail("'{}': the range holds no sample", text);
+    if (range.first % blockSamples != 0)
+        fail("'{}' cuts a block of {} samples: begin at a multiple of {}", text, blockSamples, blockSamples);
+    return range;
+}
+
+void checkSampleRange(const SampleRange& range, std::uint32_t samples) {
+    if (range.end > samples) fail("samples {}: the frame has {} (--samples)", rangeText(range), samples);
+    if (range.end % blockSamples != 0 && range.end != samples)
+        fail("samples {} cut a block of {}: end at a multiple of {} or with the last sample, {}", rangeText(range),
+             blockSamples, blockSamples, samples);
+}
+
+TileShare parseTileShare(std::string_view text) {
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    TileShare share;
+    try {
+        share.index = static_cast<int>(parseWhole(std::string(text.substr(0, slash)), 0, mostPixels - 1));
+        share.count =
+            static_cast<int>(parseWhole(std::string(text.substr(std::min(slash + 1, text.size()))), 1, mostPixels));
+    } catch (const Error&) {
+        fail("'{}' is not I/N, such as 0/4: tile I, from 0 to N-1, of N", text);
+    }
+    if (share.index >= share.count)
+        fail("'{}': the tiles of {} are 0 to {} (of a Slurm job: --array=0-{})", text, share.count, share.count - 1,
+             share.count - 1);
+    return share;
+}
+
+const std::string* textAttribute(const Metadata& metadata, const char* name) {
+    const auto found = metadata.find(name);
+    return found == metadata.end() ? nullptr : std::get_if<std::string>(&found->second);
+}
+
+void dropFileAttributes(Metadata& metadata) {
+    std::erase_if(metadata, [](const auto& entry) {
+        static constexpr std::string_view ofFile[] = {
+            "compression", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
+            "name",        "chunkCount",       "PixelAspectRatio",   "version"};
+        return entry.first.starts_with("openexr:") || entry.first.starts_with("oiio:") ||
+               std::ranges::find(ofFile, entry.first) != std::end(ofFile);
+    });
+}
+
+}  // namespace defocus
