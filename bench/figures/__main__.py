@@ -5,6 +5,7 @@ import importlib
 import sys
 
 COMMANDS = {  # each is a module of this package
+    "diff": "compare two results of one bench",
     "report": "draw index.html from results of benches, as --report does",
     "tables": "write the tables of README.md and docs/ from bench/results",
     "plots": "draw docs/plots from bench/results",
