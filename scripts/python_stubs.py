@@ -14,7 +14,7 @@ STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "__init__.py
 BEGIN = "# ---- keywords, from the settings table ----\n"
 END = "# ---- end of keywords ----\n"
 TYPES = {"number": "float", "whole": "int", "truth": "bool", "text": "str", "path": "Path"}
-# Of settings whose values have a form of their own. A string in the command line's form always goes too.
+# Types of settings with values of another form, beside a string in the command line's form.
 FORMS = {
     "N|exact": "Union[int, str]",
     "environment|none|R,G,B": "Union[str, Point]",

@@ -194,7 +194,6 @@ void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
     addSpeedup(*bench, global);
     addConvergenceCommand(*bench, global);
     addStabilityCommand(*bench, global);
-    addBenchDiffCommand(*bench);
     addPoppingCommand(*bench, global);
     addScalingCommand(*bench, global);
     addPredictionCommand(*bench, global);

@@ -35,7 +35,6 @@ BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global)
 BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs);
 
 void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global);
-void addBenchDiffCommand(CLI::App& bench);
 void addPoppingCommand(CLI::App& bench, const GlobalOptions& global);
 void addScalingCommand(CLI::App& bench, const GlobalOptions& global);
 void addPredictionCommand(CLI::App& bench, const GlobalOptions& global);

@@ -1,6 +1,5 @@
 #include "cli/bench_report.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,12 +15,15 @@ namespace defocus {
 
 namespace {
 
-// A python3 from elsewhere may come first on the path, without Debian's packages.
+// Another python3 without Debian's packages may come first on the path.
 constexpr const char* interpreters[] = {"python3", "/usr/bin/python3"};
 
-// The exit code of `words`, found on the path and run to its end; -1 where it can't be run. What it prints goes to
-// stderr, or nowhere.
-int exitCodeOf(std::vector<std::string> words, bool silent) {
+// Exit codes for an interpreter that isn't installed, and for one without matplotlib (report_script.cpp.in).
+constexpr int notInstalled = 127;
+constexpr int withoutMatplotlib = 3;
+
+// Runs a program from the path and returns its exit code, -1 if it was killed. Its output goes to stderr.
+int exitCodeOf(std::vector<std::string> words) {
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
@@ -29,28 +31,23 @@ int exitCodeOf(std::vector<std::string> words, bool silent) {
     const pid_t child = ::fork();
     if (child < 0) return -1;
     if (child == 0) {
-        const int nowhere = silent ? ::open("/dev/null", O_WRONLY) : -1;
-        ::dup2(silent ? nowhere : STDERR_FILENO, STDOUT_FILENO);
-        if (silent) ::dup2(nowhere, STDERR_FILENO);
+        ::dup2(STDERR_FILENO, STDOUT_FILENO);
         ::execvp(pointers[0], pointers.data());
-        ::_exit(127);
+        ::_exit(notInstalled);
     }
     int status = 0;
     if (::waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
     return WEXITSTATUS(status);
 }
 
-// False where there is no Python with matplotlib.
+// Returns whether there is a Python with matplotlib. Throws Error if it cannot draw the report.
 bool runScript(const std::filesystem::path& results, const std::filesystem::path& report) {
     for (const char* python : interpreters) {
-        if (exitCodeOf({python, "-c", "import matplotlib.pyplot, PIL"}, true) != 0) continue;
-        const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()}, false);
-        if (code != 0)
-            fail(
-                "{}: the report could not be drawn (exit code {} of its script); the results beside it stand on their "
-                "own",
-                (report / "index.html").string(), code);
-        return true;
+        const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()});
+        if (code == 0) return true;
+        if (code != notInstalled && code != withoutMatplotlib)
+            fail("{}: the report could not be drawn (exit code {}); the results beside it are complete",
+                 (report / "index.html").string(), code);
     }
     return false;
 }
@@ -60,8 +57,8 @@ bool runScript(const std::filesystem::path& results, const std::filesystem::path
 void addReport(CLI::App& command, CLI::Option* output, std::filesystem::path& report) {
     command
         .add_option("--report", report,
-                    "Instead: a folder for the same files and index.html, plots and tables in one file; of all benches "
-                    "that have written there (needs python3-matplotlib)")
+                    "Folder for the same files and index.html, which has plots and tables of all benches with results "
+                    "there (needs python3-matplotlib); instead of --output")
         ->type_name("FOLDER")
         ->excludes(output)
         ->group("Output");
@@ -73,8 +70,7 @@ void drawReport(const std::filesystem::path& results, const std::filesystem::pat
         fmt::print("\nreport: {}\n", (report / "index.html").string());
     else
         printMessage(
-            "no report: there is no python3 with matplotlib (Debian: python3-matplotlib); the results in {} stand "
-            "on their own\n",
+            "no report: python3 with matplotlib is missing (Debian: python3-matplotlib); the results are in {}\n",
             report.string());
 }
 

@@ -71,11 +71,5 @@ TEST(BenchResults, areNotWrittenFromChangedSources) {
     EXPECT_NO_THROW(refuseChangedSources("out", false, ""));  // not built in a checkout
 }
 
-TEST_F(Bench, diffNamesTheFileThatIsNoResult) {
-    expectFault(2, "NEW", {"diff", "quads.gltf"});
-    expectFault(1, "missing.csv", {"diff", "missing.csv", "quads.gltf"});
-    expectFault(1, "quads.gltf", {"diff", "quads.gltf", "quads.gltf"});
-}
-
 }  // namespace
 }  // namespace defocus

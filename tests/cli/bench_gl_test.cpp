@@ -1,4 +1,4 @@
-// defocus bench convergence, whole: its files, a killed run taken up again, the report, and the difference of two runs.
+// defocus bench convergence, whole: its files, a killed run taken up again, and the report.
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -134,16 +134,6 @@ TEST_F(BenchConvergence, keepsWhatAFolderHoldsUnlessToldToOverwrite) {
     EXPECT_EQ(rowsOf("out/runs.csv", 1, 5).size(), 12u);
     EXPECT_EQ(json::parse(textOf(folder() / "out/results.json")).at("commands").size(), 1u);
     expectOneLine(bench({"-o", "out", "--resume", "--overwrite"}), 2);
-}
-
-TEST_F(BenchConvergence, diffOfARunWithItselfIsNothing) {
-    ASSERT_EQ(bench({"-o", "out"}).exitCode, 0);
-    const Outcome outcome = run({"bench", "diff", "out/results.json", "out/results.csv"});
-    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("unknown: 2 runs"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("errors: 0 closer, 0 farther, "), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("6 rows: 0 faster, 0 slower, 0 within noise, 6 unknown"), std::string::npos)
-        << outcome.out;
 }
 
 // Nothing is fetched from elsewhere, links lead into the page or to the data beside it, and every picture has a text in

@@ -32,7 +32,6 @@ inline const std::map<std::string, Words>& usualLines() {
         {"bench convergence", joined(joined(ball, {"--methods", "accumulation", "--counts", "2", "--threshold-factors",
                                                    "1", "--runs", "1", "--shading", "lit", "--reference-samples", "4"}),
                                      written)},
-        {"bench diff", {"one.json", "two.json"}},
         {"new-shot", {"ball.glb", "-o", "made.json"}},
         {"completions", {"bash"}},
         {"settings", {}},
@@ -173,9 +172,6 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
         {"bench convergence --resume", {.words = {"--resume"}, .before = converged}},
         {"bench convergence --overwrite", {.words = {"--overwrite"}, .before = converged}},
         {"bench convergence --report", {.words = {"--report", "page"}}},
-
-        {"bench diff OLD", {.words = {"three.json", "two.json"}}},
-        {"bench diff NEW", {.words = {"one.json", "three.json"}}},
 
         {"new-shot --output", {.words = {"-o", "other-made.json"}}},
         {"new-shot --overwrite", {.words = {"--overwrite"}, .before = {usualLine("new-shot")}}},

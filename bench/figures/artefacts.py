@@ -1,22 +1,19 @@
-#!/usr/bin/env python3
-"""Renders what image-space methods get wrong, one scene of meshes/ for each known artefact, beside the reference and the
-accumulation, and writes the strips that `defocus bench convergence --report` shows.
+"""Renders one scene of meshes/ for each known artefact of image-space methods, beside the reference and the accumulation. The
+report of `defocus bench convergence --report FOLDER` shows these strips.
 
-    scripts/artefacts -o FOLDER [--program build/release/defocus]
+    scripts/figures artefacts -o FOLDER [--program build/release/defocus]
 
-Held equal in a strip: scene, camera, lens, image size. Python's standard library only.
+Held equal in a strip: scene, camera, lens, image size.
 """
 
-import argparse
 import json
-import pathlib
-import subprocess
-import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from figures.command import add_program, parser_of, path, run
+from figures.files import write_file
+
 SIZE = "600x400"
-REFERENCE = ("Reference: 1,024 lens samples, full detail", ["--method", "accumulation", "--samples", "1024", "--lod", "off"])
 METHODS = [
+    ("Reference: 1,024 lens samples, full detail", ["--method", "accumulation", "--samples", "1024", "--lod", "off"]),
     ("Accumulation, 64 lens samples", ["--method", "accumulation", "--samples", "64"]),
     ("Scheuermann 2004 as published", ["--preset", "scheuermann2004"]),
     ("Scheuermann, thin lens, 64 taps", ["--method", "scheuermann:coc=thin-lens,max-coc=unlimited,taps=64"]),
@@ -42,42 +39,27 @@ ARTEFACTS = [
 ]
 
 
-def run(program, *arguments):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"artefacts: {done.stderr.strip()}")
-    return done.stdout
-
-
 def strip(program, folder, name, title, text):
-    scene = ROOT / "meshes" / f"artefact-{name}.gltf"
+    """Returns the entry of a strip in strips.json."""
     images = []
-    for index, (label, options) in enumerate([REFERENCE, *METHODS]):
+    for index, (label, options) in enumerate(METHODS):
         base = folder / f"{name}-{index}"
-        run(program, "render", scene, "--size", SIZE, "-o", f"{base}.png", "-o", f"{base}.exr", "--quiet", *options)
+        run(program, "render", f"meshes/artefact-{name}.gltf", "--size", SIZE, "-o", f"{base}.png", "-o", f"{base}.exr", "--quiet", *options)
         if index > 0:
             figures = json.loads(run(program, "compare", folder / f"{name}-0.exr", f"{base}.exr", "--json"))
             label += f" · FLIP {figures['flip']:.3f}"
         images.append({"label": label, "file": f"{base.name}.png"})
-    for path in folder.glob(f"{name}-*.exr"):
-        path.unlink()
+    for file in folder.glob(f"{name}-*.exr"):
+        file.unlink()
     print(f"{title}: {len(images)} images", flush=True)
     return {"title": title, "text": text, "images": images}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("-o", "--output", required=True, type=pathlib.Path, help="folder for the images and strips.json")
-    parser.add_argument("--program", default=str(ROOT / "build/release/defocus"), help="the program (default: %(default)s)")
-    arguments = parser.parse_args()
-    if not pathlib.Path(arguments.program).exists():
-        sys.exit(f"artefacts: {arguments.program} is not there; build it first (scripts/demo does)")
+def main(words):
+    parser = parser_of("artefacts", __doc__)
+    parser.add_argument("-o", "--output", required=True, type=path, help="folder for the images and strips.json")
+    add_program(parser)
+    arguments = parser.parse_args(words)
     arguments.output.mkdir(parents=True, exist_ok=True)
     strips = [strip(arguments.program, arguments.output, *artefact) for artefact in ARTEFACTS]
-    temporary = arguments.output / "strips.json.part"
-    temporary.write_text(json.dumps(strips, indent=1) + "\n")
-    temporary.rename(arguments.output / "strips.json")
-
-
-if __name__ == "__main__":
-    main()
+    write_file(arguments.output / "strips.json", json.dumps(strips, indent=1) + "\n")

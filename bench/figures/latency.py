@@ -1,14 +1,11 @@
-#!/usr/bin/env python3
-"""How long the window takes to answer a hand: drags the school of fish around in `defocus view` on an X server of its own
-(Xvfb, xdotool) and prints the milliseconds from an event to the end of the frame that shows it, as the window measures them:
-an upper bound, as systems don't say when an event came that arrived while a frame was drawn.
+"""Measures how fast `defocus view` answers the mouse: drags the school of fish on an X server of its own (Xvfb, xdotool).
 
-    scripts/view-latency [--program build/release/defocus] [--size 1024x768] [--seconds 15] [-- options of view …]
+    scripts/figures latency [--program build/release/defocus] [--size 1024x768] [--seconds 15] [-- options of view …]
 
-Held equal: scene, window and path of the hand (30 steps a second). Waits for the pyramids first. Python's standard library only.
+Prints the milliseconds from an event to the end of the frame that shows it, as the window measures them. They are an upper bound:
+the arrival of an event during a frame is unknown. Held equal: scene, window and path of the mouse (30 steps a second).
 """
 
-import argparse
 import json
 import math
 import os
@@ -18,20 +15,11 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-
-
-def display_of(server, pipe):
-    number = b""
-    while not number.endswith(b"\n"):
-        letter = os.read(pipe, 1)
-        if not letter:
-            sys.exit("Xvfb does not start")
-        number += letter
-    return ":" + number.strip().decode()
+from figures.command import add_program, parser_of
 
 
 def state_of(path):
+    """Returns what the window wrote with --stats; empty before its first frame."""
     try:
         return json.loads(path.read_text())
     except (OSError, ValueError):
@@ -39,10 +27,11 @@ def state_of(path):
 
 
 def wait_for_scene(program, path):
+    """Waits until the pyramids are built and the picture has many samples."""
     while program.poll() is None:
         state = state_of(path)
         if state.get("samples", 0) > 64 and not state["draft"]:
-            return state
+            return
         time.sleep(0.2)
     sys.exit("defocus view ended early")
 
@@ -63,21 +52,22 @@ def drag(environment, size, seconds):
     hand("mouseup", 1)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default=str(ROOT / "build/release/defocus"))
-    parser.add_argument("--size", default="1024x768")
-    parser.add_argument("--seconds", type=float, default=15)
+def main(words):
+    parser = parser_of("latency", __doc__)
+    add_program(parser)
+    parser.add_argument("--size", default="1024x768", help="of the window, in pixels (default: %(default)s)")
+    parser.add_argument("--seconds", type=float, default=15, help="of dragging (default: %(default)s)")
     parser.add_argument("options", nargs="*", help="of defocus view, after --")
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(words)
     size = [int(side) for side in arguments.size.split("x")]
 
     with tempfile.TemporaryDirectory() as folder:
-        read, write = os.pipe()
-        server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1920x1080x24", "-nolisten", "tcp"],
-                                  pass_fds=[write], stderr=subprocess.DEVNULL)
-        os.close(write)
-        environment = dict(os.environ, DISPLAY=display_of(server, read), XDG_CONFIG_HOME=folder)
+        server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1920x1080x24", "-nolisten", "tcp"], text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        display = server.stdout.readline().strip()
+        if not display:
+            sys.exit("Xvfb does not start")
+        environment = dict(os.environ, DISPLAY=f":{display}", XDG_CONFIG_HOME=folder)
         stats = pathlib.Path(folder) / "state.json"
         command = [arguments.program, "view", "--stats", str(stats), "--size", arguments.size, *arguments.options]
         program = subprocess.Popen(command, env=environment)
@@ -93,6 +83,3 @@ def main():
     found = state["inputMilliseconds"]
     print(f"{state['scene']}, {arguments.size}, {state['device']}, load {os.getloadavg()[0]:.1f} of {os.cpu_count()} cores")
     print(f"input to picture over the latest {found['count']} answers: median {found['median']:.0f} ms, worst {found['worst']:.0f} ms")
-
-
-main()

@@ -1,0 +1,34 @@
+"""The command line of scripts/figures."""
+
+import argparse
+import importlib
+import sys
+
+COMMANDS = {  # each is a module of this package
+    "diff": "compare two results of one bench",
+    "report": "draw index.html from results of benches, as --report does",
+    "tables": "write the tables of README.md and docs/ from bench/results",
+    "plots": "draw docs/plots from bench/results",
+    "lens": "render bench/results/lens, with the page that shows it",
+    "first-pictures": "render docs/first-pictures.jpg",
+    "artefacts": "render known artefacts of image-space methods for a report",
+    "copies": "write a glTF scene of many copies of another, a load for the benches",
+    "latency": "measure how fast the window answers the mouse",
+}
+
+
+def main(words):
+    lines = "\n".join(f"  {name:16}{text}" for name, text in COMMANDS.items())
+    parser = argparse.ArgumentParser(
+        prog="scripts/figures", usage="scripts/figures WHAT [options]",
+        description="Makes tables, plots and pictures of the documents, and compares results of benches.",
+        epilog=f"WHAT:\n{lines}\n\nscripts/figures WHAT --help lists the options.",
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=COMMANDS, metavar="WHAT", help=argparse.SUPPRESS)
+    parser.add_argument("options", nargs=argparse.REMAINDER, help=argparse.SUPPRESS)
+    arguments = parser.parse_args(words or ["--help"])
+    importlib.import_module(f"figures.{arguments.what.replace('-', '_')}").main(arguments.options)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

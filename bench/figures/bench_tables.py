@@ -1,0 +1,232 @@
+"""Tables of levels, correctness and parts of a frame; each function of TABLES returns Markdown."""
+
+import json
+import re
+from statistics import mean
+
+from figures.markdown import run_source, run_table, source, table
+from figures.results import lens_levels, lines_of, numbers, numbers_after, run_of
+
+
+def span(values, digits):
+    low, high = (f"{value:.{digits}f}" for value in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def by_size_only(bench_has):
+    """Returns the sentence under a table that no command of the current program repeats."""
+    return (f"\nLevels were chosen by size, which was the default then. {bench_has} no option for it, so only the program of that time "
+            "measures them again.\n")
+
+
+def scaling():
+    axes = {"triangles": "triangles, 100 k to 10 M", "instances": "instances, 1 to 10,000", "samples": "lens samples, 2 to 64",
+            "pixels": "pixels, 640 × 480 to 3840 × 2160", "blur": "blur, f/16 to f/1"}
+    curves = {(curve["axis"], curve["lod"]): curve for curve in run_of("llvmpipe-scaling")["curves"]}
+    rows = [[name, *(f"{curves[axis, lod]['time']['exponent']:.2f}" for lod in ("off", "fractional")),
+             curves[axis, "fractional"]["bounds"]] for axis, name in axes.items()]
+    header = ["what grows", "exponent, full detail", "exponent, levels", "what takes the time, with levels"]
+    return run_table("llvmpipe-scaling", header, rows) + by_size_only("This bench has")
+
+
+# ---- pyramids -------------------------------------------------------------------------------------------------------
+
+
+def ending_in_numbers(lines, count):
+    """Returns (name, numbers) of the lines that end in so many numbers, without text in brackets."""
+    rows = []
+    for line in lines:
+        words = line.split("  (")[0].split()
+        if len(words) > count and all(re.fullmatch(r"[\d.]+", word) for word in words[-count:]):
+            rows.append((" ".join(words[:-count]), [float(word) for word in words[-count:]]))
+    return rows
+
+
+def gain(gains):
+    return f"{mean(gains):.1f} dB better in the mean of {len(gains)} levels ({span(gains, 1)})"
+
+
+def distance(rows):
+    """Returns the text on the distance to the mesh, from the rows of all meshes and their sum."""
+    rows = dict(rows)
+    every = rows.pop("all")
+    worst = max(rows, key=lambda name: rows[name][3])
+    return (f"{every[2]:.2f} in the mean of {every[1]:.0f} levels of {len(rows)} meshes; at most 1.1 in "
+            f"{100 * every[4] / every[1]:.0f} % of the levels; {every[3]:.1f} at worst ({worst})")
+
+
+def pyramids():
+    sections = "\n".join(line.strip() for line in lines_of("llvmpipe-pyramids")).split("\n\n")
+    times, distances, looks, normals = (section.splitlines() for section in sections)
+    timed = ending_in_numbers(times, 12)
+    large = [(name, values) for name, values in timed if values[0] >= 50_000]
+    fish = min((values for name, values in timed if name == "fish"), key=lambda values: values[0])
+    bytes_each = {name: values[1] for name, values in [*ending_in_numbers(times, 8), *timed]}
+    fitted = [values for _, values in ending_in_numbers(normals, 9)]
+    loads = [numbers(line)[5] / 1000 for line in lines_of("llvmpipe-cache") if re.match(r" *\d+ ", line)]
+    rows = [
+        ["PSNR against meshoptimizer's level of as many triangles, under the blur that picks the level",
+         gain([values[4] - values[5] for _, values in ending_in_numbers(looks, 8)])],
+        ["PSNR of fitted normals against normals averaged over the level's faces", gain([values[3] - values[4] for values in fitted])],
+        ["PSNR of fitted normals against those of the surviving vertices", gain([values[3] - values[5] for values in fitted])],
+        ["mean distance to the mesh, over that of meshoptimizer's level of as many triangles", distance(ending_in_numbers(distances, 5))],
+        [f"time of the levels of meshes of {min(values[0] for _, values in large) / 1000:.0f} k to 1 M triangles, against OpenMesh's "
+         "DecimaterT, one thread",
+         f"{span([values[10] for _, values in large], 1)} times as fast; {fish[4]:.2f} s for a fish of 90 k triangles"],
+        ["time of whole pyramids of the same meshes, with all that is fitted and measured, against DecimaterT alone",
+         f"{span([values[11] for _, values in large], 1)} times as fast; {fish[2]:.2f} s for the fish"],
+        ["peak memory of building the same pyramids",
+         f"{span([values[1] for name, values in large if 'flat' not in name], 0)} bytes a triangle; with flat shading "
+         f"{bytes_each['fish, flat-shaded']:.0f} (a fish of a million), with texture coordinates too {bytes_each['bike']:.0f} (bike), "
+         f"of a small mesh {bytes_each['Suzanne']:.0f} (Suzanne)"],
+        ["loading the pyramids of 1.8 M triangles from the cache (`defocus_cache_bench`)", f"{span(loads, 2)} s"]]
+    return table(["what", "figure"], rows) + source(
+        "defocus_pyramid_bench --million MODEL…", "mesh and number of triangles; for the images also camera, lens, level and lens samples",
+        "llvmpipe-pyramids.txt")
+
+
+# ---- correctness ----------------------------------------------------------------------------------------------------
+
+
+def scenes_of(name):
+    return [json.loads(line) for line in lines_of(name) if line.startswith("{")]
+
+
+def truth():
+    rows = [[scene["scene"], f"{scene['psnr']:.1f} dB", f"{scene['psnrAtEqualLensPoints']:.1f} dB", f"{scene['flip']:.4f}"]
+            for scene in scenes_of("llvmpipe-truth")]
+    return table(["scene", "PSNR, other lens points", "PSNR, same lens points", "FLIP, other lens points"], rows) + source(
+        "defocus_truth_bench --sequence halton --samples 256 --size 512x384 [SCENE …]",
+        "scene with painted light, camera, lens, number of samples", "llvmpipe-truth.txt")
+
+
+def shadows():
+    def times(scene, renderer):
+        return " → ".join(f"{scene[f'{renderer}Milliseconds{end}'] / 1000:.1f}" for end in ("WithoutShadows", "")) + " s"
+
+    rows = [[scene["scene"], *(f"{scene[psnr]:.1f} dB" for psnr in ("psnr", "psnrWithoutShadows", "psnrIfLeftOut")),
+             f"{scene['flip']:.4f}", times(scene, "accumulation"), times(scene, "embree")] for scene in scenes_of("llvmpipe-shadows")]
+    return table(["scene", "PSNR", "without shadows", "if only the ray tracer has them", "FLIP", "accumulation, without → with",
+                  "ray tracer, without → with"], rows) + source(
+        "defocus_truth_bench --shadows 5 --samples 64 --size 512x384 [SCENE …]",
+        "scene with matt colours under one sun of 5°, camera, lens, number of samples", "llvmpipe-shadows.txt")
+
+
+def stability():
+    areas = {}
+    for case in run_of("llvmpipe-stability")["cases"]:
+        if case["limit"] is not None and not case["leftOut"]:
+            areas.setdefault(case["area"], []).append(case["passed"])
+    return run_table("llvmpipe-stability", ["area", "cases", "within their limit"],
+                     [[area, len(passed), sum(passed)] for area, passed in areas.items()],
+                     "each case has its own truth and a limit that stands in the source")
+
+
+def honesty():
+    methods = {}
+    for row in run_of("llvmpipe-stability")["lensHonesty"]:
+        methods.setdefault(row["method"], []).append(row)
+    rows = []
+    for method, cases in methods.items():
+        if cases[-1].get("leftOut"):
+            rows.append([f"`{method}`", f"left out: {cases[-1]['leftOut']}", ""])
+            continue
+        worst = max((row["measuredDiameter"] - row["expectedDiameter"] for row in cases), key=abs)
+        rows.append([f"`{method}`", f"{worst:+.2f} px", f"{sum(row['followsLens'] for row in cases)} of {len(cases)}"])
+    return run_table("llvmpipe-stability", ["method", "largest error of the disk's diameter",
+                                            "cases within half a pixel and 5 % of the energy"], rows,
+                     "a point of light; one value of the lens, the image or the sampling changes at a time")
+
+
+# ---- parts ----------------------------------------------------------------------------------------------------------
+
+
+def sequences():
+    lines = lines_of("llvmpipe-sequences")
+    (begin,) = [index for index, line in enumerate(lines) if line.startswith("fish school")]
+    rows = []
+    for line in lines[begin + 3:begin + 7]:
+        name, values = line.split(maxsplit=1)
+        rows.append([f"`{name}`", *(f"{value / 1000:.5f}" for value in numbers(values)[2:16:4])])
+    return table(["RMSE, school of fish", "16 samples", "64", "256", "1,024"], rows) + source(
+        "defocus_sequence_bench", "scene, camera, lens, 160 × 120 px, full detail", "llvmpipe-sequences.txt")
+
+
+def parts():
+    def fastest(sky):
+        rows = [line.split() for line in lines_of("llvmpipe-waves") if line.startswith(sky) and " rgba16f " in line]
+        return min(float(row[3]) for row in rows)
+
+    def of_both(texts):
+        return f"{texts[0]} at full detail, {texts[1]} with levels"
+
+    lines = lines_of("llvmpipe-clusters")
+    (at,) = [index for index, line in enumerate(lines) if line.startswith("helmets")]
+    clusters = [numbers_after(lines[:at], levels) for levels in ("off", "fractional")]
+    hidden = [numbers_after(lines[at:], f"hidden, {levels}") for levels in ("off", "fractional")]
+    elisions = lines_of("llvmpipe-elisions")
+    separable, direct = numbers_after(lines_of("llvmpipe-post-process"), "  exponent")
+    rows = [
+        ["one lens sample of 1024 × 768 px in which nothing is drawn: clear, compose, add",
+         f"{fastest('uniform'):.1f} ms; {fastest('gradient'):.1f} ms with a gradient sky", "wave"],
+        ["clusters that face away or lie outside are left out: share of the triangles, school of fish",
+         of_both([f"{100 * (away + outside) / whole:.0f} %" for whole, away, outside, *_ in clusters]), "cluster"],
+        ["the same: times as fast, same image", of_both([f"{row[6]:.2f}" for row in clusters]), "cluster"],
+        ["what lies behind others is left out, on the CPU: share of the triangles of twenty FlightHelmets",
+         of_both([f"{100 * row[1] / row[0]:.0f} %" for row in hidden]), "cluster"],
+        ["the same: times as fast, same image", of_both([f"{row[4]:.2f}" for row in hidden]), "cluster"],
+        ["objects that no lens sample sees are left out, most fish out of view: times as fast",
+         f"{numbers_after(elisions, 'most fish out of view (culling)')[2]:.1f}", "elision"],
+        ["16 samples instead of 64 if no blur reaches half a pixel (f/64): times as fast",
+         f"{numbers_after(elisions, 'f/64: nothing blurred (lens samples)')[2]:.1f}", "elision"],
+        ["cost of a circular disk over its radius, 8 to 64 px: exponent", f"{separable:.2f} separable, {direct:.2f} direct",
+         "post_process"]]
+    runs = {"wave": "waves", "cluster": "clusters", "elision": "elisions", "post_process": "post-process"}
+    return table(["what", "figure", "command"], [
+        [what, figure, f"`defocus_{bench}_bench` ([run](../bench/results/llvmpipe-{runs[bench]}.txt))"] for what, figure, bench in rows
+    ]) + by_size_only("`defocus_elision_bench` has")
+
+
+def lens_space_rows():
+    """Returns (model, numbers) of the first table of the lens-space bench."""
+    rows = []
+    for line in lines_of("llvmpipe-lens-space"):
+        cells = [cell.strip() for cell in line.split("|")[1:-1]]
+        if len(cells) == 14 and cells[1].isdigit():
+            rows.append([f"`{cells[0].removesuffix('.glb')}`", *(float(cell) for cell in cells[1:])])
+    return rows
+
+
+def lens_space_source(options, held_equal):
+    return source(f"defocus_lens_space_bench --size {options} MODEL…", held_equal, "llvmpipe-lens-space.txt")
+
+
+def lens_space():
+    rows = [[name, f"{triangles:,.0f}", f"{points / 1000:.2f} s", f"{lines / 1000:.2f} s", f"{ratio:.1f}", f"{buffered:.1f}",
+             f"{rmse:.4f}", f"{few:.4f}", f"{line:.4f}", f"{published:.4f}"]
+            for name, triangles, points, lines, ratio, _, buffered, rmse, line, published, few, *_ in lens_space_rows()]
+    return table(["model", "triangles", "256 points", "16 lines", "times as fast", "as published", "RMSE, 256 points", "64 points",
+                  "16 lines", "as published"], rows) + lens_space_source(
+        "160x160", "scene, camera, light, image size, process; the blur of the most blurred "
+        "object is a tenth of the image's width; errors are against 1,600 samples of the accumulation")
+
+
+def strobes():
+    rows = [[row[0], *(f"{row[column]:.4f}" for column in (8, 11, 12, 13))] for row in lens_space_rows()]
+    return table(["RMSE, 16 lines", "pixels, turned wheels", "pixels, one wheel", "8 × 8 px, turned wheels", "8 × 8 px, one wheel"],
+                 rows) + lens_space_source("160x160", "as above")
+
+
+def lens_level_table():
+    rows = [[f"`{model}`", f"{lines:.0f}", f"{100 * blur:.0f} %", f"{full / 1000:.2f} s", f"{ours:.2f}", f"{our_error:.4f}",
+             f"{three:.2f}", f"{three_error:.4f}"]
+            for model, measured in lens_levels().items()
+            for lines, blur, full, _, ours, our_error, _, three, three_error in measured]
+    return table(["model", "lines", "blur, of the width", "full detail", "fractional levels: times as fast", "RMSE", "three levels: "
+                  "times as fast", "RMSE"], rows) + lens_space_source(
+        "128x128 --figure7", "scene, camera, light, image size, process, threshold of the score; errors are against full detail with as "
+        "many lines")
+
+
+TABLES = {"scaling": scaling, "pyramids": pyramids, "truth": truth, "shadows": shadows, "stability": stability, "honesty": honesty,
+          "sequences": sequences, "parts": parts, "lens-space": lens_space, "strobes": strobes, "lens-levels": lens_level_table}

@@ -1,0 +1,38 @@
+"""What the commands share: the repository's root, option parsers, runs of the program."""
+
+import argparse
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def parser_of(name, text):
+    """Returns the parser of `scripts/figures NAME`; `text` is the module's docstring."""
+    return argparse.ArgumentParser(prog=f"scripts/figures {name}", description=text,
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
+
+
+def path(text):
+    """Returns an absolute path: programs run in the repository's root."""
+    return pathlib.Path(text).resolve()
+
+
+def executable(text):
+    if not path(text).exists():
+        raise argparse.ArgumentTypeError(f"{text} does not exist; scripts/demo builds the program")
+    return path(text)
+
+
+def add_program(parser):
+    parser.add_argument("--program", type=executable, default=str(ROOT / "build/release/defocus"),
+                        help="the program (default: build/release/defocus)")
+
+
+def run(*words):
+    """Runs a program in the repository's root and returns its output; exits with its message if it fails."""
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, cwd=ROOT)
+    if done.returncode != 0:
+        sys.exit(done.stderr.strip())
+    return done.stdout

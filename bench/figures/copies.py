@@ -1,0 +1,72 @@
+"""Writes a glTF scene of many copies of another, one behind the other, before a fast lens: a load for the benches.
+
+    scripts/figures copies SCENE.gltf [-n 20] [-o copies.gltf] [--program build/release/defocus]
+
+The copies share the scene's meshes and files, which are named relative to the new file. Their depths grow from 2 to 12 sizes of the
+scene; sideways they fill the view of the camera (50 mm f/0.95). The focus is on the fourth. Animations and cameras of the scene are
+left out.
+"""
+
+import json
+import math
+import os
+import pathlib
+
+from figures.command import add_program, parser_of, path, run
+from figures.files import read_json, write_file
+
+TANGENT = 18 / 50  # of half the camera's horizontal field of view
+SPREAD = (0.7548776662466927, 0.5698402909980532)  # the R2 sequence
+
+
+def copied(document, index):
+    """Adds a copy of a node and its children; returns its index."""
+    node = dict(document["nodes"][index])
+    if "children" in node:
+        node["children"] = [copied(document, child) for child in node["children"]]
+    document["nodes"].append(node)
+    return len(document["nodes"]) - 1
+
+
+def add_copies(document, count, low, high):
+    """Replaces the scene's roots by copies and a camera; low and high are the corners of the scene's bounding box."""
+    scene = document["scenes"][document.get("scene", 0)]
+    roots, scene["nodes"] = scene["nodes"], []
+    size = max(high[axis] - low[axis] for axis in range(3))
+    middle = [(low[axis] + high[axis]) / 2 for axis in range(3)]
+    for node in document["nodes"]:
+        node.pop("camera", None)
+        node.pop("skin", None)
+    depths = [size * 2 * 6 ** ((i + 0.5) / count) for i in range(count)]
+    for i, depth in enumerate(depths):
+        side = 0.9 * depth * TANGENT * (2 * ((i * SPREAD[0] + 0.5) % 1) - 1)
+        up = 0.8 * depth * TANGENT * 0.75 * (2 * ((i * SPREAD[1] + 0.5) % 1) - 1)
+        document["nodes"].append({"name": f"Copy {i + 1}", "children": [copied(document, root) for root in roots],
+                                  "translation": [side - middle[0], up - middle[1], -depth - middle[2]]})
+        scene["nodes"].append(len(document["nodes"]) - 1)
+    document["cameras"] = [{"name": "Camera", "type": "perspective",
+                            "perspective": {"yfov": 2 * math.atan(TANGENT * 0.75), "aspectRatio": 4 / 3, "znear": size / 50},
+                            "extras": {"fStop": 0.95, "focusDistance": depths[min(3, count - 1)]}}]
+    document["nodes"].append({"name": "Camera", "camera": 0})
+    scene["nodes"].append(len(document["nodes"]) - 1)
+    for part in ("animations", "skins"):
+        document.pop(part, None)
+
+
+def main(words):
+    parser = parser_of("copies", __doc__)
+    parser.add_argument("scene", type=path, help="a .gltf file")
+    parser.add_argument("-n", type=int, default=20, metavar="COPIES", help="number of copies (default: 20)")
+    parser.add_argument("-o", "--output", type=path, default="copies.gltf", help="default: copies.gltf")
+    add_program(parser)
+    arguments = parser.parse_args(words)
+    if arguments.n < 1:
+        parser.error("-n: at least one copy")
+    bounds = json.loads(run(arguments.program, "info", arguments.scene, "--json"))["bounds"]
+    document = read_json(arguments.scene)
+    add_copies(document, arguments.n, bounds["minimum"], bounds["maximum"])
+    folder = os.path.relpath(arguments.scene.parent, arguments.output.parent)
+    for entry in document.get("buffers", []) + document.get("images", []):
+        if not entry.get("uri", "data:").startswith("data:"):
+            entry["uri"] = pathlib.PurePosixPath(folder, entry["uri"]).as_posix()
+    write_file(arguments.output, json.dumps(document, indent=1))

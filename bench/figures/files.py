@@ -1,0 +1,44 @@
+"""Reads results of benches, and replaces files atomically."""
+
+import csv
+import fcntl
+import json
+import os
+import tempfile
+
+
+def read_json(path):
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def read_csv(path):
+    """Returns a dictionary of texts for each row."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def remove_abandoned(path):
+    """Removes a temporary file unless a process is writing it."""
+    try:
+        with open(path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            path.unlink()
+    except OSError:
+        pass
+
+
+def write_file(path, content):
+    """Replaces a file by a text or bytes through a temporary file; removes those that killed processes left."""
+    prefix = f".{path.name}."
+    for left in path.parent.glob(f"{prefix}*"):
+        remove_abandoned(left)
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=prefix, delete=False) as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            pass  # a file system without locks
+        file.write(content if isinstance(content, bytes) else content.encode())
+        file.flush()
+        os.fsync(file.fileno())
+        os.chmod(file.name, 0o644)
+        os.replace(file.name, path)

@@ -1,0 +1,167 @@
+"""Tables of speed, error and popping; each function of TABLES returns Markdown."""
+
+import re
+import textwrap
+
+from figures.markdown import run_source, run_table, source, table
+from figures.results import accumulation_rows, error_ratio, lines_of, numbers, numbers_after, rmse, run_of, samples_sweep, seconds
+
+FISH, OWN, H200 = "llvmpipe-speedup-fish", "llvmpipe-speedup-jeong2011", "h200-speedup"
+MODES = {"nearest": "nearest level", "fractional": "split samples", "continuous": "split pixels", "multirate": "multirate"}
+MAX_ERROR_RATIO = 1.2  # of levels to full detail
+MAX_POP_RATIO = {"fractional": 0.25, "continuous": 0.05, "multirate": 0.25}  # to the nearest level's largest pop
+
+
+def limited(value, limit):
+    """Returns a number, in bold if it is above its limit."""
+    return f"**{value:.2f}**" if value > limit else f"{value:.2f}"
+
+
+def error_ratios(modes):
+    return [limited(error_ratio(modes, error), MAX_ERROR_RATIO) for error in ("rmse", "flip")]
+
+
+def times(modes, unit="s"):
+    return [f"{seconds(modes[mode]):.2f} s" if unit == "s" else f"{1000 * seconds(modes[mode]):.0f} ms" for mode in ("off", "fractional")]
+
+
+def speed_ups(levels):
+    """Returns the speed-ups by all criteria, by size only and by blur only."""
+    return [f"{part['speedUp']:.1f}" for part in (levels, levels["sizeOnly"], levels["blurOnly"])]
+
+
+def speed_table(name):
+    rows = []
+    for count, modes in samples_sweep(name):
+        off, levels = modes["off"], modes["fractional"]
+        rows.append([count, *times(modes), f"{levels['speedUp']:.1f}",
+                     f"{off['fromReference']['rmse']:.4f}", f"{levels['fromReference']['rmse']:.4f}", error_ratios(modes)[0],
+                     f"{levels['fromFullDetail']['psnr']:.1f} dB", f"{levels['fromFullDetail']['flip']:.4f}"])
+    return run_table(name, ["lens samples", "full detail", "levels", "times as fast", "RMSE, full detail", "RMSE, levels",
+                            "times the error", "PSNR between the two", "FLIP between the two"], rows)
+
+
+def measured():
+    """Levels by measured error."""
+    rows = []
+    for count, modes in samples_sweep(OWN):
+        full, levels = modes["off"], modes["fractional"]
+        rmse_ratio, flip_ratio = error_ratios(modes)
+        rows.append([count, f"{full['triangles'] / 1e6:.1f} M", f"{levels['triangles'] / 1e6:.1f} M", *times(modes), *speed_ups(levels),
+                     f"{full['fromReference']['rmse']:.4f}", rmse_ratio, f"{full['fromReference']['flip']:.4f}", flip_ratio])
+    return run_table(OWN, ["lens samples", "triangles, full detail", "triangles, levels", "full detail", "levels", "times as fast",
+                           "size only", "blur only", "RMSE, full detail", "times that, levels", "FLIP, full detail",
+                           "times that, levels"], rows)
+
+
+def published():
+    """The published algorithm and the defaults: frame times over lens samples, as in Figure 2 of the paper."""
+    own = dict(samples_sweep(OWN))
+    rows = [[count, name, *times(modes), *speed_ups(modes["fractional"]), f"{modes['off']['fromReference']['rmse']:.4f}",
+             f"{modes['fractional']['fromReference']['rmse']:.4f}", error_ratios(modes)[0]]
+            for count, theirs in samples_sweep(OWN, "jeong2011")
+            for name, modes in (("`jeong2011`, Halton", theirs), ("today's default, Sobol", own[count]))]
+    return run_table(OWN, ["lens samples", "settings", "full detail", "levels", "times as fast", "size only", "blur only",
+                           "RMSE, full detail", "RMSE, levels", "times the error"], rows)
+
+
+def lenses():
+    name = "llvmpipe-speedup-lenses"
+    lens = ("sweep", "samples", "fStop", "focusDistance")
+    full = {tuple(row[key] for key in lens): row for row in accumulation_rows(name) if row["lod"] == "off"}
+    rows = [[f"f/{row['fStop']:g}", f"{row['focusDistance']:g} m",
+             *times({"off": full[tuple(row[key] for key in lens)], "fractional": row}), f"{row['speedUp']:.1f}",
+             f"{row['fromFullDetail']['psnr']:.1f} dB"]
+            for row in accumulation_rows(name) if row["lod"] == "fractional" and row["samples"] == 64]
+    return run_table(name, ["f-number", "focus", "full detail", "levels", "times as fast", "PSNR between the two"], rows)
+
+
+def speed_sentence():
+    """The paragraph of README.md on speed and error."""
+    by_size, drawn = dict(samples_sweep(FISH))[64], dict(samples_sweep(OWN))[64]
+    full, levels = drawn["off"], drawn["fractional"]
+    return textwrap.fill(
+        f"With 64 lens samples, the built-in scene is drawn from {levels['triangles'] / 1e6:.0f} instead of "
+        f"{full['triangles'] / 1e6:.0f} million triangles, at {error_ratio(drawn):.2f} times the error of full meshes (FLIP: "
+        f"{error_ratio(drawn, 'flip'):.2f} times). On {run_of(FISH)['machine']['threads']} CPU cores without a GPU this takes "
+        f"{seconds(levels):.1f} s instead of {seconds(full):.1f} s, {levels['speedUp']:.1f} times as fast. Coarser levels "
+        f"(`--lod-metric size`) are {by_size['fractional']['speedUp']:.1f} times as fast, at {error_ratio(by_size):.1f} times the "
+        "error. [Results](docs/results.md) has all measurements, also against a CPU ray tracer and on [a "
+        "GPU](docs/results.md#on-a-gpu).", 128, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
+def demo():
+    lines = lines_of("llvmpipe-demo")
+    rows = [[name, *re.split(r"\s{2,}", line.strip())[1:]] for name in ("full detail", "fractional levels")
+            for line in lines if line.startswith(name)]
+    ratio = numbers_after(lines, "speed-up of the frame")[0]
+    psnr, ssim, flip = numbers_after(lines, "image difference")
+    text = table(["1024 × 768, 64 lens samples", "frame", "a sample", "triangles drawn", "peak memory"], rows)
+    text += f"\nThe second frame is {ratio:.1f} times as fast. The two images differ by PSNR {psnr:.1f} dB, SSIM {ssim:.3f}, FLIP {flip:.4f}.\n"
+    return text + source("scripts/demo", "program, renderer, lens samples, buffers, and the removal of triangles that face away or lie "
+                         "outside the image", "llvmpipe-demo.txt")
+
+
+def seeds():
+    """The difference that other lens samples make, beside that of levels."""
+    names = {"seed": "full detail, other lens samples (`--seed 1`)", "levels": "levels, same lens samples"}
+    rows = []
+    for line in lines_of("llvmpipe-seeds"):
+        if line.startswith("$ "):
+            rows.append([names[line.split()[-1].removesuffix(".exr")]])
+        elif line.startswith(("rmse", "psnr", "ssim", "flip")):
+            value = numbers(line)[0]
+            rows[-1].append(f"{value:.1f} dB" if line.startswith("psnr") else f"{value:.4f}")
+    return table(["against full detail", "RMSE", "PSNR", "SSIM", "FLIP"], rows) + source(
+        "defocus render --samples 64 --lod off -o full.exr; defocus render --samples 64 --lod off --seed 1 -o seed.exr; defocus render "
+        "--samples 64 -o levels.exr; defocus compare full.exr seed.exr; defocus compare full.exr levels.exr",
+        "scene, camera, lens, image size, number of lens samples", "llvmpipe-seeds.txt")
+
+
+def popping():
+    rows = {(row["movement"], row["lod"]): row for row in run_of("llvmpipe-popping")["rows"] if row["samples"] == 32}
+
+    def cell(error, limit):
+        return f"{error['worst']:.4f}" + ("" if limit is None else f" ({limited(error['ofNearest'], limit)})")
+
+    cells = [[movement.replace("-", " "), text, cell(rows[movement, mode]["stepRmse"], MAX_POP_RATIO.get(mode)),
+              *(cell(rows[movement, mode][kind], None if mode == "nearest" else 1) for kind in ("stepFlip", "changeRmse"))]
+             for movement in ("focus-pull", "dolly", "turntable") for mode, text in MODES.items()]
+    return run_table("llvmpipe-popping", ["movement", "levels", "largest pop, RMSE", "largest pop, FLIP", "largest change, RMSE"], cells)
+
+
+def rates():
+    """The rates of multirate, alone and with levels, over the number of lens samples."""
+    def rate(row):
+        return "none" if row["method"] == "accumulation" else "shared images" if row["setting"].startswith("cells=off ") else "cells"
+
+    rows = [[row["samples"], rate(row), "no" if row["setting"].endswith("lod=off") else "yes", f"{seconds(row):.2f} s", f"{rmse(row):.4f}",
+             f"{row['ssim']:.4f}", f"{row['flip']:.4f}"]
+            for row in sorted(run_of("llvmpipe-multirate-rates")["rows"], key=lambda row: row["samples"])]
+    return run_table("llvmpipe-multirate-rates", ["lens samples", "rate", "levels", "frame", "RMSE", "SSIM", "FLIP"], rows)
+
+
+def gpu_speed():
+    rows = [[count, *times(modes, "ms"), *speed_ups(modes["fractional"]), *error_ratios(modes)] for count, modes in samples_sweep(H200)]
+    return run_table(H200, ["lens samples", "full detail", "levels", "times as fast", "size only", "blur only", "times the RMSE",
+                            "times the FLIP"], rows)
+
+
+def gpu_equal_error():
+    def cell(time):
+        if time["milliseconds"] is None:
+            return "not reached"
+        return f"{'< ' if time['atMost'] else ''}{time['milliseconds']:.0f}"
+
+    scenes = {"h200-school": "Fish school", "h200-helmets": "FlightHelmet 20 times"}
+    errors = [f"RMSE {time['rmse']}" for time in run_of("h200-school")["timesToErrors"][0]["times"]]
+    rows = []
+    for name, scene in scenes.items():
+        rows.append([f"**{scene}**"] + [""] * len(errors))
+        rows += [[method["name"], *map(cell, method["times"])] for method in run_of(name)["timesToErrors"]]
+    return table(["milliseconds a frame", *errors], rows) + "".join(map(run_source, scenes))
+
+
+TABLES = {"gpu speed": gpu_speed, "gpu equal error": gpu_equal_error, "speed": speed_sentence, "demo": demo, "seeds": seeds,
+          "speedup": lambda: speed_table(FISH), "helmets": lambda: speed_table("llvmpipe-speedup-helmets"), "measured": measured,
+          "published": published, "lenses": lenses, "popping": popping, "rates": rates}
