@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
@@ -18,6 +17,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "scene/gltf/tinygltf.h"
+#include "scene/vertex_block.h"
 
 namespace defocus {
 
@@ -99,46 +99,28 @@ int appendVectors(tinygltf::Model& model, const std::vector<Vector>& values) {
     return append(model, values, Vector::length(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
-template <typename T>
-std::vector<T> chosen(const std::vector<T>& values, const std::vector<std::uint32_t>& vertices) {
-    std::vector<T> result;
-    result.reserve(vertices.size());
-    for (const std::uint32_t v : vertices) result.push_back(values[v]);
-    return result;
-}
-
 int appendPositions(tinygltf::Model& model, const std::vector<glm::vec3>& positions) {
     const int number = appendVectors(model, positions);
-    glm::vec3 least = positions.front();
-    glm::vec3 most = positions.front();
-    for (const glm::vec3& p : positions) {
-        least = glm::min(least, p);
-        most = glm::max(most, p);
-    }
-    model.accessors.back().minValues = {least.x, least.y, least.z};
-    model.accessors.back().maxValues = {most.x, most.y, most.z};
+    Bounds bounds;
+    for (const glm::vec3& position : positions) bounds.extend(glm::dvec3(position));
+    model.accessors.back().minValues = {bounds.minimum.x, bounds.minimum.y, bounds.minimum.z};
+    model.accessors.back().maxValues = {bounds.maximum.x, bounds.maximum.y, bounds.maximum.z};
     return number;
 }
 
-std::map<std::string, int> appendVertices(tinygltf::Model& model, const Vertices& vertices,
-                                          const std::vector<std::uint32_t>& order) {
+std::map<std::string, int> appendVertices(tinygltf::Model& model, Vertices vertices) {
     std::map<std::string, int> attributes;
-    attributes["POSITION"] = appendPositions(model, chosen(vertices.positions, order));
-    if (!vertices.normals.empty()) {
-        std::vector<glm::vec3> normals = chosen(vertices.normals, order);
-        for (glm::vec3& normal : normals) normal = unitNormal(normal);
-        attributes["NORMAL"] = appendVectors(model, normals);
-    }
-    const auto appendUv = [&](const char* name, const std::vector<glm::vec2>& values) {
-        if (values.empty()) return;
-        std::vector<glm::vec2> uv = chosen(values, order);
+    attributes["POSITION"] = appendPositions(model, vertices.positions);
+    for (glm::vec3& normal : vertices.normals) normal = unitNormal(normal);
+    if (!vertices.normals.empty()) attributes["NORMAL"] = appendVectors(model, vertices.normals);
+    const auto appendUv = [&](const char* name, std::vector<glm::vec2>& uv) {
         for (glm::vec2& place : uv)
             if (!std::isfinite(place.x) || !std::isfinite(place.y)) place = glm::vec2(0);
-        attributes[name] = appendVectors(model, uv);
+        if (!uv.empty()) attributes[name] = appendVectors(model, uv);
     };
     appendUv("TEXCOORD_0", vertices.uv0);
     if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // sets are numbered without a gap
-    if (!vertices.colors.empty()) attributes["COLOR_0"] = appendVectors(model, chosen(vertices.colors, order));
+    if (!vertices.colors.empty()) attributes["COLOR_0"] = appendVectors(model, vertices.colors);
     return attributes;
 }
 
@@ -159,7 +141,7 @@ tinygltf::Model modelOf(const Mesh& mesh) {
     model.nodes.back().name = utf8(mesh.name);
     model.meshes.emplace_back().name = model.nodes.back().name;
     model.buffers.emplace_back();
-    const std::map<std::string, int> attributes = appendVertices(model, mesh.vertices, written.vertices);
+    const std::map<std::string, int> attributes = appendVertices(model, gathered(mesh.vertices, written.vertices));
     for (const std::vector<std::uint32_t>& triangles : written.triangles) {
         tinygltf::Primitive& primitive = model.meshes.back().primitives.emplace_back();
         primitive.attributes = attributes;
