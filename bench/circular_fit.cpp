@@ -10,12 +10,15 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <unsupported/Eigen/LevenbergMarquardt>
+#include <unsupported/Eigen/NumericalDiff>
 #include <vector>
 
 #include "core/error.h"
@@ -26,7 +29,7 @@ namespace {
 
 using namespace defocus;
 using Kernel = std::vector<CircularComponent>;
-using Values = std::vector<double>;
+using Values = Eigen::VectorXd;
 
 constexpr double pi = std::numbers::pi;
 
@@ -51,18 +54,25 @@ const std::array<Kernel, 5> publishedKernels = {{
 // ---- one kernel's weights ---------------------------------------------------------------------------------------
 
 struct Problem {
-    double extent;
-    std::vector<RadialNode> nodes;  // of the square
-    Values guarded;                 // the nodes' weights with the corners' guard
+    Values squaredRadii;  // of the square's nodes
+    Values weights;       // their areas
+    Values roots;         // of the weights with the corners' guard
+    Values target;        // the disk, times the roots
 };
 
 Problem problemOf(double extent, double guard) {
-    Problem problem{extent, squareNodes(extent, 1), {}};
-    for (const RadialNode& node : problem.nodes) {
+    const std::vector<RadialNode> nodes = squareNodes(extent, 1);
+    const auto count = static_cast<Eigen::Index>(nodes.size());
+    Problem problem{Values(count), Values(count), Values(count), Values(count)};
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const RadialNode& node = nodes[static_cast<std::size_t>(i)];
         // A ring's area over the area of its arcs inside the square: 4·arccos(extent/r) of the 2π are hidden.
         const double outward = std::max(1.0, std::sqrt(node.squaredRadius) / extent);
         const double ring = pi / (pi - 4 * std::acos(1 / outward));
-        problem.guarded.push_back(node.weight * (outward > 1 ? 1 + guard * ring : 1));
+        problem.squaredRadii[i] = node.squaredRadius;
+        problem.weights[i] = node.weight;
+        problem.roots[i] = std::sqrt(node.weight * (outward > 1 ? 1 + guard * ring : 1));
+        problem.target[i] = node.squaredRadius < 1 ? problem.roots[i] : 0;
     }
     return problem;
 }
@@ -74,146 +84,68 @@ struct Fit {
     double squares = std::numeric_limits<double>::infinity();  // |residual|²
 };
 
-double dot(const Values& a, const Values& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return sum;
-}
-
-void addScaled(Values& to, double scale, const Values& from) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] += scale * from[i];
-}
-
 // Columns √weight·e^(−a·u)·cos b·u, √weight·e^(−a·u)·sin b·u for each component, and each column's ∫ over the square.
 struct Basis {
-    std::vector<Values> columns;
+    Eigen::MatrixXd columns;
     Values energies;
 };
 
 Basis basisOf(const Problem& problem, const Values& shape) {
-    Basis basis{std::vector<Values>(shape.size(), Values(problem.nodes.size())), Values(shape.size())};
-    for (std::size_t c = 0; c < shape.size(); c += 2) {
-        for (std::size_t i = 0; i < problem.nodes.size(); ++i) {
-            const double u = problem.nodes[i].squaredRadius;
-            const double size = std::exp(-shape[c] * u);
-            const double cosine = size * std::cos(shape[c + 1] * u);
-            const double sine = size * std::sin(shape[c + 1] * u);
-            const double root = std::sqrt(problem.guarded[i]);
-            basis.columns[c][i] = root * cosine;
-            basis.columns[c + 1][i] = root * sine;
-            basis.energies[c] += problem.nodes[i].weight * cosine;
-            basis.energies[c + 1] += problem.nodes[i].weight * sine;
-        }
+    const auto u = problem.squaredRadii.array();
+    Basis basis{Eigen::MatrixXd(u.size(), shape.size()), Values(shape.size())};
+    for (Eigen::Index c = 0; c < shape.size(); c += 2) {
+        const Eigen::ArrayXd size = (-shape[c] * u).exp();
+        basis.columns.col(c) = size * (shape[c + 1] * u).cos();
+        basis.columns.col(c + 1) = size * (shape[c + 1] * u).sin();
     }
+    basis.energies = basis.columns.transpose() * problem.weights;
+    basis.columns = problem.roots.asDiagonal() * basis.columns;
     return basis;
 }
 
-// x of least |basis·x − target|² with energies·x = energy: QR by Gram and Schmidt (modified); in y = R·x the constraint
-// is (R⁻ᵀ·energies)·y = energy, and the shortest way there from the free optimum is along R⁻ᵀ·energies.
-Values constrainedLeastSquares(const Basis& basis, Values target, double energy) {
-    const std::size_t n = basis.columns.size();
-    std::vector<Values> q = basis.columns;
-    std::vector<Values> r(n, Values(n));
-    Values y(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        r[k][k] = std::sqrt(dot(q[k], q[k]));
-        for (double& value : q[k]) value /= r[k][k];
-        for (std::size_t j = k + 1; j < n; ++j) {
-            r[k][j] = dot(q[k], q[j]);
-            addScaled(q[j], -r[k][j], q[k]);
-        }
-        y[k] = dot(q[k], target);
-        addScaled(target, -y[k], q[k]);
-    }
-    Values along(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        along[k] = basis.energies[k];
-        for (std::size_t j = 0; j < k; ++j) along[k] -= r[j][k] * along[j];
-        along[k] /= r[k][k];
-    }
-    addScaled(y, (energy - dot(along, y)) / dot(along, along), along);
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t j = k + 1; j < n; ++j) y[k] -= r[k][j] * y[j];
-        y[k] /= r[k][k];
-    }
-    return y;
+// x of least |basis·x − target|² with energies·x = energy, by QR: in y = R·x the constraint is (R⁻ᵀ·energies)·y =
+// energy, and the shortest way there from the free optimum is along R⁻ᵀ·energies.
+Values constrainedLeastSquares(const Basis& basis, const Values& target, double energy) {
+    const Eigen::Index n = basis.energies.size();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis.columns);
+    const auto r = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+    const Values along = r.transpose().solve(basis.energies);
+    Values y = (qr.householderQ().transpose() * target).head(n);
+    y += (energy - along.dot(y)) / along.squaredNorm() * along;
+    return r.solve(y);
 }
 
 Fit fitWeights(const Problem& problem, const Values& shape) {
-    Values target;
-    for (std::size_t i = 0; i < problem.nodes.size(); ++i) {
-        target.push_back(problem.nodes[i].squaredRadius < 1 ? std::sqrt(problem.guarded[i]) : 0);
-    }
     const Basis basis = basisOf(problem, shape);
-    const Values weights = constrainedLeastSquares(basis, target, pi);
-    Fit fit{shape, {}, target, 0};
-    for (double& value : fit.residual) value = -value;
-    for (std::size_t k = 0; k < weights.size(); ++k) addScaled(fit.residual, weights[k], basis.columns[k]);
-    fit.squares = dot(fit.residual, fit.residual);
-    for (std::size_t c = 0; c < shape.size(); c += 2) {
+    const Values weights = constrainedLeastSquares(basis, problem.target, pi);
+    Fit fit{shape, {}, basis.columns * weights - problem.target};
+    fit.squares = fit.residual.squaredNorm();
+    for (Eigen::Index c = 0; c < shape.size(); c += 2)
         fit.kernel.push_back({shape[c], shape[c + 1], weights[c], weights[c + 1]});
-    }
     return fit;
 }
 
 // ---- decays and frequencies -------------------------------------------------------------------------------------
 
-// M·x = b for a positive definite M (Gauss's elimination).
-Values solved(std::vector<Values> m, Values b) {
-    const std::size_t n = b.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        for (std::size_t i = k + 1; i < n; ++i) {
-            const double factor = m[i][k] / m[k][k];
-            addScaled(m[i], -factor, m[k]);
-            b[i] -= factor * b[k];
-        }
+struct Residual : Eigen::DenseFunctor<double> {
+    Residual(const Problem& fitted, Eigen::Index unknowns)
+        : DenseFunctor(static_cast<int>(unknowns), static_cast<int>(fitted.target.size())), problem(fitted) {}
+    int operator()(const Values& shape, Values& residual) const {
+        residual = fitWeights(problem, shape).residual;
+        return 0;
     }
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t j = k + 1; j < n; ++j) b[k] -= m[k][j] * b[j];
-        b[k] /= m[k][k];
-    }
-    return b;
-}
+    const Problem& problem;
+};
 
-// Levenberg and Marquardt's method with differences as derivatives, until three steps in a row gain less than
-// `tolerance`, relatively.
+// Levenberg and Marquardt's method with differences as derivatives, until a step gains less than `tolerance`,
+// relatively.
 Fit fitShape(const Problem& problem, const Values& start, double tolerance) {
-    constexpr double difference = 1e-6;
-    constexpr double stuck = 1e12;
-    Fit best = fitWeights(problem, start);
-    double damping = 1e-3;
-    for (int idle = 0; idle < 3 && damping < stuck;) {
-        const std::size_t n = best.shape.size();
-        std::vector<Values> slopes;
-        for (std::size_t k = 0; k < n; ++k) {
-            Values moved = best.shape;
-            moved[k] += difference;
-            Values slope = fitWeights(problem, moved).residual;
-            addScaled(slope, -1, best.residual);
-            for (double& value : slope) value /= difference;
-            slopes.push_back(std::move(slope));
-        }
-        std::vector<Values> normal(n, Values(n));
-        Values downhill(n);
-        for (std::size_t k = 0; k < n; ++k) {
-            for (std::size_t j = 0; j < n; ++j) normal[k][j] = dot(slopes[k], slopes[j]);
-            downhill[k] = -dot(slopes[k], best.residual);
-        }
-        const double before = best.squares;
-        for (; damping < stuck && best.squares == before; damping *= 4) {
-            std::vector<Values> damped = normal;
-            for (std::size_t k = 0; k < n; ++k) damped[k][k] *= 1 + damping;
-            Values moved = best.shape;
-            addScaled(moved, 1, solved(damped, downhill));
-            Fit next = fitWeights(problem, moved);
-            if (next.squares < before) {  // false for NaN
-                best = std::move(next);
-                damping /= 64;
-            }
-        }
-        idle = before - best.squares > tolerance * before ? 0 : idle + 1;
-    }
-    return best;
+    Eigen::NumericalDiff<Residual, Eigen::Central> residual(problem, start.size());
+    Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residual, Eigen::Central>> method(residual);
+    method.setFtol(tolerance);
+    Values shape = start;
+    method.minimize(shape);
+    return fitWeights(problem, shape);
 }
 
 // In the order of their frequencies, which are made positive, and rounded to the digits that are printed.
@@ -242,14 +174,14 @@ std::vector<Kernel> fitKernels(double extent, double guard, int count) {
         };
         for (const double spacing : {3.0, 4.5, 6.0, 7.5}) {
             for (const double decay : {0.5, 2.0}) {
-                Values start;
-                for (int k = 0; k < n; ++k) start.insert(start.end(), {decay, spacing * (k + 0.5)});
+                Values start(2 * n);
+                for (int k = 0; k < n; ++k) start.segment<2>(2 * k) << decay, spacing * (k + 0.5);
                 attempt(start);
             }
         }
         for (const double frequency : {1.0, 6.0 * n}) {
-            Values start = before.shape;
-            start.insert(start.end(), {0.5, frequency});
+            Values start(2 * n);
+            start << before.shape, 0.5, frequency;
             attempt(start);
         }
         before = fitShape(problem, best.shape, fine);

@@ -10,6 +10,7 @@
 
 #include "capture/shot_json.h"
 #include "core/error.h"
+#include "core/hash.h"
 #include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
 #include "plan/camera_path.h"
@@ -169,12 +170,9 @@ double timeAt(const Shot& shot, const Scene& scene, int clip, double seconds) {
     return shot.request.loop && clip >= 0 ? loopedTime(scene.clips[static_cast<std::size_t>(clip)], time) : time;
 }
 
-// Another well mixed seed for each frame (finaliser of MurmurHash3, Appleby).
+// Another well mixed seed for each frame.
 std::uint32_t frameSeed(std::uint32_t seed, int frame) {
-    std::uint32_t hash = seed + 0x9e3779b9u * (static_cast<std::uint32_t>(frame) + 1);
-    hash = (hash ^ (hash >> 16)) * 0x85ebca6bu;
-    hash = (hash ^ (hash >> 13)) * 0xc2b2ae35u;
-    return hash ^ (hash >> 16);
+    return fmix32(seed + 0x9e3779b9u * (static_cast<std::uint32_t>(frame) + 1));
 }
 
 }  // namespace

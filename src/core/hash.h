@@ -1,6 +1,5 @@
 #pragma once
-// A 64-bit hash for cache keys, checksums and tables, not for security: XXH3 of the xxHash library, whose values are
-// fixed for good, so that what is stored on disk can be found again.
+// Hashes, not for security. Their values are fixed: images, the school of fish and files on disk depend on them.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,9 +7,24 @@
 
 namespace defocus {
 
+// Mixes the bits of an integer: the finaliser of MurmurHash3 (Appleby).
+constexpr std::uint32_t fmix32(std::uint32_t bits) {
+    bits = (bits ^ (bits >> 16)) * 0x85ebca6bu;
+    bits = (bits ^ (bits >> 13)) * 0xc2b2ae35u;
+    return bits ^ (bits >> 16);
+}
+
+// Mixes the bits of an integer with less bias than fmix32 (Wellons 2018, Prospecting for Hash Functions).
+constexpr std::uint32_t lowbias32(std::uint32_t bits) {
+    bits = (bits ^ (bits >> 16)) * 0x7feb352du;
+    bits = (bits ^ (bits >> 15)) * 0x846ca68bu;
+    return bits ^ (bits >> 16);
+}
+
 inline constexpr std::uint64_t hashSeed = 0xcbf29ce484222325ull;
 
-// Hash of `bytes` and their number, continued from `seed` so that several pieces can be chained.
+// XXH3 of `bytes` and their number, for cache keys, checksums and tables; continued from `seed`, so that several pieces
+// can be chained.
 std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed = hashSeed);
 
 }  // namespace defocus

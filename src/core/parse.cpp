@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <string_view>
 #include <system_error>
 
@@ -39,13 +40,9 @@ bool inside(double number, const Range& range) {
 }  // namespace
 
 std::vector<std::string> splitAt(std::string_view text, char separator) {
-    std::vector<std::string> parts(1);
-    for (const char letter : text) {
-        if (letter == separator)
-            parts.emplace_back();
-        else
-            parts.back() += letter;
-    }
+    if (text.empty()) return {""};  // of which the standard library makes no part
+    std::vector<std::string> parts;
+    for (const auto part : std::views::split(text, separator)) parts.emplace_back(part.begin(), part.end());
     return parts;
 }
 

@@ -1,47 +1,47 @@
 #include "image/colour_map.h"
 
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <glm/common.hpp>
 
 #include "core/parallel.h"
-#include "image/tone_map.h"
 
 namespace defocus {
 
 namespace {
 
-// sRGB colours at 0, 0.1 … 1; in between, encoded values are interpolated linearly.
-using Table = std::array<std::uint32_t, 11>;
-constexpr Table magmaTable = {0x000004, 0x140e36, 0x3b0f70, 0x641a80, 0x8c2981, 0xb73779,
-                              0xde4968, 0xf7705c, 0xfe9f6d, 0xfecf92, 0xfcfdbf};
-constexpr Table viridisTable = {0x440154, 0x482475, 0x414487, 0x355f8d, 0x2a788e, 0x21918c,
-                                0x22a884, 0x44bf70, 0x7ad151, 0xbddf26, 0xfde725};
+// Linear colours at 0, 1/255 … 1.
+using Table = std::array<glm::vec3, 256>;
+
+Table tableOf(const char* name) {
+    std::array<float, std::tuple_size_v<Table>> shares;
+    for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = static_cast<float>(i) / (shares.size() - 1);
+    const OIIO::ImageBuf ramp(OIIO::ImageSpec(shares.size(), 1, 1, OIIO::TypeFloat), shares.data());
+    Table table;
+    OIIO::ImageBufAlgo::color_map(ramp, 0, name).get_pixels(OIIO::ROI::All(), OIIO::TypeFloat, table.data());
+    return table;
+}
 
 glm::vec3 interpolated(const Table& table, float t) {
     const float position = (t > 0 ? std::min(t, 1.0f) : 0.0f) * static_cast<float>(table.size() - 1);
     const std::size_t lower = std::min(static_cast<std::size_t>(position), table.size() - 2);
-    const float fraction = position - static_cast<float>(lower);
-    glm::vec3 colour;
-    for (int c = 0; c < 3; ++c) {
-        const int shift = 16 - 8 * c;
-        const auto below = static_cast<float>((table[lower] >> shift) & 0xffu);
-        const auto above = static_cast<float>((table[lower + 1] >> shift) & 0xffu);
-        colour[c] = srgbDecode(std::lerp(below, above, fraction) / 255.0f);
-    }
-    return colour;
+    return glm::mix(table[lower], table[lower + 1], position - static_cast<float>(lower));
 }
 
 }  // namespace
 
 glm::vec3 magma(float t) {
-    return interpolated(magmaTable, t);
+    static const Table table = tableOf("magma");
+    return interpolated(table, t);
 }
 
 glm::vec3 viridis(float t) {
-    return interpolated(viridisTable, t);
+    static const Table table = tableOf("viridis");
+    return interpolated(table, t);
 }
 
 Image colourMapped(const Image& values) {

@@ -1,7 +1,6 @@
 #include "image/image_encoding.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 #include "core/error.h"
@@ -65,8 +64,7 @@ struct MetadataWriter {
 }  // namespace
 
 FileKind fileKind(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    const std::string extension = OIIO::Strutil::lower(path.extension().string());
     if (extension == ".exr") return FileKind::exr;
     if (extension == ".png") return FileKind::png;
     if (extension == ".jpg" || extension == ".jpeg") return FileKind::jpeg;

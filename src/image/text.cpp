@@ -1,3 +1,4 @@
+// OpenImageIO's render_text is no match: up to version 2.4 it loses all but the last byte of characters beyond ASCII.
 #include "image/text.h"
 
 #include <stb_truetype.h>

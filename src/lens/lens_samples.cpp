@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/hash.h"
+
 namespace defocus {
 
 namespace {
@@ -23,21 +25,14 @@ double fraction(double value) {
     return std::min(value - std::floor(value), beforeOne);
 }
 
-// The finaliser of MurmurHash3 (Appleby).
-std::uint32_t mixed(std::uint32_t hash) {
-    hash = (hash ^ (hash >> 16)) * 0x85ebca6bu;
-    hash = (hash ^ (hash >> 13)) * 0xc2b2ae35u;
-    return hash ^ (hash >> 16);
-}
-
 std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
-    return mixed(a * 0x9e3779b9u + mixed(b + 0x7f4a7c15u));
+    return fmix32(a * 0x9e3779b9u + fmix32(b + 0x7f4a7c15u));
 }
 
 // A well mixed shift in [0, 1) for (seed, dimension); seed 0 shifts by nothing.
 double seedShift(std::uint32_t seed, std::size_t dimension) {
     if (seed == 0) return 0;
-    return mixed(seed * 0x9e3779b9u + static_cast<std::uint32_t>(dimension) * 0x85ebca6bu) * 0x1p-32;
+    return fmix32(seed * 0x9e3779b9u + static_cast<std::uint32_t>(dimension) * 0x85ebca6bu) * 0x1p-32;
 }
 
 // ---- Halton ---------------------------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/parallel.h"
 #include "image/tone_map.h"
 
@@ -16,12 +17,9 @@ namespace {
 
 constexpr double mostPixelsSeen = 1 << 20;
 
-// Which pixel of its tile is looked at: never the same place of a pattern (finaliser of MurmurHash3, Appleby).
+// Chooses the pixel of a tile that is looked at: never the same place of a pattern.
 std::uint32_t tileHash(std::uint32_t x, std::uint32_t y) {
-    std::uint32_t hash = x * 0x9e3779b9u + y * 0x85ebca6bu + 1;
-    hash = (hash ^ (hash >> 16)) * 0x85ebca6bu;
-    hash = (hash ^ (hash >> 13)) * 0xc2b2ae35u;
-    return hash ^ (hash >> 16);
+    return fmix32(x * 0x9e3779b9u + y * 0x85ebca6bu + 1);
 }
 
 std::vector<float> encodedPixels(const ImageView& image) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "core/hash.h"
+
 namespace defocus {
 
 class FishRandom {
@@ -38,10 +40,9 @@ private:
 
 // A value in [0, 1) for a lattice point.
 inline float latticeValue(int x, int y, std::uint32_t seed) {
-    std::uint32_t h = seed + 0x9e3779b9u * static_cast<std::uint32_t>(x) + 0x85ebca6bu * static_cast<std::uint32_t>(y);
-    h = (h ^ (h >> 16u)) * 0x7feb352du;
-    h = (h ^ (h >> 15u)) * 0x846ca68bu;
-    return static_cast<float>((h ^ (h >> 16u)) >> 8u) * 0x1p-24f;
+    const std::uint32_t hash =
+        lowbias32(seed + 0x9e3779b9u * static_cast<std::uint32_t>(x) + 0x85ebca6bu * static_cast<std::uint32_t>(y));
+    return static_cast<float>(hash >> 8u) * 0x1p-24f;
 }
 
 // Smooth value noise in [0, 1], one lattice cell a unit.

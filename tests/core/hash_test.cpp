@@ -19,6 +19,14 @@ TEST(Hash, isXxh3) {
     EXPECT_EQ(hashBytes({}, 0), 0x2d06800538d394c2ull);
 }
 
+// Images and the school of fish hold only while the values stay.
+TEST(Hash, mixersKeepTheirValues) {
+    EXPECT_EQ(fmix32(1), 0x514e28b7u);
+    EXPECT_EQ(fmix32(0xffffffffu), 0x81f16f39u);
+    EXPECT_EQ(lowbias32(1), 0x688990c0u);
+    EXPECT_EQ(lowbias32(0xffffffffu), 0x6768824au);
+}
+
 // Hashes of distinct inputs are distinct: 10^5 random values of 64 bits collide with a probability below 3e-10.
 TEST(Hash, flippedSignsOfFloatsNeverCancel) {
     constexpr std::size_t floats = 16;

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <span>
 
+#include "core/hash.h"
 #include "lod/simplify/state.h"
 
 namespace defocus {
@@ -116,14 +117,6 @@ void countComponents(Simplifier& s) {
     });
 }
 
-// Spreads equal sizes over the mesh, whatever order they come in.
-std::uint32_t scattered(ComponentNumber component) {
-    std::uint32_t c = component.value;
-    c = (c ^ (c >> 16)) * 0x7feb352du;
-    c = (c ^ (c >> 15)) * 0x846ca68bu;
-    return c ^ (c >> 16);
-}
-
 // A component that may go.
 struct Removable {
     ComponentNumber component;
@@ -158,8 +151,9 @@ std::vector<Removable> removableComponents(const Simplifier& s) {
     for (auto begin = removable.begin(); begin != removable.end();) {
         const auto end = std::find_if(begin, removable.end(),
                                       [&](const Removable& r) { return radius(r) > largestRatio * radius(*begin); });
+        // Spread equal sizes over the mesh, whatever order they come in.
         std::sort(begin, end, [](const Removable& a, const Removable& b) {
-            return scattered(a.component) < scattered(b.component);
+            return lowbias32(a.component.value) < lowbias32(b.component.value);
         });
         const auto size = static_cast<std::size_t>(begin - removable.begin());
         std::for_each(begin, end, [&](Removable& r) { r.size = size; });

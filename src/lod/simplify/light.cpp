@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/memory.h"
+#include "lod/simplify/damped_solve.h"
 #include "lod/simplify/triangle.h"
 
 namespace defocus {
@@ -75,25 +76,6 @@ double forEachLitPoint(const LitSurface& surface, std::size_t leastPoints, const
         });
     }
     return areas;
-}
-
-using LightMatrix = std::array<LightMeans, lightCount>;
-
-// Solves a symmetric positive definite system by Cholesky's decomposition, of which the matrix takes the lower half.
-void solve(LightMatrix& matrix, LightMeans& values) {
-    for (std::size_t i = 0; i < lightCount; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) {
-            double rest = matrix[i][j];
-            for (std::size_t k = 0; k < j; ++k) rest -= matrix[i][k] * matrix[j][k];
-            matrix[i][j] = i == j ? std::sqrt(rest) : rest / matrix[j][j];
-        }
-        for (std::size_t k = 0; k < i; ++k) values[i] -= matrix[i][k] * values[k];
-        values[i] /= matrix[i][i];
-    }
-    for (std::size_t i = lightCount; i-- > 0;) {
-        for (std::size_t k = i + 1; k < lightCount; ++k) values[i] -= matrix[k][i] * values[k];
-        values[i] /= matrix[i][i];
-    }
 }
 
 constexpr std::size_t pairCount = lightCount / 2;  // of opposite lights
@@ -200,29 +182,26 @@ void follow(const LitSurface& surface, std::span<const std::uint32_t> groups, st
 
 // Returns the smallest change of the groups' normals that changes the means by `wanted`, about. It is the smaller, the
 // larger `damping` is, in units of the equations' mean diagonal: hardly nine of the lights are independent.
-std::vector<glm::vec3> smallestChange(const FollowingMeans& at, LightMeans wanted, double damping) {
+std::vector<glm::vec3> smallestChange(const FollowingMeans& at, const LightMeans& wanted, double damping) {
     const Lights from = lights();
-    LightMatrix matrix{};
+    std::vector<double> matrix(lightCount * lightCount, 0);
     for (std::size_t g = 0; g < at.areas.size(); ++g) {
         if (!(at.areas[g] > 0)) continue;
         const LightSlopes slopes = at.slopes[g].of(from);
         const float weight = 1 / at.areas[g];
         for (std::size_t i = 0; i < lightCount; ++i)
             for (std::size_t j = 0; j <= i; ++j)
-                matrix[i][j] += double{
+                matrix[i * lightCount + j] += double{
                     weight * (slopes.x[i] * slopes.x[j] + slopes.y[i] * slopes.y[j] + slopes.z[i] * slopes.z[j])};
     }
-    double trace = 0;
-    for (std::size_t i = 0; i < lightCount; ++i) trace += matrix[i][i];
+    const std::vector<double> factors = dampedSolution(matrix, wanted, damping);
     std::vector<glm::vec3> change(at.areas.size(), glm::vec3(0));
-    if (!(trace > 0)) return change;
-    for (std::size_t i = 0; i < lightCount; ++i) matrix[i][i] += damping / lightCount * trace;
-    solve(matrix, wanted);
     for (std::size_t g = 0; g < change.size(); ++g) {
         if (!(at.areas[g] > 0)) continue;
         const LightSlopes slopes = at.slopes[g].of(from);
         for (std::size_t l = 0; l < lightCount; ++l)
-            change[g] += static_cast<float>(wanted[l]) / at.areas[g] * glm::vec3(slopes.x[l], slopes.y[l], slopes.z[l]);
+            change[g] +=
+                static_cast<float>(factors[l]) / at.areas[g] * glm::vec3(slopes.x[l], slopes.y[l], slopes.z[l]);
     }
     return change;
 }

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <vector>
 
+#include "lod/simplify/damped_solve.h"
 #include "lod/simplify/triangle.h"
 
 namespace defocus {
@@ -33,33 +34,6 @@ constexpr int mostEdgePoints = 24;
 constexpr double stiffness = 0.1;       // of a vertex against moves that few outlines ask for, as a share of all
 constexpr double mostMoveShare = 0.25;  // of the mean length of the edges at a vertex, a round
 constexpr double constraintSlack = 1e-3;
-
-// Solves (M + slack·d) x = b by Cholesky's decomposition (Eigen would be a dependency for these lines alone), d the
-// mean of M's diagonal; of the n × n values of `matrix`, row by row, those on and below the diagonal are read. M is
-// positive semi-definite, slack > 0. Zero where M is.
-std::vector<double> solvedSymmetric(std::vector<double> matrix, std::vector<double> b, double slack) {
-    const std::size_t n = b.size();
-    double trace = 0;
-    for (std::size_t i = 0; i < n; ++i) trace += matrix[i * n + i];
-    if (!(trace > 0)) return std::vector<double>(n, 0);
-    for (std::size_t i = 0; i < n; ++i) {
-        matrix[i * n + i] += slack * trace / static_cast<double>(n);
-        for (std::size_t j = 0; j <= i; ++j) {
-            double sum = matrix[i * n + j];
-            for (std::size_t k = 0; k < j; ++k) sum -= matrix[i * n + k] * matrix[j * n + k];
-            matrix[i * n + j] = i == j ? std::sqrt(sum) : sum / matrix[j * n + j];
-        }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < i; ++k) b[i] -= matrix[i * n + k] * b[k];
-        b[i] /= matrix[i * n + i];
-    }
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t k = i + 1; k < n; ++k) b[i] -= matrix[k * n + i] * b[k];
-        b[i] /= matrix[i * n + i];
-    }
-    return b;
-}
 
 // An edge with one or two of its faces.
 struct Edge {
@@ -289,7 +263,7 @@ private:
     }
 
     // The least factors x with (G Gᵀ) x = b, slightly damped. Most places lie at no outline, or at few.
-    static std::vector<double> solved(const std::vector<glm::vec3>& gradients, std::vector<double> b) {
+    static std::vector<double> solved(const std::vector<glm::vec3>& gradients, const std::vector<double>& b) {
         const std::size_t n = b.size();
         std::vector<double> matrix(n * n, 0);
         std::vector<std::size_t> present;
@@ -302,7 +276,7 @@ private:
                 for (const std::size_t j : present) matrix[i * n + j] += glm::dot(glm::dvec3(at[i]), glm::dvec3(at[j]));
             }
         }
-        return solvedSymmetric(std::move(matrix), std::move(b), constraintSlack);
+        return dampedSolution(matrix, b, constraintSlack);
     }
 
     void move(const std::vector<glm::dvec3>& moves) {

@@ -3,27 +3,18 @@
 #include "scene/gltf/accessor.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstring>
 
 namespace defocus::gltf {
 
 namespace {
 
+// Returns 0 for a type that glTF doesn't have, of which tinygltf knows two.
 std::size_t componentBytes(int componentType) {
-    switch (componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return 4;
-        default:
-            return 0;  // not glTF's
-    }
+    if (componentType == TINYGLTF_COMPONENT_TYPE_INT || componentType == TINYGLTF_COMPONENT_TYPE_DOUBLE) return 0;
+    const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(componentType));
+    return static_cast<std::size_t>(std::max(bytes, 0));
 }
 
 // An element is `columns` columns of `rows` components; a matrix's columns start on multiples of four bytes.
@@ -37,29 +28,12 @@ struct Layout {
 };
 
 Layout layoutOf(int type, int componentType) {
+    const auto components =
+        static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
     Layout layout;
-    switch (type) {
-        case TINYGLTF_TYPE_VEC2:
-            layout.rows = 2;
-            break;
-        case TINYGLTF_TYPE_VEC3:
-            layout.rows = 3;
-            break;
-        case TINYGLTF_TYPE_VEC4:
-            layout.rows = 4;
-            break;
-        case TINYGLTF_TYPE_MAT2:
-            layout.rows = layout.columns = 2;
-            break;
-        case TINYGLTF_TYPE_MAT3:
-            layout.rows = layout.columns = 3;
-            break;
-        case TINYGLTF_TYPE_MAT4:
-            layout.rows = layout.columns = 4;
-            break;
-        default:
-            break;
-    }
+    if (type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3 || type == TINYGLTF_TYPE_MAT4)
+        layout.columns = static_cast<std::size_t>(std::sqrt(components));
+    layout.rows = components / layout.columns;
     layout.componentBytes = componentBytes(componentType);
     layout.columnBytes = layout.rows * layout.componentBytes;
     if (layout.columns > 1) layout.columnBytes = (layout.columnBytes + 3) / 4 * 4;

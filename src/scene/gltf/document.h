@@ -30,11 +30,14 @@ Document readDocument(const std::filesystem::path& path);
 // How many entries the JSON's array `name` has.
 std::size_t entryCount(const Document& document, std::string_view name);
 
+// Whether a URI holds its data itself.
+bool isDataUri(const std::string& uri);
+
 // The regular file, relative to the document, that a URI stands for; none for data: of its own. Throws Error where
 // there is no such file. `what` names the user in messages.
 std::optional<std::filesystem::path> uriFile(const Document& document, const std::string& uri, const std::string& what);
 
-// The bytes behind a URI: data: of any media type (base64 or percent-coded), or its file.
+// The bytes behind a URI: data: of any media type (base64, also with line breaks, or percent-coded), or its file.
 std::vector<std::byte> readUri(const Document& document, const std::string& uri, const std::string& what);
 
 // `text` with control characters as spaces and cut after a few hundred bytes: names from a file must not break an error

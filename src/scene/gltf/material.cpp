@@ -244,7 +244,7 @@ std::string imageName(const nlohmann::json& json, std::size_t index) {
     std::string name = json.value("name", std::string());
     if (!name.empty()) return name;
     std::string uri = json.value("uri", std::string());
-    return uri.empty() || uri.starts_with("data:") ? fmt::format("image {}", index) : uri;
+    return uri.empty() || isDataUri(uri) ? fmt::format("image {}", index) : uri;
 }
 
 std::vector<std::byte> encodedImage(const Source& source, const nlohmann::json& json, const std::string& label) {

@@ -1,19 +1,23 @@
-// glTF 2.0 specification, 3.6 (buffers and accessors), 3.7.2 (meshes), 4 (the GLB container).
+// glTF 2.0 specification, 3.6 (buffers and accessors), 3.7.2 (meshes).
 
 #include "scene/gltf/write.h"
 
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <glm/common.hpp>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/bounds.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "scene/gltf/tinygltf.h"
+#include "scene/vertex_block.h"
 
 namespace defocus {
 
@@ -21,12 +25,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "buffers are written as they lie in memory");
 
-using Json = nlohmann::ordered_json;
+namespace tinygltf = gltf::tinygltf;
 
-constexpr int unsignedInt = 5125, floatType = 5126;
-constexpr int vertexData = 34962, indexData = 34963;  // targets of buffer views
 constexpr std::uint32_t unused = 0xffffffffu;
-constexpr std::size_t headerBytes = 12, chunkHeaderBytes = 8;
 
 // The vertices and triangles that are written.
 struct Written {
@@ -71,134 +72,98 @@ glm::vec3 unitNormal(const glm::vec3& normal) {
     return glm::vec3(wide / length);
 }
 
-class GlbBuilder {
-public:
-    explicit GlbBuilder(const std::string& name) {
-        json_["asset"] = {{"version", "2.0"}, {"generator", "defocus"}};
-        json_["scene"] = 0;
-        json_["scenes"] = {{{"nodes", {0}}}};
-        json_["nodes"] = Json::array({{{"mesh", 0}}});
-        json_["meshes"] = Json::array({Json::object()});
-        if (!name.empty()) {
-            json_["nodes"][0]["name"] = name;
-            json_["meshes"][0]["name"] = name;
-        }
-        for (const char* list : {"accessors", "bufferViews"}) json_[list] = Json::array();
-        json_["meshes"][0]["primitives"] = Json::array();
-    }
-
-    // A buffer view of its own for the values, whose size is a multiple of 4, and an accessor of it; returns the
-    // latter's number.
-    template <typename T>
-    int add(const std::vector<T>& values, int componentType, const char* type, int target, const Json& more = {}) {
-        static_assert(sizeof(T) % 4 == 0);
-        const std::size_t offset = binary_.size();
-        const std::size_t bytes = values.size() * sizeof(T);
-        binary_.resize(offset + bytes);
-        std::memcpy(&binary_[offset], values.data(), bytes);
-        json_["bufferViews"].push_back(
-            {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}, {"target", target}});
-        Json accessor = {{"bufferView", json_["bufferViews"].size() - 1},
-                         {"componentType", componentType},
-                         {"count", values.size()},
-                         {"type", type}};
-        if (!more.is_null()) accessor.update(more);
-        json_["accessors"].push_back(accessor);
-        return static_cast<int>(json_["accessors"].size()) - 1;
-    }
-
-    void addPrimitive(const Json& attributes, int indices) {
-        json_["meshes"][0]["primitives"].push_back({{"attributes", attributes}, {"indices", indices}});
-    }
-
-    [[nodiscard]] std::vector<std::byte> bytes(const std::string& name) {
-        json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
-        // A name that isn't UTF-8 must not end the export.
-        std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
-        text.resize((text.size() + 3) / 4 * 4, ' ');
-        const std::size_t total = headerBytes + 2 * chunkHeaderBytes + text.size() + binary_.size();
-        if (total > std::numeric_limits<std::uint32_t>::max())
-            fail("mesh \"{}\": {} bytes are more than a .glb file can hold", name, total);
-        std::vector<std::byte> file(total);
-        std::byte* end = file.data();
-        end = append(end, "glTF", 4);
-        for (const std::size_t value : {std::size_t{2}, total, text.size()}) end = appendWord(end, value);
-        end = append(end, "JSON", 4);
-        end = append(end, text.data(), text.size());
-        end = appendWord(end, binary_.size());
-        end = append(end, "BIN", 4);
-        append(end, binary_.data(), binary_.size());
-        return file;
-    }
-
-private:
-    static std::byte* append(std::byte* end, const void* bytes, std::size_t count) {
-        std::memcpy(end, bytes, count);
-        return end + count;
-    }
-    static std::byte* appendWord(std::byte* end, std::size_t value) {
-        const auto word = static_cast<std::uint32_t>(value);
-        return append(end, &word, sizeof word);
-    }
-
-    Json json_;
-    std::vector<std::byte> binary_;
-};
-
+// Appends the bytes of `values` as a buffer view of their own with an accessor, and returns the latter's number. `type`
+// is TINYGLTF_TYPE_….
 template <typename T>
-std::vector<T> chosen(const std::vector<T>& values, const std::vector<std::uint32_t>& vertices) {
-    std::vector<T> result;
-    result.reserve(vertices.size());
-    for (const std::uint32_t v : vertices) result.push_back(values[v]);
-    return result;
+int append(tinygltf::Model& model, const std::vector<T>& values, int type, int componentType, int target) {
+    static_assert(sizeof(T) % 4 == 0);
+    std::vector<unsigned char>& buffer = model.buffers.front().data;
+    tinygltf::BufferView& view = model.bufferViews.emplace_back();
+    view.buffer = 0;
+    view.byteOffset = buffer.size();
+    view.byteLength = values.size() * sizeof(T);
+    view.target = target;
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(values.data());
+    buffer.insert(buffer.end(), bytes, bytes + view.byteLength);
+    tinygltf::Accessor& accessor = model.accessors.emplace_back();
+    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    accessor.componentType = componentType;
+    accessor.count = values.size();
+    accessor.type = type;
+    return static_cast<int>(model.accessors.size()) - 1;
 }
 
-Json limitsOf(const std::vector<glm::vec3>& positions) {
-    glm::vec3 least = positions.front();
-    glm::vec3 most = positions.front();
-    for (const glm::vec3& p : positions) {
-        least = glm::min(least, p);
-        most = glm::max(most, p);
-    }
-    return {{"min", {least.x, least.y, least.z}}, {"max", {most.x, most.y, most.z}}};
+template <typename Vector>
+int appendVectors(tinygltf::Model& model, const std::vector<Vector>& values) {
+    static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC3 == 3 && TINYGLTF_TYPE_VEC4 == 4);
+    return append(model, values, Vector::length(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
-Json addVertices(GlbBuilder& builder, const Vertices& vertices, const std::vector<std::uint32_t>& order) {
-    Json attributes;
-    const std::vector<glm::vec3> positions = chosen(vertices.positions, order);
-    attributes["POSITION"] = builder.add(positions, floatType, "VEC3", vertexData, limitsOf(positions));
-    if (!vertices.normals.empty()) {
-        std::vector<glm::vec3> normals = chosen(vertices.normals, order);
-        for (glm::vec3& normal : normals) normal = unitNormal(normal);
-        attributes["NORMAL"] = builder.add(normals, floatType, "VEC3", vertexData);
-    }
-    const auto addUv = [&](const char* name, const std::vector<glm::vec2>& values) {
-        if (values.empty()) return;
-        std::vector<glm::vec2> uv = chosen(values, order);
+int appendPositions(tinygltf::Model& model, const std::vector<glm::vec3>& positions) {
+    const int number = appendVectors(model, positions);
+    Bounds bounds;
+    for (const glm::vec3& position : positions) bounds.extend(glm::dvec3(position));
+    model.accessors.back().minValues = {bounds.minimum.x, bounds.minimum.y, bounds.minimum.z};
+    model.accessors.back().maxValues = {bounds.maximum.x, bounds.maximum.y, bounds.maximum.z};
+    return number;
+}
+
+std::map<std::string, int> appendVertices(tinygltf::Model& model, Vertices vertices) {
+    std::map<std::string, int> attributes;
+    attributes["POSITION"] = appendPositions(model, vertices.positions);
+    for (glm::vec3& normal : vertices.normals) normal = unitNormal(normal);
+    if (!vertices.normals.empty()) attributes["NORMAL"] = appendVectors(model, vertices.normals);
+    const auto appendUv = [&](const char* name, std::vector<glm::vec2>& uv) {
         for (glm::vec2& place : uv)
             if (!std::isfinite(place.x) || !std::isfinite(place.y)) place = glm::vec2(0);
-        attributes[name] = builder.add(uv, floatType, "VEC2", vertexData);
+        if (!uv.empty()) attributes[name] = appendVectors(model, uv);
     };
-    addUv("TEXCOORD_0", vertices.uv0);
-    if (!vertices.uv0.empty()) addUv("TEXCOORD_1", vertices.uv1);  // sets are numbered without a gap
-    if (!vertices.colors.empty())
-        attributes["COLOR_0"] = builder.add(chosen(vertices.colors, order), floatType, "VEC4", vertexData);
+    appendUv("TEXCOORD_0", vertices.uv0);
+    if (!vertices.uv0.empty()) appendUv("TEXCOORD_1", vertices.uv1);  // sets are numbered without a gap
+    if (!vertices.colors.empty()) attributes["COLOR_0"] = appendVectors(model, vertices.colors);
     return attributes;
+}
+
+// Replaces what isn't UTF-8, at which nlohmann's writer would throw.
+std::string utf8(const std::string& text) {
+    using Json = nlohmann::json;
+    return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
+tinygltf::Model modelOf(const Mesh& mesh) {
+    const Written written = chooseTriangles(mesh);
+    tinygltf::Model model;
+    model.asset.version = "2.0";
+    model.asset.generator = "defocus";
+    model.defaultScene = 0;
+    model.scenes.emplace_back().nodes = {0};
+    model.nodes.emplace_back().mesh = 0;
+    model.nodes.back().name = utf8(mesh.name);
+    model.meshes.emplace_back().name = model.nodes.back().name;
+    model.buffers.emplace_back();
+    const std::map<std::string, int> attributes = appendVertices(model, gathered(mesh.vertices, written.vertices));
+    for (const std::vector<std::uint32_t>& triangles : written.triangles) {
+        tinygltf::Primitive& primitive = model.meshes.back().primitives.emplace_back();
+        primitive.attributes = attributes;
+        primitive.indices = append(model, triangles, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+        primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    }
+    return model;
 }
 
 }  // namespace
 
-std::vector<std::byte> glbOf(const Mesh& mesh) {
-    const Written written = chooseTriangles(mesh);
-    GlbBuilder builder(mesh.name);
-    const Json attributes = addVertices(builder, mesh.vertices, written.vertices);
-    for (const std::vector<std::uint32_t>& triangles : written.triangles)
-        builder.addPrimitive(attributes, builder.add(triangles, unsignedInt, "SCALAR", indexData));
-    return builder.bytes(mesh.name);
-}
-
 void writeGlb(const std::filesystem::path& path, const Mesh& mesh) {
-    writeFile(path, glbOf(mesh));
+    const tinygltf::Model model = modelOf(mesh);
+    PendingFile file(path);
+    std::ofstream stream(file.temporaryPath(), std::ios::binary);
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, stream, false, true);
+    if (stream.tellp() > std::streamoff{std::numeric_limits<std::uint32_t>::max()})
+        fail("mesh \"{}\": {} bytes are more than a .glb file can hold", mesh.name, std::streamoff{stream.tellp()});
+    stream.close();
+    if (!stream) fail("{}: cannot be written: {}", path.string(), std::strerror(errno));
+    file.commit();
 }
 
 }  // namespace defocus

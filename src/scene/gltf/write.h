@@ -6,19 +6,14 @@
 // What the standard forbids is mended: triangles with a corner that isn't finite are left out, as are primitives
 // without triangles and vertices that no triangle uses; normals get unit length (+y where they have none).
 
-#include <cstddef>
 #include <filesystem>
-#include <vector>
 
 #include "scene/mesh.h"
 
 namespace defocus {
 
-// The bytes of the file. Throws Error, with the mesh's name, when no triangle is left to write, an index is beyond the
-// vertices, or the file would be larger than the format holds (4 GiB).
-std::vector<std::byte> glbOf(const Mesh& mesh);
-
-// Writes them, all or nothing. Throws Error naming the path.
+// Writes the file, all or nothing. Throws Error with the path, or with the mesh's name when no triangle is left to
+// write, an index is beyond the vertices, or the file would be larger than the format holds (4 GiB).
 void writeGlb(const std::filesystem::path& path, const Mesh& mesh);
 
 }  // namespace defocus

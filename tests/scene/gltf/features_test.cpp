@@ -626,6 +626,12 @@ TEST(GltfFiles, dataUrisSpacesAndCodedNames) {
     const std::string zeros(32, 'A');  // 24 zero bytes
     EXPECT_EQ(trianglesWith("data:application/octet-stream;base64,AACAPwAAgD8AAAAA" + zeros), expected);
     EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8AAAAA" + zeros + "AAAA"), expected) << "longer is allowed";
+    EXPECT_EQ(trianglesWith("DATA:text/any;BASE64,AACAPwAA\r\n gD8AAAAA\n" + zeros + "\n"), expected) << "line breaks";
+    EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8%0AAAAA" + zeros + "AA==\n"), expected) << "coded breaks";
+    EXPECT_EQ(trianglesWith("data:text/any;base64,AACAPwAAgD8AAAAA" + zeros + "AA"), expected) << "no padding";
+    EXPECT_THROW(trianglesWith("data:text/any;base64,AACAPwAA*D8AAAAA" + zeros), Error);
+    GltfBuilder::save(folder / "a+b c.bin", bytes);
+    EXPECT_EQ(trianglesWith("a+b%20c.bin"), expected) << "a plus is no space";
 }
 
 }  // namespace
