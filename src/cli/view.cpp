@@ -7,7 +7,7 @@
 #include "cli/request_options.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "view/session.h"
+#include "view/window/session.h"
 
 namespace defocus {
 
@@ -22,7 +22,7 @@ void runView(const SessionOptions& options) {
         checkWritable(options.screenshot);
     }
     if (!options.stats.empty()) checkWritable(options.stats);
-    ViewSession(options).run();
+    runSession(options);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "frame/presets.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
-#include "view/camera_controls.h"
+#include "view/state/camera_controls.h"
 #include "view/random_view.h"
 
 namespace defocus {

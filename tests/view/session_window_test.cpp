@@ -263,7 +263,7 @@ TEST_F(View, keysSwitchWhatTheyName) {
     key("t");
     EXPECT_TRUE(reaches([](const json& s) { return s.at("dark") == false; }));
     key("question");
-    EXPECT_TRUE(reaches([](const json& s) { return s.at("help") == true; }));
+    EXPECT_TRUE(reaches([](const json& s) { return s.at("help") == true && s.at("places").contains("pan"); }));
     key("Escape");
     EXPECT_TRUE(reaches([](const json& s) { return s.at("help") == false; }));
     key("b");

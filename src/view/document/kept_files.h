@@ -1,0 +1,45 @@
+#pragma once
+// The JSON files that the window keeps from one run to the next: its settings and saved views in
+// $XDG_CONFIG_HOME/defocus (~/.config), recent scenes in $XDG_STATE_HOME/defocus (~/.local/state).
+
+#include "view/state/view_state.h"
+
+namespace defocus {
+
+// These are empty if the environment names no folder.
+std::filesystem::path viewSettingsPath();
+std::filesystem::path savedViewsPath();
+std::filesystem::path recentFilesPath();
+
+struct ViewSettings {
+    bool dark = true;
+    bool panel = true;
+    double interfaceScale = 1;                 // 0.5 … 3
+    std::optional<double> budgetMilliseconds;  // none: depends on the driver
+    int width = 0;                             // of the window, in its units; 0: not stored
+    int height = 0;
+};
+
+// Reads the settings; missing and invalid values are the defaults. Throws Error for a file that isn't a JSON object.
+ViewSettings readViewSettings(const std::filesystem::path& file);
+// Throws Error if the file can't be written.
+void writeViewSettings(const std::filesystem::path& file, const ViewSettings& settings);
+
+// Returns a scene's key for saved views: its absolute path, or "school" for the built-in scene.
+std::string savedViewsKey(const std::filesystem::path& scene);
+
+// Returns the valid views of a scene. Throws Error for a file that isn't a JSON object.
+std::vector<SavedView> readSavedViews(const std::filesystem::path& file, const std::string& key);
+
+// Replaces the views of one scene. Throws Error if the file can't be read or written.
+void writeSavedViews(const std::filesystem::path& file, const std::string& key, const std::vector<SavedView>& views);
+
+inline constexpr std::size_t maxRecentFiles = 12;
+
+// Returns the recent scenes that exist, latest first; none if the list can't be read.
+std::vector<std::filesystem::path> readRecentFiles(const std::filesystem::path& list);
+
+// Puts a scene first. Throws Error if the list can't be written.
+void rememberRecentFile(const std::filesystem::path& list, const std::filesystem::path& scene);
+
+}  // namespace defocus

@@ -1,0 +1,156 @@
+// Brings the world of a document up to date with the request of its state. Panels, keys and undo only edit the request.
+
+#include <algorithm>
+#include <tuple>
+
+#include "core/error.h"
+#include "frame/moment.h"
+#include "scene/ground.h"
+#include "view/document/document.h"
+
+namespace defocus {
+
+namespace {
+
+// The parts of a request that are applied together.
+constexpr auto cameraPart = [](auto& request) { return std::tie(request.camera); };
+constexpr auto aperturePart = [](auto& request) { return std::tie(request.lens.apertureImage); };
+constexpr auto nodeBlurPart = [](auto& request) { return std::tie(request.nodeBlur); };
+constexpr auto posePart = [](auto& request) {
+    return std::tie(request.time, request.clip, request.shutter, request.hidden);
+};
+constexpr auto groundPart = [](auto& request) { return std::tie(request.ground); };
+constexpr auto surroundingsPart = [](auto& request) {
+    return std::tie(request.environment, request.environmentRotation, request.background, request.backgroundColor);
+};
+constexpr auto lightsPart = [](auto& request) { return std::tie(request.lightAngle, request.lightRadius); };
+
+// Calls `update` if the part differs. Reverts the part if that fails.
+template <typename Part, typename Update>
+void apply(const Part& part, Document& document, ViewState& state, const Update& update) {
+    if (part(state.options) == part(document.shown)) return;
+    try {
+        update();
+        part(document.shown) = part(state.options);
+    } catch (const Error& error) {
+        sayFault(state, error.what());
+        part(state.options) = part(document.shown);
+    }
+}
+
+// Returns the request for placing a camera of the file: without another place, focus or size.
+Request cameraRequest(const ViewState& state, const std::string& name) {
+    Request request = state.options;
+    request.camera = name;
+    request.cameraPosition = request.cameraTarget = request.cameraUp = std::nullopt;
+    request.focusPixel.reset();
+    request.focusPoints.clear();
+    request.focusAuto = false;
+    request.width = state.pictureSize.x;
+    request.height = state.pictureSize.y;
+    return request;
+}
+
+void updateLights(Document& document, const ViewState& state) {
+    PreparedFrame& frame = *document.frame;
+    frame.world.lights = sizedLights(state.options, frame.ownLights, frame.world.pose);
+    ++document.poseVersion;
+}
+
+// Returns the camera that the view follows, at the world's pose; without one, the view's own place.
+PlacedCamera followedCamera(const Document& document, const ViewState& state) {
+    const double aspect = static_cast<double>(state.pictureSize.x) / state.pictureSize.y;
+    const PreparedFrame& frame = *document.frame;
+    PlacedCamera placed;
+    if (state.followsCamera) placed = chooseCamera(*frame.scene, frame.world.pose, state.options.camera, aspect);
+    if (!state.followsCamera || placed.camera.name == "auto") {
+        placed = {};
+        placed.worldFromCamera = state.camera.worldFromCamera;
+    }
+    return placed;
+}
+
+// Poses the scene. The selected object stays selected unless it is hidden.
+void updatePose(Document& document, ViewState& state) {
+    const Scene& scene = *document.frame->scene;
+    World& world = document.frame->world;
+    Pose pose = exposedPose(state.options, scene);
+    if (state.selected >= 0) {
+        const Object& selected = world.pose.objects[static_cast<std::size_t>(state.selected)];
+        const auto found = std::ranges::find_if(pose.objects, [&](const Object& object) {
+            return object.node == selected.node && object.name == selected.name;
+        });
+        state.selected = found == pose.objects.end() ? -1 : static_cast<int>(found - pose.objects.begin());
+    }
+    world.pose = std::move(pose);
+    updateLights(document, state);
+    const PlacedCamera camera = followedCamera(document, state);
+    state.camera.worldFromCamera = camera.worldFromCamera;
+    View view = currentView(document, state);
+    exposeMotion(state.options, camera, state.options.settings, world, view);
+    document.shutterCameras = view.shutterCameras;
+    document.poseIsStale = false;
+}
+
+void updateNodeBlur(Document& document, ViewState& state) {
+    Scene& scene = *document.frame->scene;
+    const std::size_t count = std::min(scene.nodes.size(), document.ownBlurs.size());  // a ground may be gone
+    for (std::size_t i = 0; i < count; ++i) scene.nodes[i].cocScale = document.ownBlurs[i];
+    setNodeBlur(state.options, scene);
+    updatePose(document, state);
+}
+
+void updateGround(Document& document, ViewState& state) {
+    Scene& scene = *document.frame->scene;
+    if (hasGround(scene)) removeGround(scene);
+    setGround(state.options, scene);
+    std::vector<Pyramid>& pyramids = document.frame->world.pyramids;
+    pyramids.resize(std::min(pyramids.size(), scene.meshes.size()));
+    while (pyramids.size() < scene.meshes.size()) pyramids.push_back(fullDetail(scene.meshes[pyramids.size()]));
+    updatePose(document, state);
+    ++document.worldVersion;
+}
+
+void updateSurroundings(Document& document, ViewState& state) {
+    PreparedFrame& frame = *document.frame;
+    frame.world.environment = chosenEnvironment(state.options, *frame.scene, frame.world.pose);
+    state.environmentPath = state.options.environment.string();
+    ++document.worldVersion;
+}
+
+}  // namespace
+
+void updateWorld(Document& document, ViewState& state, bool held) {
+    const auto update = [&](const auto& part, void (*function)(Document&, ViewState&)) {
+        apply(part, document, state, [&] { function(document, state); });
+    };
+    apply(cameraPart, document, state,
+          [&] { placeCamera(*document.frame, cameraRequest(state, state.options.camera)); });
+    apply(aperturePart, document, state, [&] {
+        const std::filesystem::path& path = state.options.lens.apertureImage;
+        state.lens.apertureImage = path.empty() ? document.frame->cameraLens.apertureImage : loadApertureImage(path);
+    });
+    if (!document.draft) update(groundPart, updateGround);
+    update(nodeBlurPart, updateNodeBlur);
+    update(posePart, updatePose);
+    if (document.poseIsStale) updatePose(document, state);
+    if (!held) update(surroundingsPart, updateSurroundings);
+    apply(lightsPart, document, state, [&] { updateLights(document, state); });
+}
+
+void switchCamera(Document& document, ViewState& state, const std::string& name) {
+    const Request request = cameraRequest(state, name);
+    PreparedFrame& frame = *document.frame;
+    placeCamera(frame, request);
+    state.options = request;
+    document.shown.camera = name;
+    state.lens = frame.view.lens;
+    state.pull.reset();
+    state.camera = {frame.view.worldFromCamera, std::clamp(state.lens.focusDistance, 1e-3, 1e6)};
+    state.nearPlane = wanderingNearPlane(frame.view.nearPlane, frame.world.pose.bounds);
+    state.followsCamera = true;
+    document.poseIsStale = !frame.scene->clips.empty();
+    document.shutterCameras.clear();
+}
+
+}  // namespace defocus

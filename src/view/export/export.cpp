@@ -1,0 +1,88 @@
+#include "view/export/export.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/stopwatch.h"
+#include "frame/render_command_text.h"
+#include "view/export/shot.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr double exportSlice = 60;  // ms per frame
+
+// Returns the view at the size of stills.
+View exportView(const Document& document, const ViewState& state) {
+    View view = currentView(document, state);
+    const glm::ivec2 size = state.exportSize.value_or(state.pictureSize);
+    view.width = size.x;
+    view.height = size.y;
+    return view;
+}
+
+void startStill(std::optional<StillExport>& still, const Document& document, ViewState& state, bool software) {
+    if (document.draft) {
+        sayFault(state, "A still needs the simplified meshes, which are still being built: try again in a moment.");
+        return;
+    }
+    state.playing = false;
+    still.emplace(*document.frame, StillRequest{state.options, exportView(document, state), state.exportPath,
+                                                writeOptions(state), software, document.shaderFolder});
+}
+
+// Writes the shot. Returns the command that renders it.
+std::string writeShot(const Document& document, ViewState& state) {
+    const PreparedFrame& frame = *document.frame;
+    writeFile(state.shotPath, shotJson({state.options, frame.cameraLens, state.shotKeys, state.animationSpeed,
+                                        writeOptions(state), frame.scene->metresPerUnit}));
+    std::string command = captureCommand(state.shotPath, state.options);
+    say(state, fmt::format("Written: {}; render it with (copied): {}", state.shotPath, command));
+    return command;
+}
+
+}  // namespace
+
+std::string pictureCommand(const Document& document, const ViewState& state) {
+    const View view = exportView(document, state);
+    return renderCommand(
+        {state.options, *document.frame, view, state.camera.pivotDistance, writeOptions(state), state.exportPath});
+}
+
+std::optional<std::string> actOnExport(std::optional<StillExport>& still, const Document& document, ViewState& state,
+                                       const ViewActions& actions, bool software) {
+    if (!document.frame) return std::nullopt;
+    if (actions.recordKey) {
+        state.shotKeys.push_back({exportView(document, state), state.camera.pivotDistance, state.options.time});
+        say(state, fmt::format("Key {} is recorded; save the shot under Export.", state.shotKeys.size()));
+    }
+    if (actions.cancelExport && still) {
+        still.reset();
+        say(state, "The export is cancelled; no file is written.");
+    }
+    if (actions.askExport && still) say(state, "A still is being rendered; Esc cancels it.");
+    if (actions.askExport && !still && !state.exportDialog) state.exportDialog.emplace();
+    if (actions.exportStill && !still) startStill(still, document, state, software);
+    if (actions.saveShot && !state.shotKeys.empty()) return writeShot(document, state);
+    if (!actions.copyCommand) return std::nullopt;
+    say(state, "The command is copied.");
+    return pictureCommand(document, state);
+}
+
+void stepExport(std::optional<StillExport>& still, ViewState& state) {
+    if (!still) return;
+    try {
+        const Clock::time_point begin = Clock::now();
+        bool more = true;
+        while (more && millisecondsSince(begin) < exportSlice) more = still->step();
+        if (more) return;
+        say(state, "Written: " + still->request().output.string());
+    } catch (const Error& error) {
+        sayFault(state, error.what());
+    }
+    still.reset();
+}
+
+}  // namespace defocus

@@ -1,0 +1,27 @@
+#pragma once
+// Writes key frames as a shot file that `defocus capture` renders (docs/shot.schema.json).
+
+#include <string>
+#include <vector>
+
+#include "view/state/view_state.h"
+
+namespace defocus {
+
+inline constexpr int framesBetweenKeys = 48;  // 2 s
+
+struct ShotRecording {
+    const Request& options;  // scene, clip, samples, levels, method
+    const Lens& cameraLens;  // of the camera that options.camera names; the shot's default
+    const std::vector<ShotKey>& keys;
+    double animationSpeed = 1;
+    WriteOptions write;
+    double metresPerUnit = 1;  // of the scene
+};
+
+// Returns the shot as JSON. Camera, focus and lens values that differ between the keys are keyframed; other values are
+// fixed. The animation starts at the time of the first key. The image has the size of the last key. Needs at least one
+// key.
+std::string shotJson(const ShotRecording& recording);
+
+}  // namespace defocus

@@ -1,0 +1,42 @@
+#include "view/export/still_export.h"
+
+#include <limits>
+
+#include "core/file.h"
+#include "core/stopwatch.h"
+#include "frame/render_report.h"
+
+namespace defocus {
+
+StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request)
+    : frame_(&frame), request_(request), begin_(Clock::now()) {
+    const Request& options = request.options;
+    checkImageExtension(request.output);
+    checkWritable(request.output);
+    checkStop(options);
+    // Small waves keep the window awake.
+    const std::uint32_t wave = options.wave > 0 ? options.wave : (request.software ? 2 : 8);
+    driver_.emplace(
+        frame.world,
+        DriverOptions{chosenMethod(options), {options.memory, wave, options.layerFormat}, request.shaderFolder});
+    driver_->start({request.view, options.settings, options.stop});
+}
+
+bool StillExport::step() {
+    if (driver_->advance()) return true;
+    finish();
+    return false;
+}
+
+double StillExport::secondsLeft() const {
+    const double done = share();
+    return done > 0 ? 1e-3 * millisecondsSince(begin_) * (1 - done) / done : std::numeric_limits<double>::infinity();
+}
+
+void StillExport::finish() {
+    const RenderReport report{request_.options,  driver_->method().text(), *frame_, driver_->plan(), driver_->stats(),
+                              request_.software, millisecondsSince(begin_)};
+    writeImage(request_.output, driver_->image(), renderMetadata(report), request_.write);
+}
+
+}  // namespace defocus

@@ -1,0 +1,44 @@
+#pragma once
+// Renders a still step by step, so that the window stays responsive, and writes it as `defocus render` does.
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "frame/frame_driver.h"
+#include "frame/prepared_frame.h"
+#include "image/image_io.h"
+
+namespace defocus {
+
+struct StillRequest {
+    Request options;  // samples, seed, levels, method
+    View view;
+    std::filesystem::path output;  // .exr, .png or .jpg
+    WriteOptions write;
+    bool software = false;  // the CPU draws
+    std::filesystem::path shaderFolder;
+};
+
+class StillExport {
+public:
+    // Throws Error if the file can't be written or the view can't be rendered. `frame` must outlive it and keep its
+    // pose.
+    StillExport(const PreparedFrame& frame, const StillRequest& request);
+
+    // Draws one wave of samples, and writes the file after the last one. Returns false once the file is written.
+    bool step();
+    [[nodiscard]] double share() const { return driver_->share(); }  // progress, 0 … 1
+    [[nodiscard]] double secondsLeft() const;                        // estimate; infinity before the first wave
+    [[nodiscard]] const StillRequest& request() const { return request_; }
+
+private:
+    void finish();
+
+    const PreparedFrame* frame_;
+    StillRequest request_;
+    std::optional<FrameDriver> driver_;
+    std::chrono::steady_clock::time_point begin_;
+};
+
+}  // namespace defocus

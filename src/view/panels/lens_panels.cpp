@@ -1,0 +1,112 @@
+// Sections for the lens: focus, lens, aperture, and the exposure of the image.
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "view/panels/panels.h"
+#include "view/widgets/rows.h"
+#include "view/widgets/widgets.h"
+
+namespace defocus {
+
+namespace {
+
+enum class LensSection { focus, lens, aperture };
+
+LensSection sectionOf(std::string_view name) {
+    static constexpr std::string_view focus[] = {"focusDistance",       "focusRangeFront", "focusRangeBehind",
+                                                 "focusRangeRefocuses", "focusTilt",       "focusSwing",
+                                                 "fieldCurvature"};
+    static constexpr std::string_view aperture[] = {
+        "bladeCount",          "bladeRotation", "bladeCurvature",           "anamorphicRatio", "obstruction",
+        "sphericalAberration", "catEye",        "axialChromaticAberration", "astigmatism",     "coma"};
+    if (std::ranges::find(focus, name) != std::end(focus)) return LensSection::focus;
+    return std::ranges::find(aperture, name) != std::end(aperture) ? LensSection::aperture : LensSection::lens;
+}
+
+void fieldRows(ViewState& state, LensSection section) {
+    for (const LensField& field : lensFields()) {
+        if (sectionOf(field.name) != section) continue;
+        const bool changed = lensFieldRow(state.lens, field);
+        if (changed && field.name == std::string_view("focusDistance")) state.pull.reset();
+    }
+}
+
+void focusPointsRow(ViewState& state) {
+    rowLabel("Focus points",
+             "Ctrl click on three points of the picture to lay the focus plane through them (--focus-points)");
+    if (state.focusPoints.empty())
+        ImGui::TextDisabled("Ctrl click on three");
+    else
+        ImGui::Text("%d of 3", static_cast<int>(state.focusPoints.size()));
+    const bool tilted = state.lens.focusTilt != 0 || state.lens.focusSwing != 0;
+    if (state.focusPoints.empty() && !tilted) return;
+    ImGui::SameLine();
+    if (!ImGui::SmallButton("Reset")) return;
+    state.focusPoints.clear();
+    state.lens.focusTilt = state.lens.focusSwing = 0;
+}
+
+// Scales the blur of the selected object's node, if its name is unique.
+void nodeBlurRow(const Ui& ui) {
+    if (ui.state.selected < 0) return;
+    const std::vector<Node>& nodes = ui.scene().nodes;
+    const int index = ui.pose().objects[static_cast<std::size_t>(ui.state.selected)].node;
+    const Node& node = nodes[static_cast<std::size_t>(index)];
+    const auto first = std::ranges::find(nodes, node.name, &Node::name);
+    if (node.name.empty() || first - nodes.begin() != index) return;
+    ImGui::BeginDisabled(ui.still.has_value());
+    rowLabel("Selection's blur", fmt::format("Scale of the blur of {}; 0 keeps it sharp (--node-blur)", node.name));
+    double scale = node.cocScale;
+    if (slider("##nodeBlur", scale, 0, 4, "%.2f ×")) ui.state.options.nodeBlur[node.name] = scale;
+    ImGui::EndDisabled();
+}
+
+}  // namespace
+
+void focusPanel(const Ui& ui) {
+    if (ui.picture.image) depthDiagram(ui.picture.image->plan(), ui.scale);
+    fieldRows(ui.state, LensSection::focus);
+    focusPointsRow(ui.state);
+    nodeBlurRow(ui);
+    ImGui::Checkbox("Peaking", &ui.state.display.focusPeaking);
+    tooltip("Marks sharp edges in focus (P)");
+    ImGui::SameLine();
+    ImGui::Checkbox("Focus plane", &ui.state.display.focusPlane);
+    tooltip("Tints surfaces in focus (O)");
+}
+
+void lensPanel(const Ui& ui) {
+    stopRing(ui.state.lens.fStop, ui.scale);
+    fieldRows(ui.state, LensSection::lens);
+}
+
+void aperturePanel(const Ui& ui) {
+    aperturePreview(ui.state.lens, ui.scale);
+    ImGui::BeginDisabled(ui.still.has_value());
+    rowLabel("Image", "Replaces blades and rings: bright pixels let light pass (--aperture-image)");
+    if (pathRow("aperture", "none", "Load", ui.state.aperturePath))
+        ui.state.options.lens.apertureImage = ui.state.aperturePath;
+    ImGui::EndDisabled();
+    fieldRows(ui.state, LensSection::aperture);
+}
+
+void imagePanel(const Ui& ui) {
+    ViewState& state = ui.state;
+    const bool setByLens = state.lens.exposureTime > 0;
+    rowLabel("Exposure");
+    double exposure = shownExposure(state);
+    ImGui::BeginDisabled(setByLens || state.meters);
+    if (slider("##exposure", exposure, -8, 8, "%+.2f EV")) state.exposure = exposure;
+    ImGui::EndDisabled();
+    ImGui::BeginDisabled(setByLens);
+    rowLabel("Auto-exposure", "Meters the scene whenever the view comes to rest (--exposure auto)");
+    ImGui::Checkbox("##meters", &state.meters);
+    notePlace("auto-exposure");
+    ImGui::EndDisabled();
+    settingRow(state.options, "toneMap");
+}
+
+}  // namespace defocus

@@ -1,0 +1,74 @@
+#pragma once
+// Asks for a scene to open: by the desktop's dialog, or by the window's own browser where there is none.
+
+#include <sys/types.h>
+
+#include "view/state/view_state.h"
+
+namespace defocus {
+
+// The file dialog of the desktop: zenity or kdialog, as a process beside the window.
+class DesktopDialog {
+public:
+    DesktopDialog() = default;
+    ~DesktopDialog();
+    DesktopDialog(const DesktopDialog&) = delete;
+    DesktopDialog& operator=(const DesktopDialog&) = delete;
+
+    // Opens a dialog that begins in `folder`. Returns false if neither program can be started.
+    bool open(const std::filesystem::path& folder);
+    [[nodiscard]] bool running() const { return process_ > 0; }
+    struct Outcome {
+        std::filesystem::path chosen;  // empty: cancelled
+        bool failed = false;           // the program showed no dialog
+    };
+    // Returns the outcome once the dialog is closed; none before.
+    std::optional<Outcome> take();
+
+private:
+    pid_t process_ = -1;
+    int output_ = -1;
+    std::string text_;
+};
+
+// The window's own dialog for opening scenes.
+class FileBrowser {
+public:
+    void open(const std::filesystem::path& folder);
+    [[nodiscard]] bool opened() const { return opened_; }
+    // Draws the dialog while it is open. Returns the scene once one is chosen.
+    std::optional<std::filesystem::path> draw(float scale);
+
+private:
+    struct Entry {
+        std::filesystem::path path;
+        std::string name;
+        bool folder = false;
+    };
+    void enter(const std::filesystem::path& folder);
+    [[nodiscard]] bool shows(const Entry& entry) const;
+    std::optional<std::filesystem::path> enterOrChoose(Entry entry);
+    std::optional<std::filesystem::path> typed();
+    std::optional<std::filesystem::path> pathRows();
+    std::optional<std::filesystem::path> entryRows();
+
+    bool opened_ = false;
+    bool justOpened_ = false;
+    std::filesystem::path folder_;
+    std::vector<Entry> entries_;
+    std::string fault_;  // why the latest input had no effect
+    std::string text_;   // a path, or a part of the shown names
+};
+
+struct OpenDialog {
+    DesktopDialog desktop;
+    FileBrowser browser;
+};
+
+// Opens a dialog, in the folder of the current scene.
+void openSceneDialog(OpenDialog& dialog, const ViewState& state);
+
+// Draws the browser. Returns the scene once one is chosen.
+std::optional<std::filesystem::path> drawOpenDialog(OpenDialog& dialog, const ViewState& state, float scale);
+
+}  // namespace defocus

@@ -1,0 +1,99 @@
+// Sections for what is rendered: surroundings, level of detail, method.
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "lod/pyramid/level_selection.h"
+#include "scene/built_in_environment.h"
+#include "view/panels/panels.h"
+#include "view/widgets/rows.h"
+#include "view/widgets/widgets.h"
+
+namespace defocus {
+
+namespace {
+
+// Chooses the scene's own environment, a built-in one, or a file.
+void environmentRows(ViewState& state) {
+    std::filesystem::path& environment = state.options.environment;
+    std::vector<std::string> names = {"the scene's own"};
+    for (const std::string_view name : builtInEnvironments()) names.emplace_back(name);
+    names.emplace_back("a file");
+    const bool isFile = !environment.empty() && !isBuiltInEnvironment(environment.string());
+    std::string chosen = state.environmentIsFile || isFile ? names.back()
+                         : environment.empty()             ? names.front()
+                                                           : environment.string();
+    rowLabel("Environment", "Lights the scene and shows behind it (--environment)");
+    if (combo("##environment", names, chosen)) {
+        state.environmentIsFile = chosen == names.back();
+        if (!state.environmentIsFile) environment = chosen == names.front() ? "" : chosen;
+    }
+    if (state.environmentIsFile || isFile) {
+        rowLabel("File", "An equirectangular .hdr or .exr");
+        if (pathRow("environment", "sky.hdr", "Load", state.environmentPath)) environment = state.environmentPath;
+    }
+    if (!environment.empty()) settingRow(state.options, "environmentRotation");
+}
+
+}  // namespace
+
+void surroundingsPanel(const Ui& ui) {
+    Request& options = ui.state.options;
+    ImGui::BeginDisabled(ui.still.has_value());
+    rowLabel("Background", "What shows behind the scene (--background)");
+    enumCombo("##background", options.background, "environment\0none: transparent\0one colour\0");
+    if (options.background == Background::uniform) {
+        rowLabel("Colour", "Linear; lights the scene too (--background R,G,B)");
+        ImGui::ColorEdit3("##colour", options.backgroundColor.data(),
+                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoLabel);
+    } else {
+        environmentRows(ui.state);
+    }
+    settingRow(options, "ground");
+    settingRow(options, "shadows");
+    const Shadows shadows = options.settings.shadows;
+    if (shadows == Shadows::on || (shadows == Shadows::automatic && options.ground)) {
+        settingRow(options, "lightAngle", "5");
+        settingRow(options, "lightRadius", "0.1");
+    }
+    ImGui::EndDisabled();
+}
+
+void levelPanel(const Ui& ui) {
+    Request& request = ui.state.options;
+    settingRow(request, "lod");
+    settingRow(request, "lodMetric");
+    const LodMetric metric = chosenMetric(request.settings.metric, request.settings.thresholds);
+    const LodThresholds defaults = defaultThresholds(metric, request.settings.sampleCount);
+    if (metric == LodMetric::measured) {
+        settingRow(request, "lightThreshold", fmt::format("{:.3g}", defaults.light));
+    } else {
+        settingRow(request, "blurThreshold", fmt::format("{}", defaults.blur));
+        if (metric != LodMetric::score) settingRow(request, "sizeThreshold", fmt::format("{}", defaults.size));
+    }
+    settingRow(request, "lodCoc");
+}
+
+void methodPanel(const Ui& ui) {
+    Request& options = ui.state.options;
+    const MethodUse use = chosenMethod(options);
+    rowLabel("Method", "Rendering method (--method)");
+    std::string method = use.method->name;
+    if (methodCombo(method)) {
+        options.method = method;
+        options.methodSettings.clear();
+        return;
+    }
+    MethodUse edited = use;
+    for (const MethodSetting& setting : use.method->settings)
+        methodSettingRow(setting, edited.settings.at(setting.name));
+    if (edited.text() != use.text()) options.methodSettings = edited.settings;
+    settingRow(options, "sequence");
+    settingRow(options, "seed");
+    settingRow(options, "cocTolerance");
+}
+
+}  // namespace defocus

@@ -1,0 +1,157 @@
+#include "view/picture/live_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+#include "frame/exposure.h"
+#include "frame/picture_warnings.h"
+#include "frame/plan_warnings.h"
+#include "frame/reference_image.h"
+#include "plan/camera_path.h"
+
+namespace defocus {
+
+namespace {
+
+constexpr std::uint32_t minClippingSamples = 16;  // for an image that shows what is clipped
+
+std::optional<PictureSide> comparedSide(const ViewState& state, const PictureSide& first) {
+    switch (state.comparison) {
+        case Comparison::none:
+            break;
+        case Comparison::fullDetail:
+            return PictureSide{first.method, LodMode::off, 0};
+        case Comparison::nearest:
+            return PictureSide{first.method, LodMode::nearest, 0};
+        case Comparison::reference:
+            return PictureSide{"accumulation", LodMode::off, referenceOffset};
+        case Comparison::method:
+            return PictureSide{state.comparedMethod, first.lod, 0};
+    }
+    return std::nullopt;
+}
+
+// Returns the focus distance of the popping test: from the nearest to the farthest object and back, evenly in
+// 1/distance.
+double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
+    double nearest = 1e6;
+    double farthest = 1e-3;
+    for (const ObjectPlan& object : plan.objects) {
+        nearest = std::min(nearest, std::max(object.nearestDepth, 2 * nearPlane));
+        farthest = std::max(farthest, object.farthestDepth);
+    }
+    const double share = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * seconds / poppingDuration);
+    return focusBetween(nearest, std::max(nearest, farthest), share);
+}
+
+// Returns the picture that the state asks for. `plan`: of the previous frame, for the depths of the popping test.
+PictureRequest pictureRequest(const Document& document, const ViewState& state, const FramePlan& plan, bool software) {
+    PictureRequest result;
+    result.view = currentView(document, state);
+    result.settings = state.options.settings;
+    result.poseVersion = document.poseVersion;
+    result.display = state.display;
+    result.display.exposure = shownExposure(state);
+    result.display.toneMap = state.options.toneMap;
+    result.maxSamples = state.maxSamples;
+    result.targetError = state.options.stop.targetError;
+    if (state.poppingSince) {
+        result.view.lens.focusDistance = poppingFocus(plan, result.view.nearPlane, state.now - *state.poppingSince);
+        result.sides = {{"accumulation", LodMode::fractional, 0}, {"accumulation", LodMode::nearest, 0}};
+        result.fixedQuality = FrameQuality{software ? 0.5 : 1.0, 16, 1};
+        return result;
+    }
+    const PictureSide first{chosenMethod(state.options).text(), state.options.settings.lod, 0};
+    result.sides = {first};
+    if (const std::optional<PictureSide> second = comparedSide(state, first)) result.sides.push_back(*second);
+    return result;
+}
+
+void makeImage(LivePicture& picture, const Document& document, const ViewState& state, bool software) {
+    RendererOptions options;
+    options.layerFormat = state.options.layerFormat;
+    options.shaderFolder = document.shaderFolder;
+    options.wave = state.options.wave > 0 ? state.options.wave : (software ? 1 : 8);
+    picture.image.reset();  // frees its memory first
+    picture.image.emplace(document.frame->world, options, software);
+    picture.worldVersion = document.worldVersion;
+}
+
+// Switches off what the state asks for beyond the plainest picture. Returns false if it asks for nothing more.
+bool simplifyRequest(ViewState& state) {
+    if (state.comparison != Comparison::none || state.poppingSince) {
+        state.comparison = Comparison::none;
+        state.poppingSince.reset();
+        return true;
+    }
+    if (state.options.method == "accumulation") return false;
+    state.options.method = "accumulation";
+    state.options.methodSettings.clear();
+    return true;
+}
+
+// Meters the exposure once the view is still again.
+void meter(LivePicture& picture, Document& document, ViewState& state, bool exporting) {
+    const bool moving = picture.image->moving();
+    const bool meters = state.meters && !(state.lens.exposureTime > 0);
+    picture.meterDue = picture.meterDue || moving || !meters;
+    if (moving || !meters || !picture.meterDue || exporting) return;
+    picture.meterDue = false;
+    PreparedFrame& frame = *document.frame;
+    state.exposure = meteredExposure(frame.world, currentView(document, state), frame.settings, document.shaderFolder);
+}
+
+// Collects the warnings about a picture at rest. Clipping needs a read-back: it is looked for once per exposure.
+void updateWarnings(LivePicture& picture, const ViewState& state) {
+    picture.warnings.clear();
+    if (picture.image->moving()) {
+        picture.clippingKnownFor.reset();
+        return;
+    }
+    const WriteOptions write = writeOptions(state);
+    const std::pair key(write.exposure, write.toneMap);
+    if (picture.image->samples() >= minClippingSamples && picture.clippingKnownFor != key) {
+        picture.clipping = clippingWarnings(picture.image->image(), write);
+        picture.clippingKnownFor = key;
+    }
+    picture.warnings = planWarnings(picture.image->plan(), chosenMethod(state.options), state.maxSamples);
+    if (picture.clippingKnownFor)
+        picture.warnings.insert(picture.warnings.end(), picture.clipping.begin(), picture.clipping.end());
+}
+
+}  // namespace
+
+std::string sideLabel(const PictureSide& side) {
+    if (side.firstSample == referenceOffset) return "reference";
+    if (side.method != "accumulation") return side.method;
+    return side.lod == LodMode::off ? "full detail" : std::string(lodModeName(side.lod)) + " levels";
+}
+
+void growPicture(LivePicture& picture, const Document& document, const ViewState& state) {
+    if (picture.image && picture.worldVersion == document.worldVersion) picture.image->grow(state.budget);
+}
+
+void updatePicture(LivePicture& picture, Document& document, ViewState& state, bool software, double restOfFrame,
+                   bool exporting) {
+    if (!document.frame) return;
+    if (!picture.image || picture.worldVersion != document.worldVersion) makeImage(picture, document, state, software);
+    const auto update = [&] {
+        PictureRequest request = pictureRequest(document, state, picture.image->plan(), software);
+        request.restOfFrame = restOfFrame;
+        picture.image->update(request, state.budget);
+    };
+    try {
+        update();
+    } catch (const Error& error) {
+        sayFault(state, error.what());
+        if (!simplifyRequest(state)) throw;
+        makeImage(picture, document, state, software);
+        update();
+    }
+    meter(picture, document, state, exporting);
+    updateWarnings(picture, state);
+}
+
+}  // namespace defocus

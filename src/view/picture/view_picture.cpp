@@ -1,0 +1,288 @@
+#include "view/picture/view_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <utility>
+
+#include "lens/lens_fields.h"
+
+namespace defocus {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto settleTime = 120ms;            // without change, before the image starts to grow
+constexpr std::uint32_t minShownSamples = 4;  // of a growing image: fewer look worse than the last moving frame
+constexpr double visibleGrowth = 1.08;        // growth of the sample count that is worth showing
+constexpr double softwareGrowthTime = 60;     // ms per frame, the minimum on a CPU
+constexpr auto psnrInterval = 700ms;
+
+// Returns everything that the images depend on as numbers, except for sides and aperture image. Exposure time and ISO
+// only change the display.
+std::vector<double> imageKey(const PictureRequest& request) {
+    const View& view = request.view;
+    const RenderSettings& settings = request.settings;
+    std::vector<double> key = {static_cast<double>(view.width),
+                               static_cast<double>(view.height),
+                               view.nearPlane,
+                               static_cast<double>(request.poseVersion),
+                               static_cast<double>(settings.seed),
+                               static_cast<double>(settings.sequence),
+                               settings.cocTolerance,
+                               static_cast<double>(settings.metric),
+                               static_cast<double>(settings.lodCocAtCentre),
+                               static_cast<double>(settings.levelVertices),
+                               static_cast<double>(settings.keepAll),
+                               static_cast<double>(settings.shadows),
+                               static_cast<double>(request.fixedQuality.has_value()),
+                               request.targetError.value_or(0)};
+    for (const std::optional<double>& threshold :
+         {settings.thresholds.blur, settings.thresholds.size, settings.thresholds.light})
+        key.push_back(threshold.value_or(-1));
+    const double* const matrix = glm::value_ptr(view.worldFromCamera);
+    key.insert(key.end(), matrix, matrix + 16);
+    Lens lens = view.lens;
+    lens.exposureTime = lens.iso = 1;
+    for (const LensField& field : lensFields()) key.push_back(lensFieldValue(lens, field));
+    return key;
+}
+
+std::vector<double> displayKey(const DisplaySettings& display) {
+    return {static_cast<double>(display.toneMap),
+            display.exposure,
+            static_cast<double>(display.overlay),
+            static_cast<double>(display.focusPeaking),
+            static_cast<double>(display.focusPlane),
+            static_cast<double>(display.wireframe),
+            display.divider,
+            static_cast<double>(display.difference),
+            display.differenceGain};
+}
+
+// Returns the view at another resolution. Limits of the blur are scaled too, since their unit is px of the image.
+View resized(const View& view, double resolution) {
+    View result = view;
+    result.width = std::max(1, static_cast<int>(std::lround(view.width * resolution)));
+    result.height = std::max(1, static_cast<int>(std::lround(view.height * resolution)));
+    const double scale = static_cast<double>(result.width) / view.width;
+    result.lens.foregroundLimit *= scale;
+    result.lens.backgroundLimit *= scale;
+    return result;
+}
+
+RenderSettings settingsOf(const RenderSettings& settings, const PictureSide& side) {
+    RenderSettings result = settings;
+    result.lod = side.lod;
+    result.firstSample = side.firstSample;
+    return result;
+}
+
+// Appends the passes of one image. Returns its set-up time in ms.
+double addPasses(std::vector<PassTime>& passes, const RenderStats& stats, const std::string& side) {
+    for (const PassTime& pass : stats.passes) passes.push_back({pass.name + side, pass.milliseconds});
+    if (stats.passes.empty()) passes.push_back({"waves" + side, stats.gpuMilliseconds});
+    return stats.setupMilliseconds;
+}
+
+}  // namespace
+
+ViewPicture::ViewPicture(const World& world, RendererOptions options, bool software)
+    : world_(&world), options_(std::move(options)), software_(software), display_(options_.shaderFolder) {}
+
+const FramePlan& ViewPicture::plan() const {
+    static const FramePlan empty;
+    return sides_.empty() ? empty : first().plan();
+}
+
+void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
+    const std::vector<double> key = imageKey(request);
+    const std::shared_ptr<const Image>& aperture = request.view.lens.apertureImage;
+    const bool changed = prepareSides(request) || key != lastKey_ || aperture != lastAperture_;
+    lastKey_ = key;
+    lastAperture_ = aperture;
+    const std::vector<double> shown = displayKey(request.display);
+    bool presents = shown != lastDisplayKey_;
+    lastDisplayKey_ = shown;
+
+    showsWork_ = request.display.overlay == DisplayOverlay::work;
+    if (changed) {
+        ++changes_;
+        drawMoving(request, budget);
+        growing_ = false;
+        grows_ = true;
+        settlesAt_ = Clock::now() + settleTime;
+        presents = true;
+    } else if (!growing_ && !request.fixedQuality && Clock::now() >= settlesAt_) {
+        beginGrowing(request);
+    } else if (grown_) {
+        presents = presents || minSamples() >= static_cast<std::uint32_t>(visibleGrowth * presentedSamples_) || !grows_;
+    }
+    grown_ = false;
+    if (showsWork_ && !changed && workIncomplete()) {
+        growWork(growthTime(budget));
+        presents = true;
+    }
+    const bool tooFew = growing_ && grows_ && minSamples() < minShownSamples;
+    if (!presents || tooFew) return;
+    presentedSamples_ = minSamples();
+    present(request);
+}
+
+double ViewPicture::growthTime(const FrameBudget& budget) const {
+    const bool shares = showsWork_ && growing_ && grows_ && workIncomplete();  // the image and its work
+    return std::max(budget.milliseconds, software_ ? softwareGrowthTime : 0.0) * (shares ? 0.5 : 1);
+}
+
+std::uint32_t ViewPicture::minSamples() const {
+    return std::min(first().samples(), sides_.back()->image.samples());
+}
+
+// Makes renderers for new methods. Returns whether the sides have changed.
+bool ViewPicture::prepareSides(const PictureRequest& request) {
+    const auto same = [](const std::unique_ptr<Side>& side, const PictureSide& wanted) {
+        return side->shows == wanted;
+    };
+    if (std::ranges::equal(sides_, request.sides, same)) return false;
+    sides_.resize(request.sides.size());
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        const PictureSide& wanted = request.sides[i];
+        if (sides_[i] && sides_[i]->shows.method == wanted.method) {
+            sides_[i]->shows = wanted;
+            continue;
+        }
+        sides_[i].reset();  // frees its memory first
+        sides_[i] = std::make_unique<Side>(Side{wanted, {*world_, parseMethodUse(wanted.method), options_}});
+        fresh_ = true;
+    }
+    psnr_.reset();
+    return true;
+}
+
+void ViewPicture::drawMoving(const PictureRequest& request, FrameBudget& budget) {
+    const FrameQuality quality = request.fixedQuality.value_or(budget.quality());
+    const Clock::time_point begin = Clock::now();
+    View view = resized(request.view, quality.resolution);
+    RenderSettings settings = request.settings;
+    settings.sampleCount = quality.samples;
+    fixThresholds(settings, quality.samples, quality.thresholdBias);
+    FramePlan plan = planFrame(*world_, view, settingsOf(settings, request.sides[0]));
+    const double blur = plan.largestBlur / quality.resolution;  // px of the window
+    // Without visible blur, one sample at full resolution looks better than many samples at half of it.
+    const bool sharp = !request.fixedQuality && (!view.lens.dofEnabled || blur < leastBlur);
+    if (sharp) view = request.view;
+    if (sharp || quality.samples == 1) {
+        settings.sampleCount = 1;
+        view.lens.dofEnabled = false;
+        plan = planFrame(*world_, view, settingsOf(settings, request.sides[0]));
+    }
+    sides_[0]->image.drawFrame(std::move(plan));
+    if (sides_.size() > 1) sides_[1]->image.drawFrame(view, settingsOf(settings, request.sides[1]));
+    aovsCurrent_ = workCurrent_ = workGrows_ = false;
+    if (showsWork_) growWork(std::numeric_limits<double>::infinity());
+    const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    // At least half of the budget is the picture's: a slow interface must not lower its quality further.
+    const double rest = std::min(request.restOfFrame, 0.5 * budget.milliseconds);
+    if (!fresh_ && !request.fixedQuality && !sharp) budget = adapted(budget, milliseconds + rest);
+    fresh_ = false;
+    psnr_.reset();
+    passTotals_.clear();
+    notePasses();
+}
+
+void ViewPicture::beginGrowing(const PictureRequest& request) {
+    growing_ = true;
+    grows_ = true;
+    ++begun_;
+    passTotals_.clear();
+    presentedSamples_ = minShownSamples - 1;
+    for (const std::unique_ptr<Side>& side : sides_)
+        side->image.begin(request.view, settingsOf(request.settings, side->shows), request.maxSamples,
+                          request.targetError);
+    nextPsnr_ = Clock::now() + psnrInterval;
+    aovsCurrent_ = workCurrent_ = workGrows_ = false;
+}
+
+void ViewPicture::grow(const FrameBudget& budget) {
+    if (!growing_ || !grows_) return;
+    grown_ = true;
+    // The side with fewer samples goes first, so that both stay comparable.
+    ProgressiveImage& left = sides_.front()->image;
+    ProgressiveImage& right = sides_.back()->image;
+    const bool rightIsBehind = !right.finished() && (left.finished() || right.samples() < left.samples());
+    (rightIsBehind ? right : left).grow(growthTime(budget));
+    grows_ = !left.finished() || !right.finished();
+    notePasses();
+}
+
+// A renderer's times are sums since its frame began; a growing image spreads them over many frames of the window.
+void ViewPicture::notePasses() {
+    std::vector<PassTime> totals;
+    double setup = 0;
+    for (const std::unique_ptr<Side>& side : sides_)
+        setup += addPasses(totals, side->image.stats(), side == sides_.front() ? "" : ", right");
+    passes_ = totals;
+    if (passTotals_.size() == totals.size())
+        for (std::size_t i = 0; i < totals.size(); ++i) passes_[i].milliseconds -= passTotals_[i].milliseconds;
+    passTotals_ = std::move(totals);
+    const bool setUp = std::exchange(setupTotal_, setup) != setup;
+    passes_.push_back({"set-up", setUp ? setup : 0});
+    // Times of overlays and display are those of the previous frame, so that the CPU does not wait for the GPU.
+    if (const double overlays = overlayTimer_.milliseconds(); overlays > 0) passes_.push_back({"overlays", overlays});
+    overlayTimer_.reset();
+    passes_.push_back({"display", displayTimer_.milliseconds()});
+}
+
+void ViewPicture::drawAovs(bool wireframe) {
+    if (aovsCurrent_ && (wireframeCurrent_ || !wireframe)) return;
+    overlayTimer_.begin();
+    if (!aovs_) aovs_.emplace(*world_, options_.shaderFolder);
+    if (!aovsCurrent_) aovs_->draw(plan(), parseMethodUse(firstSide().method).sharesImages());
+    if (wireframe) aovs_->drawWireframe();
+    overlayTimer_.end();
+    aovsCurrent_ = true;
+    wireframeCurrent_ = wireframe;
+}
+
+void ViewPicture::growWork(double milliseconds) {
+    if (!work_) work_.emplace(*world_, options_.shaderFolder);
+    if (!workCurrent_) work_->begin(plan());
+    workCurrent_ = true;
+    overlayTimer_.begin();
+    workGrows_ = work_->grow(milliseconds);
+    overlayTimer_.end();
+}
+
+void ViewPicture::present(const PictureRequest& request) {
+    const DisplaySettings& display = request.display;
+    if (display.needsAovs()) drawAovs(display.wireframe);
+    DisplayInputs inputs;
+    inputs.first = sides_[0]->image.texture();
+    if (sides_.size() > 1) inputs.second = sides_[1]->image.texture();
+    if (aovsCurrent_) {
+        inputs.coc = &aovs_->coc();
+        inputs.level = &aovs_->level();
+        inputs.rate = &aovs_->rate();
+        if (wireframeCurrent_) inputs.wireframe = &aovs_->wireframe();
+    }
+    if (workCurrent_) {
+        inputs.work = &work_->work();
+        inputs.workSamples = std::max(1u, work_->samples());
+    }
+    if (inputs.second != nullptr && growing_ && Clock::now() >= nextPsnr_) {
+        psnr_ = display_.psnr(*inputs.first, *inputs.second);
+        nextPsnr_ = Clock::now() + psnrInterval;
+    }
+    displayTimer_.reset();
+    displayTimer_.begin();
+    // The window enlarges frames of a moving view, because each pixel of this pass is expensive on a CPU.
+    const TextureInfo& image = inputs.first->info();
+    const bool fullSize = growing_ || display.wireframe;
+    display_.draw(inputs, display, fullSize ? request.view.width : image.width,
+                  fullSize ? request.view.height : image.height);
+    displayTimer_.end();
+}
+
+}  // namespace defocus

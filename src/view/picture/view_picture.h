@@ -1,0 +1,123 @@
+#pragma once
+// Renders the picture of the window on the GPU. While the view changes, it draws each frame at once in a quality that
+// the budget allows; while the view is still, the image gathers samples. It shows one image, or two to compare, and
+// overlays.
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/read_back.h"
+#include "gl/timer.h"
+#include "render/aov/aov.h"
+#include "render/aov/work.h"
+#include "render/display/display_pass.h"
+#include "render/progressive_image.h"
+#include "view/state/frame_budget.h"
+
+namespace defocus {
+
+struct PictureSide {
+    std::string method;  // MethodUse::text
+    LodMode lod = LodMode::fractional;
+    std::uint32_t firstSample = 0;
+    bool operator==(const PictureSide&) const = default;
+};
+
+struct PictureRequest {
+    View view;                       // at the window's resolution
+    RenderSettings settings;         // its thresholds, if set, replace those for the number of samples
+    std::uint64_t poseVersion = 0;   // Document::poseVersion
+    std::vector<PictureSide> sides;  // one, or two to compare
+    DisplaySettings display;
+    std::uint32_t maxSamples = 4096;
+    std::optional<double> targetError;         // ends a still image once its estimated error is below
+    std::optional<FrameQuality> fixedQuality;  // replaces the budget's quality; the image does not grow then
+    double restOfFrame = 0;                    // ms of the frame's budget that the interface takes, as measured
+};
+
+class ViewPicture {
+public:
+    // `world` must outlive it. Needs a current GL context.
+    ViewPicture(const World& world, RendererOptions options, bool software);
+
+    // Adds samples to a still image for about the budget's time, at least 60 ms on a CPU. Called before the events of a
+    // frame are fetched, so that the frame answers events that arrive meanwhile.
+    void grow(const FrameBudget& budget);
+    // Brings the picture up to date. While the view changes, this takes about the budget's time, and adapts its rung.
+    void update(const PictureRequest& request, FrameBudget& budget);
+
+    [[nodiscard]] const GlTexture& texture() const { return display_.texture(); }
+    [[nodiscard]] bool moving() const { return !growing_; }
+    // Returns whether nothing is left to do until the request changes.
+    [[nodiscard]] bool finished() const { return growing_ && !grows_ && !(showsWork_ && workGrows_); }
+    [[nodiscard]] std::uint32_t samples() const { return sides_.empty() ? 0 : first().samples(); }
+    // With a target error, for the first image once the view is still.
+    [[nodiscard]] bool converged() const { return growing_ && first().converged(); }
+    [[nodiscard]] std::optional<double> estimatedError() const {
+        return growing_ ? first().estimatedError() : std::nullopt;
+    }
+    [[nodiscard]] Image image() { return readBack(*sides_[0]->image.texture(), 4); }  // the first one, linear
+    [[nodiscard]] const FramePlan& plan() const;  // of the first image; may be empty
+    // Returns the second side; null if nothing is compared.
+    [[nodiscard]] const PictureSide* secondSide() const { return sides_.size() > 1 ? &sides_[1]->shows : nullptr; }
+    [[nodiscard]] const PictureSide& firstSide() const { return sides_[0]->shows; }
+    [[nodiscard]] std::optional<double> psnr() const { return psnr_; }  // between the sides, dB
+    [[nodiscard]] std::uint32_t workSamples() const { return work_ ? work_->samples() : 0; }
+    [[nodiscard]] std::uint32_t wave() const { return sides_.empty() ? 0 : first().stats().wave; }
+    // Times of the latest frame: timer queries of passes, wall clock of the set-up.
+    [[nodiscard]] const std::vector<PassTime>& passes() const { return passes_; }
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }  // of the view or the scene
+    [[nodiscard]] std::uint64_t begun() const { return begun_; }      // still images
+
+private:
+    using Clock = std::chrono::steady_clock;
+    struct Side {
+        PictureSide shows;
+        ProgressiveImage image;
+    };
+
+    [[nodiscard]] const ProgressiveImage& first() const { return sides_[0]->image; }
+    [[nodiscard]] std::uint32_t minSamples() const;                    // over both sides
+    [[nodiscard]] double growthTime(const FrameBudget& budget) const;  // ms
+    bool prepareSides(const PictureRequest& request);
+    void drawMoving(const PictureRequest& request, FrameBudget& budget);
+    void beginGrowing(const PictureRequest& request);
+    void present(const PictureRequest& request);
+    void notePasses();
+    void drawAovs(bool wireframe);
+    void growWork(double milliseconds);
+    [[nodiscard]] bool workIncomplete() const { return !workCurrent_ || workGrows_; }
+
+    const World* world_;
+    RendererOptions options_;
+    bool software_;
+    DisplayPass display_;
+    std::optional<AovPass> aovs_;
+    std::optional<WorkPass> work_;
+    bool aovsCurrent_ = false;  // show this view, as the two below
+    bool wireframeCurrent_ = false;
+    bool workCurrent_ = false;
+    bool workGrows_ = false;  // samples of the work are still to come
+    std::vector<std::unique_ptr<Side>> sides_;
+    std::vector<double> lastKey_, lastDisplayKey_;
+    std::shared_ptr<const Image> lastAperture_;
+    Clock::time_point settlesAt_;
+    Clock::time_point nextPsnr_;
+    std::uint32_t presentedSamples_ = 0;
+    bool showsWork_ = false;
+    bool growing_ = false;  // the view is still
+    bool grows_ = false;    // samples are still to come
+    bool grown_ = false;    // since the latest update
+    bool fresh_ = true;     // the next frame uploads the scene: its time does not count
+    std::optional<double> psnr_;
+    GpuTimer overlayTimer_, displayTimer_;
+    std::vector<PassTime> passes_, passTotals_;
+    double setupTotal_ = 0;
+    std::uint64_t changes_ = 0;
+    std::uint64_t begun_ = 0;
+};
+
+}  // namespace defocus

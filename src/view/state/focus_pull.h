@@ -1,0 +1,41 @@
+#pragma once
+// Moves the focus from one distance to another within a moment, slowly at both ends. The path is linear in dioptres
+// (1/m), because the circle of confusion is linear in them.
+
+#include <algorithm>
+#include <cmath>
+
+#include "plan/camera_path.h"
+
+namespace defocus {
+
+// Returns 3t² − 2t³ for t clamped to [0, 1]: it has no slope at either end.
+inline double eased(double t) {
+    const double x = std::clamp(t, 0.0, 1.0);
+    return x * x * (3 - 2 * x);
+}
+
+struct FocusPull {
+    double from = 1;  // m, > 0; may be infinite
+    double to = 1;
+    double begin = 0;       // s, of any clock
+    double duration = 0.4;  // s
+
+    [[nodiscard]] bool over(double now) const { return now >= begin + duration; }
+    // Returns the distance in m; exactly `to` once the pull is over.
+    [[nodiscard]] double distanceAt(double now) const {
+        return over(now) ? to : focusBetween(from, to, eased((now - begin) / duration));
+    }
+};
+
+// Moves the focus distance by mouse-wheel notches: farther for positive ones. Each notch multiplies the distance by
+// the same factor.
+inline double rackedFocus(double focusDistance, double notches) {
+    constexpr double step = 0.03;         // relative change per notch
+    constexpr double minDistance = 1e-3;  // m
+    constexpr double maxDistance = 1e6;   // m
+    if (!std::isfinite(focusDistance)) return notches < 0 ? maxDistance : focusDistance;
+    return std::clamp(focusDistance * std::exp(step * notches), minDistance, maxDistance);
+}
+
+}  // namespace defocus

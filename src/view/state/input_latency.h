@@ -1,0 +1,53 @@
+#pragma once
+// Measures the time from an input event to the end of the frame that shows its effect, including the swap of buffers
+// but not the delay of a compositor or a screen.
+//
+// The system does not tell when an event arrived, only when it is fetched. An event that arrives while a frame is drawn
+// counts from the previous fetch, so that the measured times are upper bounds.
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace defocus {
+
+class InputLatency {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    // Notes that events were fetched that arrived after `since`. Their effect may take some frames to begin; the
+    // earliest unanswered event counts.
+    void arrived(Time since) {
+        if (!waiting_) waiting_ = since;
+    }
+    // Notes the end of a frame that shows another picture.
+    void shown(Time at) {
+        if (!waiting_) return;
+        answers_.push_back(std::chrono::duration<double, std::milli>(at - *waiting_).count());
+        if (answers_.size() > maxAnswers) answers_.pop_front();
+        waiting_.reset();
+    }
+    // Drops the waiting events: they do not change the picture.
+    void forget() { waiting_.reset(); }
+
+    struct Summary {  // ms, of the latest answers
+        std::size_t count = 0;
+        double latest = 0, median = 0, worst = 0;
+    };
+    [[nodiscard]] Summary summary() const {
+        if (answers_.empty()) return {};
+        std::vector<double> sorted(answers_.begin(), answers_.end());
+        std::ranges::sort(sorted);
+        return {sorted.size(), answers_.back(), sorted[sorted.size() / 2], sorted.back()};
+    }
+
+private:
+    static constexpr std::size_t maxAnswers = 256;
+
+    std::optional<Time> waiting_;
+    std::deque<double> answers_;  // ms
+};
+
+}  // namespace defocus

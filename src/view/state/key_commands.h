@@ -1,0 +1,37 @@
+#pragma once
+// The keys of the window: one table for what they do and for the list that the window shows.
+
+#include <span>
+
+#include "view/state/view_state.h"
+
+namespace defocus {
+
+struct KeyContext {
+    const PreparedFrame* frame = nullptr;  // null: no scene yet
+    ViewState& state;
+    ViewActions& actions;
+    bool shift = false;
+};
+
+struct KeyCommand {
+    const char* keys = nullptr;     // as the list names them; null: the row above names the key too
+    const char* meaning = nullptr;  // as the list explains them
+    int key = 0;                    // WindowEvent::key, see withControl; 0: not a key command
+    void (*run)(KeyContext) = nullptr;
+};
+
+// Returns the code of a key that is pressed with Ctrl.
+constexpr int withControl(int key) {
+    return key + 1000;
+}
+
+std::span<const KeyCommand> keyCommands();
+
+// Runs the command of a key, if it has one.
+void runKeyCommand(int key, const KeyContext& context);
+
+// Returns the names of the file's cameras, in its order. Keys 1 … 9 choose them.
+std::vector<std::string> cameraNames(const Scene& scene);
+
+}  // namespace defocus

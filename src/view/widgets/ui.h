@@ -1,0 +1,32 @@
+#pragma once
+// The data that panels, dialogs and the heads-up display read and change in a frame.
+
+#include "view/export/still_export.h"
+#include "view/picture/live_picture.h"
+#include "view/state/input_latency.h"
+#include "view/widgets/look.h"
+
+namespace defocus {
+
+struct FrameTimes {
+    double frame = 0;           // ms, of the latest frame
+    double interface = 0;       // ms, of its widgets and the swap of buffers
+    std::vector<float> recent;  // ms, of the latest frames
+    InputLatency latency;
+};
+
+struct Ui {
+    ViewState& state;
+    ViewActions& actions;
+    const Document& document;
+    const LivePicture& picture;
+    const std::optional<StillExport>& still;
+    const FrameTimes& times;
+    const std::string& device;  // name of the GPU
+    float scale = 1;            // px per unit of the interface
+
+    [[nodiscard]] const Scene& scene() const { return *document.frame->scene; }
+    [[nodiscard]] const Pose& pose() const { return document.frame->world.pose; }
+};
+
+}  // namespace defocus

@@ -1,0 +1,46 @@
+#pragma once
+// Turns mouse and keys over the picture into changes of the state.
+
+#include <set>
+
+#include "frame/prepared_frame.h"
+#include "gl/window.h"
+#include "view/state/view_state.h"
+
+namespace defocus {
+
+struct InputContext {
+    const PreparedFrame* frame = nullptr;  // null: no scene yet
+    bool mouseOnInterface = false;         // a widget takes the mouse
+    bool typing = false;                   // a text field or a dialog takes the keys
+    bool navigating = false;               // the keyboard moves between widgets
+};
+
+class ViewInput {
+public:
+    void handle(const WindowEvent& event, const InputContext& context, ViewState& state, ViewActions& actions);
+    // Moves the camera by the keys that are held down.
+    void fly(const InputContext& context, double seconds, ViewState& state) const;
+
+    // Returns whether a button over the picture or a key for flying is held down.
+    [[nodiscard]] bool holds() const { return drag_ != Drag::none || !held_.empty(); }
+
+private:
+    enum class Drag { none, orbit, pan, divider };
+
+    void press(const WindowEvent& event, const InputContext& context, const ViewState& state);
+    void release(const WindowEvent& event, const InputContext& context, ViewState& state);
+    void drag(const WindowEvent& event, ViewState& state);
+    void pressKey(const WindowEvent& event, const InputContext& context, ViewState& state, ViewActions& actions);
+
+    Drag drag_ = Drag::none;
+    glm::dvec2 pressedAt_{0.0};
+    glm::dvec2 last_{0.0};
+    bool moved_ = false;
+    double lastClick_ = -1;
+    glm::dvec2 lastClickAt_{0.0};
+    // Keys pressed without Ctrl; a key pressed with Ctrl is a command, even if Ctrl is released first.
+    std::set<int> held_;
+};
+
+}  // namespace defocus

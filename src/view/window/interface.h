@@ -1,0 +1,37 @@
+#pragma once
+// Runs Dear ImGui in a Window: feeds events to ImGui and draws its frames.
+
+#include <array>
+#include <vector>
+
+#include "gl/window.h"
+
+namespace defocus {
+
+class ViewInterface {
+public:
+    // The window must outlive it.
+    explicit ViewInterface(Window& window);
+    ~ViewInterface();
+    ViewInterface(const ViewInterface&) = delete;
+    ViewInterface& operator=(const ViewInterface&) = delete;
+
+    // Begins a frame. `scale`: px per unit of the interface. `events`: those that the frame takes (event_pacing.h).
+    void beginFrame(bool dark, double scale, const std::vector<WindowEvent>& events);
+    // Draws the widgets to the window's framebuffer.
+    void endFrame();
+
+private:
+    void feed(const std::vector<WindowEvent>& events);
+
+    Window* window_;
+
+    std::vector<WindowEvent> tappedKeys_;  // released in the frame that pressed them; released in the next one
+    std::array<bool, 3> buttons_{};        // held, according to the events so far
+    glm::dvec2 mouse_{0.0};                // window units
+    bool focused_ = false;
+    double scale_ = 0;
+    bool dark_ = true;
+};
+
+}  // namespace defocus
