@@ -37,7 +37,7 @@ void prepare(Fish& fish) {
     fish.world.pose = poseAt(scene, 0);
     fish.view.width = 512;
     fish.view.height = 384;
-    const PlacedCamera placed = chooseCamera(scene, fish.world.pose, "", 4.0 / 3.0);
+    const PlacedCamera placed = chooseCamera(scene, fish.world.pose, {}, 4.0 / 3.0);
     fish.world.lights = lightsOrDefault(scene, fish.world.pose, placed);
     fish.world.environment = environmentOrDefault(scene);
     fish.world.pyramids = buildPyramids(scene.meshes);

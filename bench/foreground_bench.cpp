@@ -75,10 +75,10 @@ void print(const PreparedFrame& frame, const Row& row, const Row& unlimited) {
 void measure(const Figure& figure) {
     Request options;
     options.scene = std::string(DEFOCUS_SOURCE_DIR "/") + figure.scene;
-    options.width = 512;
-    options.height = 384;
+    options.size.width = 512;
+    options.size.height = 384;
     options.time = figure.time;
-    options.shutter.seconds = figure.shutter;
+    options.shutter = figure.shutter;
     PreparedFrame frame = prepareFrame(options);
     fmt::print("\n{}, {} x {}, {} samples, shutter {:.3g} s, fastest of {} interleaved runs\n\n", figure.scene,
                frame.view.width, frame.view.height, frame.settings.sampleCount, figure.shutter, runs);

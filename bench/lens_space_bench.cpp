@@ -158,9 +158,9 @@ double errorOfSquares(const Image& truth, const Image& image, int side) {
 Request requestOf(const std::string& model, int width, int height) {
     Request request;
     request.scene = model;
-    request.width = width;
-    request.height = height;
-    request.settings.lod = LodMode::off;
+    request.size.width = width;
+    request.size.height = height;
+    request.lod = LodMode::off;
     return request;
 }
 
@@ -199,9 +199,9 @@ void printTable1(const std::vector<std::string>& models, int width, int height) 
 
 void printFigure7(const std::string& model, int width, int height) {
     Request request = requestOf(model, width, height);
-    request.settings.lod = LodMode::fractional;
+    request.lod = LodMode::fractional;
     const PreparedFrame frame = prepareFrame(request);
-    request.settings.levelVertices = LevelVertices::quarters;
+    request.levelVertices = LevelVertices::quarters;
     const PreparedFrame quarters = prepareFrame(request);
     fmt::print(
         "\n{}: milliseconds of line samples; RMSE from full detail with as many lines\n\n"
@@ -235,8 +235,8 @@ int run(const std::vector<std::string>& arguments) {
         } else if (arguments[i] == "--size" && i + 1 < arguments.size()) {
             const std::string& size = arguments[++i];
             const std::size_t times = std::min(size.find('x'), size.size() - 1);
-            width = static_cast<int>(parseWhole(size.substr(0, times), 1, mostPixels));
-            height = static_cast<int>(parseWhole(size.substr(times + 1), 1, mostPixels));
+            width = static_cast<int>(parseInteger(size.substr(0, times), 1, maxImageSide));
+            height = static_cast<int>(parseInteger(size.substr(times + 1), 1, maxImageSide));
         } else {
             models.push_back(arguments[i]);
         }

@@ -62,7 +62,7 @@ void planOfFrame(benchmark::State& state) {
     world.environment = environmentOrDefault(scene);
     world.pyramids = buildPyramids(scene.meshes);
     View view;
-    const PlacedCamera placed = chooseCamera(scene, world.pose, "", static_cast<double>(view.width) / view.height);
+    const PlacedCamera placed = chooseCamera(scene, world.pose, {}, static_cast<double>(view.width) / view.height);
     view.worldFromCamera = placed.worldFromCamera;
     view.lens.focusDistance = placed.camera.lensValue("focusDistance").value_or(2.5);
     RenderSettings settings;

@@ -191,13 +191,13 @@ void disks() {
 // What the storage between the passes loses, on a picture: against 32-bit floats.
 void storages() {
     Request scene;
-    scene.width = 512;
-    scene.height = 384;
+    scene.size.width = 512;
+    scene.size.height = 384;
     scene.lens.fStop = 0.95;
     const PreparedFrame frame = prepareFrame(scene);
     const FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    fmt::print("Storage of the complex sums, school of fish at {} x {} px, f/{}, against 32-bit floats\n", scene.width,
-               scene.height, *scene.lens.fStop);
+    fmt::print("Storage of the complex sums, school of fish at {} x {} px, f/{}, against 32-bit floats\n",
+               scene.size.width, scene.size.height, *scene.lens.fStop);
     fmt::print("{:<66} {:>9} {:>9} {:>9} {:>11} {:>9}\n", "method", "PSNR dB", "FLIP", "largest", "GPU MB", "frame ms");
     for (const char* components : {"near-components=1,far-components=2", "near-components=5,far-components=5"}) {
         Image exact;

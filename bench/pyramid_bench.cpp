@@ -273,7 +273,7 @@ void furnish(Stage& stage, const Scene& source, const Mesh& mesh) {
     stage.world.pose = poseAt(scene, 0);
     stage.view.width = 512;
     stage.view.height = 384;
-    const PlacedCamera placed = chooseCamera(scene, stage.world.pose, "", 4.0 / 3.0);
+    const PlacedCamera placed = chooseCamera(scene, stage.world.pose, {}, 4.0 / 3.0);
     stage.world.lights = lightsOrDefault(scene, stage.world.pose, placed);
     stage.world.environment = environmentOrDefault(scene);
     stage.view.worldFromCamera = placed.worldFromCamera;
@@ -448,7 +448,7 @@ void blurredRows(const std::string& name, const Scene& scene) {
     View view;
     view.width = 384;
     view.height = 288;
-    const PlacedCamera placed = chooseCamera(scene, world.pose, "", 4.0 / 3.0);
+    const PlacedCamera placed = chooseCamera(scene, world.pose, {}, 4.0 / 3.0);
     world.lights = lightsOrDefault(scene, world.pose, placed);
     world.environment = environmentOrDefault(scene);
     view.worldFromCamera = placed.worldFromCamera;

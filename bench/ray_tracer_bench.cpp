@@ -90,7 +90,7 @@ int run(const Options& options) {
     const auto truth = truthScene(fishSchool(), options.width, options.height);
     if (options.lit) {
         truth->scene = fishSchool();
-        const auto placed = chooseCamera(truth->scene, truth->world.pose, "", 1.0 * options.width / options.height);
+        const auto placed = chooseCamera(truth->scene, truth->world.pose, {}, 1.0 * options.width / options.height);
         truth->world.lights = lightsOrDefault(truth->scene, truth->world.pose, placed);
     }
     std::array<Row, 2> rows = {Row{"embree-shared", EmbreeSampling::shared, nullptr},
@@ -115,11 +115,11 @@ int main(int argc, char** argv) {
     Options options;
     std::string size = "1024x768";
     CLI::App app("The time that the Embree ray tracer takes for a sample, and its error");
-    app.add_option("--samples", options.samples, "lens samples a frame")->check(CLI::Range(1u, mostSamples));
+    app.add_option("--samples", options.samples, "lens samples a frame")->check(CLI::Range(1u, maxSamples));
     app.add_option("--runs", options.runs, "frames of each")->check(CLI::Range(1, 1000));
     app.add_option("--size", size, "WxH in px");
     app.add_option("--reference-samples", options.referenceSamples, "of the errors; 0: times only")
-        ->check(CLI::Range(0u, mostSamples));
+        ->check(CLI::Range(0u, maxSamples));
     app.add_option("--shading", options.lit, "unlit (colours of the vertices) or lit")
         ->transform(CLI::CheckedTransformer(std::map<std::string, bool>{{"lit", true}, {"unlit", false}}));
     CLI11_PARSE(app, argc, argv);

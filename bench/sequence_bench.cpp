@@ -286,7 +286,7 @@ void measureImages(const Request& options) {
         rendered(*renderer, planFrame(frame.world, frame.view, settings), {}, {referenceSamples}).front();
 
     fmt::print("\n{}, {} x {} px, f/{:g}: 1000 RMSE (1000 FLIP) by lens samples; ms a sample\n\n{:<18}",
-               frame.sceneName, options.width, options.height, frame.view.lens.fStop, "");
+               frame.sceneName, options.size.width, options.size.height, frame.view.lens.fStop, "");
     for (const std::uint32_t count : counts) fmt::print("{:>15}", count);
     fmt::print("{:>8}\n", "ms");
     for (const Pattern& pattern : patterns()) {
@@ -306,8 +306,8 @@ void run(int argc, char** argv) {
     measurePoints();
     std::fflush(stdout);
     Request options;
-    options.width = 160;
-    options.height = 120;
+    options.size.width = 160;
+    options.size.height = 120;
     options.fishCount = 8;
     options.trianglesPerFish = 2000;
     options.lens.fStop = 0.95;

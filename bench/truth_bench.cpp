@@ -172,7 +172,7 @@ int main(int argc, char** argv) {
     defocus::Options options;
     CLI::App app("The accumulation method against an independent thin-lens ray tracer");
     app.add_option("--samples", options.samples, "samples a pixel, of both")
-        ->check(CLI::Range(1u, defocus::mostSamples));
+        ->check(CLI::Range(1u, defocus::maxSamples));
     using defocus::Sequence;
     std::map<std::string, Sequence> sequences;
     for (const Sequence sequence : defocus::allSequences) sequences.emplace(sequenceName(sequence), sequence);

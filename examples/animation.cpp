@@ -14,17 +14,16 @@ int main(int count, char** words) try {
 
     defocus::Request request;
     if (count > 1) request.scene = words[1];
-    request.width = 320;
-    request.height = 180;
-    request.settings.sampleCount = 16;
+    request.size = {320, 180};
+    request.samples = 16;
     request.lens.fStop = 2;
     request.loop = true;
-    request.shutter.seconds = 1.0 / 48;
+    request.shutter = 1.0 / 48;
 
     defocus::SceneRenderer renderer(request);
     for (int frame = 0; frame < 12; ++frame) {
         request.time = frame / 24.0;
-        request.lens.focusDistance = 1.5 + 0.1 * frame;
+        request.focus = defocus::FocusDistance{1.5 + 0.1 * frame};
         std::ostringstream name;
         name << std::setw(4) << std::setfill('0') << frame << ".png";
         renderer.write(folder / name.str(), renderer.render(request));

@@ -19,8 +19,7 @@ int main(int count, char** words) try {
 
     defocus::Request request;
     if (count > 1) request.scene = words[1];
-    request.width = 480;
-    request.height = 270;
+    request.size = {480, 270};
     request.toneMap = defocus::ToneMap::agx;
     request.wave = 8;  // lens samples a step
 

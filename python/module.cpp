@@ -138,8 +138,8 @@ void defineRequest(py::module_& package) {
     using defocus::SettingKind;
     py::enum_<SettingKind>(package, "SettingKind")
         .value("number", SettingKind::number)
-        .value("whole", SettingKind::whole)
-        .value("truth", SettingKind::truth)
+        .value("integer", SettingKind::integer)
+        .value("boolean", SettingKind::boolean)
         .value("text", SettingKind::text)
         .value("path", SettingKind::path)
         .value("choice", SettingKind::choice)
@@ -152,11 +152,16 @@ void defineRequest(py::module_& package) {
         .def_readonly("kind", &SettingInfo::kind)
         .def_readonly("metavar", &SettingInfo::metavar)
         .def_readonly("unit", &SettingInfo::unit)
-        .def_readonly("least", &SettingInfo::least)
-        .def_readonly("most", &SettingInfo::most)
+        .def_readonly("min", &SettingInfo::min)
+        .def_readonly("max", &SettingInfo::max)
         .def_readonly("choices", &SettingInfo::choices)
         .def_readonly("help", &SettingInfo::help)
-        .def_readonly("standard", &SettingInfo::standard)
+        .def_readonly("default_value", &SettingInfo::defaultValue)
+        .def_readonly("excludes", &SettingInfo::excludes)
+        .def_property_readonly("array_separator",
+                               [](const SettingInfo& info) {
+                                   return std::string(1, info.arraySeparator == 0 ? ',' : info.arraySeparator);
+                               })
         .def_readonly("repeated", &SettingInfo::repeated)
         .def_readonly("methods", &SettingInfo::methods);
     package.def("setting_infos", &defocus::settingInfos);
@@ -176,8 +181,9 @@ void defineImages(py::module_& package) {
         "write_image",
         [](const std::filesystem::path& path, const Array& image, const defocus::Request& request) {
             const defocus::ImageView view = viewOf(image);
+            const auto* const exposure = std::get_if<defocus::ExposureValue>(&request.exposure);
             const py::gil_scoped_release unlocked;
-            defocus::writeImage(path, view, {request.toneMap, request.exposure.value_or(0)});
+            defocus::writeImage(path, view, {request.toneMap, exposure != nullptr ? exposure->ev : 0});
         },
         "path"_a, py::arg("image").noconvert(), "request"_a);
     package.def(

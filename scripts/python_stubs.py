@@ -13,7 +13,7 @@ import defocus
 STUB = Path(__file__).resolve().parents[1] / "python" / "defocus" / "__init__.pyi"
 BEGIN = "# ---- keywords, from the settings table ----\n"
 END = "# ---- end of keywords ----\n"
-TYPES = {"number": "float", "whole": "int", "truth": "bool", "text": "str", "path": "Path"}
+TYPES = {"number": "float", "integer": "int", "boolean": "bool", "text": "str", "path": "Path"}
 # Types of settings with values of another form, beside a string in the command line's form.
 FORMS = {
     "N|exact": "Union[int, str]",

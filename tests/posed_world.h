@@ -45,7 +45,7 @@ inline std::unique_ptr<SmallWorld> posedWorld(const std::filesystem::path& path,
     poseWorld(*small, time, clip);
     small->view.width = 128;
     small->view.height = 96;
-    const PlacedCamera camera = chooseCamera(small->scene, small->world.pose, "auto", 128.0 / 96);
+    const PlacedCamera camera = chooseCamera(small->scene, small->world.pose, FramingCamera{}, 128.0 / 96);
     small->view.worldFromCamera = camera.worldFromCamera;
     small->view.nearPlane = camera.camera.znear;
     small->view.lens.focusDistance =

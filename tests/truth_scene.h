@@ -62,7 +62,7 @@ inline std::unique_ptr<TruthScene> truthScene(Scene scene, int width, int height
     for (const Mesh& mesh : truth->scene.meshes) truth->world.pyramids.push_back(fullDetail(mesh));
 
     const double aspect = static_cast<double>(width) / height;
-    const PlacedCamera placed = chooseCamera(truth->scene, truth->world.pose, "", aspect);
+    const PlacedCamera placed = chooseCamera(truth->scene, truth->world.pose, {}, aspect);
     truth->view.worldFromCamera = placed.worldFromCamera;
     truth->view.nearPlane = placed.camera.znear;
     truth->view.width = width;

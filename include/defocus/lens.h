@@ -11,7 +11,6 @@ struct LensSettings {
     // Camera.
     std::optional<double> focalLength;         // mm; sets the field of view, which is else the camera's
     std::optional<double> fStop;               // f-number, > 0; else 2.8
-    std::optional<double> focusDistance;       // m along the view axis, > 0
     std::optional<double> horizontalAperture;  // mm, width of the sensor; else 36
     std::optional<bool> dofEnabled;            // false: a pinhole, whatever the f-number
     std::optional<double> blurScale;           // 1 is physical; ≥ 0

@@ -53,7 +53,7 @@ class Setting(NamedTuple):
     keyword: str
     option: str  # on the command line
     group: str
-    kind: str  # "number", "whole", "truth", "text", "path", "choice" or "other"
+    kind: str  # "number", "integer", "boolean", "text", "path", "choice" or "other"
     form: str  # of the value on the command line: "PX", "X,Y,Z"
     unit: str  # empty: none
     range: Optional[Tuple[float, float]]  # of numbers
@@ -105,9 +105,9 @@ def settings() -> List[Setting]:
     """All keywords, in the order of `defocus render --help`."""
     rows = []
     for info in _INFOS.values():
-        ranged = info.kind.name in ("number", "whole")
+        ranged = info.kind.name in ("number", "integer")
         rows.append(Setting(info.keyword, info.option, info.group, info.kind.name, info.metavar, info.unit,
-                            (info.least, info.most) if ranged else None, tuple(info.choices), info.standard,
+                            (info.min, info.max) if ranged else None, tuple(info.choices), info.default_value,
                             tuple(info.methods), info.help))
     return rows
 

@@ -76,7 +76,7 @@ class Keywords(TypedDict, total=False):
     aperture_image: Optional[Path]
     node_blur: Optional[Union[Mapping[str, float], str]]
     preset: Optional[Literal["jeong2011", "tzeng2012", "scheuermann2004", "garcia2018", "lee2010", "munkberg2012"]]
-    samples: Optional[Union[int, Literal["auto"]]]
+    samples: Optional[int]
     target_error: Optional[float]
     time_limit: Optional[Union[float, str]]  # s
     sequence: Optional[Literal["sobol", "halton", "scrambled-halton", "r2"]]
@@ -136,7 +136,7 @@ class Setting(NamedTuple):
     keyword: str
     option: str
     group: str
-    kind: Literal["number", "whole", "truth", "text", "path", "choice", "other"]
+    kind: Literal["number", "integer", "boolean", "text", "path", "choice", "other"]
     form: str
     unit: str
     range: Optional[Tuple[float, float]]

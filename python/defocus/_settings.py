@@ -43,7 +43,7 @@ def texts(info: _defocus.SettingInfo, value: Any) -> Iterable[str]:
         return [f"{name}={text(part)}" for name, part in value.items()]
     if info.repeated and isinstance(value, (tuple, list)):
         return [text(part) for part in value]
-    return [text(value, "x" if info.metavar == "WxH" else ",")]
+    return [text(value, info.array_separator)]
 
 
 def unknown(keyword: str, known: Iterable[str]) -> _defocus.UsageError:
@@ -64,6 +64,15 @@ def set_value(request: _defocus.Request, keyword: str, value: Any) -> None:
         raise _defocus.UsageError(str(error).replace(f"{info.name}: ", f"{keyword}: ", 1)) from None
 
 
+def check_exclusions(given: Mapping[str, Any]) -> None:
+    """Refuses settings that cannot be given together."""
+    by_name = {info.name: keyword for keyword, info in INFOS.items()}
+    for keyword in given:
+        for name in INFOS[keyword].excludes if keyword in INFOS else ():
+            if by_name[name] in given:
+                raise _defocus.UsageError(f"{keyword}: cannot be given together with {by_name[name]}")
+
+
 def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
     """The request of a path (or None, or an open scene) and keywords; what is None is left open."""
     request = _defocus.Request()
@@ -76,8 +85,10 @@ def request_of(scene: Any, settings: Mapping[str, Any]) -> _defocus.Request:
         set_value(request, "scene", scene)
     elif scene is not None and not isinstance(scene, _defocus.Scene):
         raise _defocus.UsageError(f"scene: {scene!r} is neither a path nor a Scene")
-    # A preset first: what is given beside it wins.
-    for keyword, value in sorted(given.items(), key=lambda item: item[0] != "preset"):
+    check_exclusions(given)
+    # In the table's order: what is given beside a preset or a method wins over what these set.
+    order = {keyword: place for place, keyword in enumerate(INFOS)}
+    for keyword, value in sorted(given.items(), key=lambda item: order.get(item[0], 0)):
         set_value(request, keyword, value)
     return request
 

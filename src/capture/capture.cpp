@@ -15,8 +15,8 @@
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "frame/exposure.h"
 #include "image/image_rows.h"
-#include "lens/photographic_exposure.h"
 
 namespace defocus {
 
@@ -90,15 +90,9 @@ struct DrawnFrame {
     bool written = false;  // a frame in tiles is written while it is drawn
 };
 
-RenderSettings settingsOf(const FrameMoment& moment, const FilmOptions& options) {
-    RenderSettings settings = moment.settings;
-    if (isAutomatic(options.settings.request)) settings.sampleCount = automaticSamples;
-    return settings;
-}
-
 // The time limit ends the run, not a frame: a frame gets the same samples whenever it is rendered.
 StopSettings stopOf(const FilmOptions& options) {
-    StopSettings stop = options.settings.request.stop;
+    StopSettings stop = stopSettings(options.settings.request);
     stop.timeLimit.reset();
     return stop;
 }
@@ -167,7 +161,7 @@ DrawnFrame drawFrame(const FilmFrame& film, FrameMoment moment, World& world, Fr
     applyMoment(moment, world);
     const auto ofFrame = [&] { return metadata(moment, driver.plan(), driver.stats()); };
     RowsToFiles rows(film, ofFrame);
-    FrameOrder order{moment.view, settingsOf(moment, options), stopOf(options), options.sampleRange};
+    FrameOrder order{moment.view, moment.settings, stopOf(options), options.sampleRange};
     if (!options.sampleRange)
         order.takeRows = [&](const RowRange&, Image&& pixels) {
             rows.take(std::move(pixels), moment.view.width, moment.view.height);
@@ -218,7 +212,7 @@ FilmFrame filmFrame(const Shot& shot, const SequenceBase& base, int number, cons
     film.frame = number;
     film.finished = options.resume;
     const Request& request = options.settings.request;
-    film.write = {request.toneMap, request.exposure.value_or(photographicExposure(frame.view.lens))};
+    film.write = {request.toneMap, unmeteredExposure(request, frame.view.lens)};
     for (const std::string& pattern : options.outputs) {
         FilmSettings settings = options.settings;
         settings.encoding = encodingOf(pattern, film.write, options.metered);

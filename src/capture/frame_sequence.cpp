@@ -22,8 +22,6 @@ namespace defocus {
 
 namespace {
 
-constexpr const char* framingCamera = "auto";
-
 // ---- camera
 // ----------------------------------------------------------------------------------------------------------
 
@@ -47,7 +45,7 @@ double placeIn(const std::optional<FrameRange>& own, const FrameRange& shot, dou
 
 // A camera of the file goes where its node's animation takes it; one that frames the scene stays.
 std::optional<PlacedCamera> cameraOfFile(const SequenceBase& base, const Pose& pose) {
-    if (base.scene->cameras.empty() || base.camera == framingCamera) return {};
+    if (base.scene->cameras.empty() || std::holds_alternative<FramingCamera>(base.camera)) return {};
     return chooseCamera(*base.scene, pose, base.camera, static_cast<double>(base.view.width) / base.view.height);
 }
 
@@ -81,11 +79,11 @@ View movedView(const Shot& shot, const SequenceBase& base, const Pose& pose, dou
 // `view` has the frame's lens but for its focus distance.
 double focusDistanceOf(const FocusTarget& target, const Scene& scene, const Pose& pose, const View& view) {
     constexpr const char* who = "focus";
-    if (const auto* name = std::get_if<std::string>(&target)) return depthOfNode(scene, pose, view, *name, who);
-    if (const auto* pixel = std::get_if<FocusPixel>(&target))
-        return depthAtPixel(scene, pose, view, {pixel->column, pixel->row}, who);
+    if (const auto* node = std::get_if<FocusNode>(&target)) return depthOfNode(scene, pose, view, node->name, who);
+    if (const auto* at = std::get_if<FocusPixel>(&target))
+        return depthAtPixel(scene, pose, view, asVector(at->pixel), who);
     if (std::holds_alternative<FocusAuto>(target)) return depthOfMiddle(scene, pose, view, who);
-    return std::get<double>(target);
+    return std::get<FocusDistance>(target).metres;
 }
 
 double focusAt(const FocusTrack& focus, const Scene& scene, const FrameMoment& frame, const Lens& lens) {

@@ -17,8 +17,8 @@ struct SequenceBase {
     std::shared_ptr<const Scene> scene;
     View view;
     RenderSettings settings;
-    std::vector<PlacedLight> lights;               // where the scene has none of its own
-    std::string camera;                            // as chooseCamera takes it
+    std::vector<PlacedLight> lights;  // where the scene has none of its own
+    CameraChoice camera;
     bool cameraStands = false;                     // at view's place, wherever the scene's own goes
     std::set<std::string, std::less<>> fixedLens;  // fields that don't follow the camera's own values
     glm::dvec3 centre{0.0};                        // the middle of the scene at its start, around which turntables turn

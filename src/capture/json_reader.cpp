@@ -91,15 +91,14 @@ double JsonReader::number(double least, double most) const {
     return number;
 }
 
-std::int64_t JsonReader::whole(std::int64_t least, std::int64_t most) const {
+std::int64_t JsonReader::integer(std::int64_t least, std::int64_t most) const {
     const double number = isFiniteNumber(*value_) ? value_->get<double>() : std::nan("");
     const bool inside = number >= static_cast<double>(least) && number <= static_cast<double>(most);
-    if (!inside || number != std::floor(number))
-        failExpecting(fmt::format("a whole number from {} to {}", least, most));
+    if (!inside || number != std::floor(number)) failExpecting(fmt::format("an integer from {} to {}", least, most));
     return static_cast<std::int64_t>(number);
 }
 
-bool JsonReader::truth() const {
+bool JsonReader::boolean() const {
     if (!value_->is_boolean()) failExpecting("true or false");
     return value_->get<bool>();
 }

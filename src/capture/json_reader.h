@@ -35,8 +35,8 @@ public:
     [[nodiscard]] std::vector<JsonReader> elements(std::size_t least, const std::string& what) const;
 
     [[nodiscard]] double number(double least, double most) const;
-    [[nodiscard]] std::int64_t whole(std::int64_t least, std::int64_t most) const;
-    [[nodiscard]] bool truth() const;
+    [[nodiscard]] std::int64_t integer(std::int64_t least, std::int64_t most) const;
+    [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;  // not empty
     // The place of the text in `choices`.
     [[nodiscard]] std::size_t choice(const std::vector<std::string>& choices) const;

@@ -1,12 +1,11 @@
 #include "capture/setting_json.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
+#include "capture/json_schema.h"
 #include "core/error.h"
 #include "core/parse.h"
 
@@ -14,58 +13,66 @@ namespace defocus {
 
 namespace {
 
-std::string sizeText(const JsonReader& reader) {
-    const char* what = "the width and the height in pixels";
-    const std::vector<JsonReader> sides = reader.elements(2, what);
-    if (sides.size() != 2) reader.failExpecting(what);
-    return fmt::format("{}x{}", sides[0].whole(1, mostPixels), sides[1].whole(1, mostPixels));
+using Json = nlohmann::ordered_json;
+
+// Returns a JSON integer for integers, else a JSON number.
+Json numberJson(double value) {
+    if (value == static_cast<double>(static_cast<std::int64_t>(value))) return static_cast<std::int64_t>(value);
+    return value;
 }
 
-std::string backgroundText(const JsonReader& reader) {
-    const auto colour = reader.threeNumbers();
-    if (colour && std::ranges::all_of(*colour, [](double c) { return c >= 0 && c <= 1e9; }))
-        return fmt::format("{}", fmt::join(*colour, ","));
-    if (reader.value() != "environment" && reader.value() != "none")
-        reader.failExpecting("\"environment\", \"none\" or three numbers of 0 or more (linear red, green, blue)");
-    return reader.text();
+Json rangeJson(const char* type, const Setting& setting) {
+    return {{"type", type}, {"minimum", numberJson(setting.min)}, {"maximum", numberJson(setting.max)}};
 }
 
-// By its name or number.
-std::string clipText(const JsonReader& reader) {
-    if (reader.value().is_string()) return reader.text();
-    if (reader.value().is_number()) return std::to_string(reader.whole(0, 1'000'000));
-    reader.failExpecting("the number or the name of a clip");
-}
-
-std::string textOf(const Setting& setting, const JsonReader& reader) {
-    if (setting.name == "size") return sizeText(reader);
-    if (setting.name == "background") return backgroundText(reader);
-    if (setting.name == "clip") return clipText(reader);
-    if (setting.name == "motionSegments") return std::to_string(reader.whole(1, 64));
-    switch (setting.kind) {
-        case SettingKind::number:
-            if (!setting.choices.empty() && reader.value().is_string()) return reader.text();
-            return fmt::format("{}", reader.number(setting.least, setting.most));
-        case SettingKind::whole:
-            if (!setting.choices.empty() && reader.value().is_string()) return reader.text();
-            return std::to_string(
-                reader.whole(static_cast<std::int64_t>(setting.least), static_cast<std::int64_t>(setting.most)));
-        case SettingKind::truth:
-            return reader.truth() ? "true" : "false";
-        case SettingKind::choice:
-            return setting.choices[reader.choice(setting.choices)];
-        case SettingKind::text:
-        case SettingKind::path:
-        case SettingKind::other:
-            return reader.text();
+std::string textOf(const nlohmann::json& value, char arraySeparator) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number()) {
+        const Json number = numberJson(value.get<double>());
+        return number.is_number_integer() ? number.dump() : fmt::format("{}", number.get<double>());
     }
-    return {};
+    if (!value.is_array()) return value.dump();
+    std::string text;
+    for (const nlohmann::json& element : value) {
+        if (!text.empty()) text += arraySeparator;
+        text += textOf(element, arraySeparator);
+    }
+    return text;
+}
+
+// Returns the number that the text is; the text itself if it is none.
+Json numberOr(const std::string& text) {
+    const Json number = Json::parse(text, nullptr, false);
+    return number.is_number() ? numberJson(number.get<double>()) : Json(text);
 }
 
 }  // namespace
 
+Json valueSchema(const Setting& setting) {
+    if (!setting.schema.empty()) return Json::parse(setting.schema);
+    switch (setting.kind) {
+        case SettingKind::number:
+        case SettingKind::integer: {
+            const Json range = rangeJson(setting.kind == SettingKind::number ? "number" : "integer", setting);
+            if (setting.choices.empty()) return range;
+            return {{"anyOf", {range, {{"enum", setting.choices}}}}};
+        }
+        case SettingKind::boolean:
+            return {{"type", "boolean"}};
+        case SettingKind::choice:
+            return {{"enum", setting.choices}};
+        case SettingKind::text:
+        case SettingKind::path:
+        case SettingKind::other:
+            break;
+    }
+    return {{"type", "string"}, {"minLength", 1}};
+}
+
 std::string settingText(const Setting& setting, const JsonReader& reader) {
-    std::string text = textOf(setting, reader);
+    const Json schema = valueSchema(setting);
+    if (!accepts(schema, reader.value())) reader.failExpecting(schemaInWords(schema));
+    std::string text = textOf(reader.value(), setting.arraySeparator);
     try {
         Request scratch;
         setting.set(scratch, text);
@@ -75,22 +82,13 @@ std::string settingText(const Setting& setting, const JsonReader& reader) {
     return text;
 }
 
-nlohmann::ordered_json settingJson(const Setting& setting, const std::string& text) {
-    Request request;
-    setting.set(request, text);
-    if (setting.name == "size") return {request.width, request.height};
-    if (setting.name == "background" && request.background == Background::uniform) {
-        nlohmann::ordered_json colour = nlohmann::ordered_json::array();
-        for (const float channel : request.backgroundColor) colour.push_back(channel);
-        return colour;
-    }
-    if (setting.name == "motionSegments") return request.shutter.motionSegments;
-    if (std::ranges::find(setting.choices, text) != setting.choices.end()) return text;
-    if (setting.kind == SettingKind::number) return parseNumber(text, {setting.least, setting.most});
-    if (setting.kind == SettingKind::whole)
-        return parseWhole(text, static_cast<std::uint64_t>(setting.least), static_cast<std::uint64_t>(setting.most));
-    if (setting.kind == SettingKind::truth) return text == "true";
-    return text;
+Json settingJson(const Setting& setting, const std::string& text) {
+    const Json schema = valueSchema(setting);
+    for (const Json& value : {Json(text == "true"), numberOr(text), Json(text)})
+        if (accepts(schema, value)) return value;
+    Json array = Json::array();
+    for (const std::string& part : splitAt(text, setting.arraySeparator)) array.push_back(numberOr(part));
+    return array;
 }
 
 }  // namespace defocus

@@ -1,19 +1,22 @@
 #pragma once
-// Settings of a request as a shot has them: JSON values by the kind of the setting.
+// Settings as JSON values in shots, by the columns of the table of settings.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "capture/json_reader.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 
 namespace defocus {
 
-// The value under `reader` as Setting::set reads it. Throws Error naming the place for what the setting doesn't take;
-// paths stay as they stand there.
+// Returns the JSON schema of the setting's value.
+nlohmann::ordered_json valueSchema(const Setting& setting);
+
+// Returns the value as text for Setting::set. Throws Error naming the place if the setting doesn't take it. Paths are
+// not resolved.
 std::string settingText(const Setting& setting, const JsonReader& reader);
 
-// The inverse.
+// Returns the JSON value of a setting's text: the inverse of settingText.
 nlohmann::ordered_json settingJson(const Setting& setting, const std::string& text);
 
 }  // namespace defocus

@@ -33,16 +33,8 @@ struct LensTrack {
     Easing easing = Easing::smooth;
 };
 
-// px from the left and from the top, of an image of the shot's size.
-struct FocusPixel {
-    int column = 0;
-    int row = 0;
-};
-struct FocusAuto {};
-
-// At each frame anew: a distance in m, a node that is followed (the depth of its centre), what a pixel shows, or the
-// median depth of what the image's middle shows.
-using FocusTarget = std::variant<double, std::string, FocusPixel, FocusAuto>;
+// Found anew for each frame, so that the focus follows what moves. A pixel is of an image of the shot's size.
+using FocusTarget = std::variant<FocusDistance, FocusNode, FocusPixel, FocusAuto>;
 
 struct FocusTrack {
     std::vector<Key<FocusTarget>> keys;
@@ -77,7 +69,7 @@ using ShotMovement = std::variant<std::monostate, CameraKeys, Turntable, Dolly>;
 // of lens samples for each frame. A number that changes from frame to frame would be seen.
 inline Request shotDefaults() {
     Request request;
-    request.settings.sampleCount = RenderSettings{}.sampleCount;
+    request.samples = RenderSettings{}.sampleCount;
     return request;
 }
 

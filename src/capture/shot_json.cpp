@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_text.h"
-#include "frame/presets.h"
+#include "frame/settings/presets.h"
 #include "lens/lens_fields.h"
 #include "render/methods.h"
 #include "scene/built_in_environment.h"
@@ -52,8 +52,8 @@ FrameRange rangeOf(const JsonReader& reader) {
     const char* what = "two frames, the first and the last";
     const std::vector<JsonReader> ends = reader.elements(2, what);
     if (ends.size() != 2) reader.failExpecting(what);
-    const FrameRange range{static_cast<int>(ends[0].whole(0, mostFrame)),
-                           static_cast<int>(ends[1].whole(0, mostFrame))};
+    const FrameRange range{static_cast<int>(ends[0].integer(0, mostFrame)),
+                           static_cast<int>(ends[1].integer(0, mostFrame))};
     if (range.last < range.first) reader.failExpecting("a last frame that isn't before the first");
     return range;
 }
@@ -133,20 +133,20 @@ bool namesFocusTarget(const JsonReader& reader) {
 FocusTarget focusTargetOf(const JsonReader& reader) {
     if (std::ranges::count_if(focusTargets, [&](const std::string& name) { return reader.has(name.c_str()); }) != 1)
         reader.failWith("give one of 'node', 'distance', 'pixel' and 'auto'");
-    if (const auto node = reader.find("node")) return node->text();
+    if (const auto node = reader.find("node")) return FocusNode{node->text()};
     if (const auto pixel = reader.find("pixel")) {
         const char* what = "a column and a row in pixels";
         const std::vector<JsonReader> places = pixel->elements(2, what);
         if (places.size() != 2) pixel->failExpecting(what);
-        return FocusPixel{static_cast<int>(places[0].whole(0, mostPixels - 1)),
-                          static_cast<int>(places[1].whole(0, mostPixels - 1))};
+        return FocusPixel{{static_cast<int>(places[0].integer(0, maxImageSide - 1)),
+                           static_cast<int>(places[1].integer(0, maxImageSide - 1))}};
     }
     if (const auto automatic = reader.find("auto")) {
-        if (!automatic->truth()) automatic->failExpecting("true");
+        if (!automatic->boolean()) automatic->failExpecting("true");
         return FocusAuto{};
     }
     const LensField& field = *lensFieldNamed("focusDistance");
-    return reader.at("distance").number(field.least, field.most);
+    return FocusDistance{reader.at("distance").number(field.least, field.most)};
 }
 
 FocusTrack focusOf(const JsonReader& reader) {
@@ -166,10 +166,10 @@ FocusTrack focusOf(const JsonReader& reader) {
 }
 
 double lensNumberOf(const JsonReader& reader, const LensField& field) {
-    if (std::holds_alternative<bool Lens::*>(field.member)) return reader.truth() ? 1 : 0;
+    if (std::holds_alternative<bool Lens::*>(field.member)) return reader.boolean() ? 1 : 0;
     const bool whole = std::holds_alternative<int Lens::*>(field.member);
-    const double value = whole ? static_cast<double>(reader.whole(static_cast<std::int64_t>(field.least),
-                                                                  static_cast<std::int64_t>(field.most)))
+    const double value = whole ? static_cast<double>(reader.integer(static_cast<std::int64_t>(field.least),
+                                                                    static_cast<std::int64_t>(field.most)))
                                : reader.number(field.least, field.most);
     try {
         Lens scratch;
@@ -289,7 +289,7 @@ void readSettings(const JsonReader& reader, Shot& shot) {
         if (setting.name != "preset") continue;
         for (const PresetValue& each : presetNamed(*setting.text(shot.request)).values) shot.given.insert(each.setting);
     }
-    if (const auto exact = findPlace(reader, "/shutter/exact"); exact && exact->truth()) {
+    if (const auto exact = findPlace(reader, "/shutter/exact"); exact && exact->boolean()) {
         settingNamed("motionSegments")->set(shot.request, "exact");
         shot.given.insert("motionSegments");
     }
@@ -331,7 +331,7 @@ Shot shotOf(const json& document, const fs::path& file) {
     if (const auto rate = reader.find("frameRate")) shot.frameRate = rate->number(1e-3, 1e6);
     if (const auto range = reader.find("range")) shot.range = rangeOf(*range);
     if (const auto camera = reader.find("camera")) shot.movement = movementOf(*camera);
-    if (const auto animate = reader.find("animateSeed")) shot.animateSeed = animate->truth();
+    if (const auto animate = reader.find("animateSeed")) shot.animateSeed = animate->boolean();
     if (const auto focus = reader.find("focus")) shot.focus = focusOf(*focus);
     if (const auto lens = reader.find("lens")) shot.lens = lensOf(*lens);
     if (const auto keys = reader.find("methodKeys")) shot.methodKeys = methodKeysOf(*keys);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
 namespace defocus {
@@ -17,23 +17,23 @@ bool cameraPlaced(const Request& request) {
     return request.cameraPosition || request.cameraTarget || request.cameraUp;
 }
 
-// Where the request ask for a focus that each frame finds anew, it becomes the shot's: frames may show what the first
-// pose doesn't.
+// Takes a focus that each frame finds anew from the request, since frames may show what the first pose doesn't.
 std::optional<FocusTarget> takeFocusTarget(Request& request) {
+    const Focus focus = request.focus;
     std::optional<FocusTarget> target;
-    if (!request.focusNode.empty()) target = std::exchange(request.focusNode, {});
-    if (request.focusPixel) target = FocusPixel{request.focusPixel->column, request.focusPixel->row};
-    if (request.focusAuto) target = FocusAuto{};
-    request.focusPixel.reset();
-    request.focusAuto = false;
+    if (const auto* const node = std::get_if<FocusNode>(&focus)) target = *node;
+    if (const auto* const pixel = std::get_if<FocusPixel>(&focus)) target = *pixel;
+    if (std::holds_alternative<FocusAuto>(focus)) target = FocusAuto{};
+    if (target) request.focus = CameraFocus{};
     return target;
 }
 
 // What focus points set of the lens.
 std::vector<const char*> fieldsOfFocusPoints(const Request& request) {
-    std::vector<const char*> fields;
-    if (!request.focusPoints.empty()) fields = {"focusDistance", "focusTilt", "focusSwing"};
-    if (request.focusPoints.size() > 3) fields.push_back("fieldCurvature");
+    const auto* const points = std::get_if<FocusPoints>(&request.focus);
+    if (points == nullptr) return {};
+    std::vector<const char*> fields = {"focusDistance", "focusTilt", "focusSwing"};
+    if (points->pixels.size() > 3) fields.push_back("fieldCurvature");
     return fields;
 }
 
@@ -41,17 +41,19 @@ std::vector<const char*> fieldsOfFocusPoints(const Request& request) {
 void scaleFocusPixels(Shot& shot, const Request& request) {
     if (!shot.focus || !shot.given.contains("size")) return;
     for (auto& key : shot.focus->keys)
-        if (auto* pixel = std::get_if<FocusPixel>(&key.value)) {
-            pixel->column = static_cast<int>((pixel->column + 0.5) * request.width / shot.request.width);
-            pixel->row = static_cast<int>((pixel->row + 0.5) * request.height / shot.request.height);
+        if (auto* const at = std::get_if<FocusPixel>(&key.value)) {
+            const ImageSize& own = shot.request.size;
+            at->pixel = {static_cast<int>((at->pixel.column + 0.5) * request.size.width / own.width),
+                         static_cast<int>((at->pixel.row + 0.5) * request.size.height / own.height)};
         }
 }
 
 // A shot with lengths in metres is of a scene that its author knows to be in metres.
 bool saysLength(const Shot& shot) {
     if (std::holds_alternative<CameraKeys>(shot.movement) || std::holds_alternative<Dolly>(shot.movement)) return true;
-    return shot.focus && std::ranges::any_of(shot.focus->keys,
-                                             [](const auto& key) { return std::holds_alternative<double>(key.value); });
+    return shot.focus && std::ranges::any_of(shot.focus->keys, [](const auto& key) {
+               return std::holds_alternative<FocusDistance>(key.value);
+           });
 }
 
 // Throws Error for keys of a setting that the method doesn't have.
@@ -75,22 +77,19 @@ void applyShot(const Shot& shot, Request& request) {
 
 void settleShot(Shot& shot, Request& request, const GivenOptions& given) {
     if (given.camera || cameraPlaced(request)) shot.movement = {};
-    if (shot.shutterAngle && !given.shutter) request.shutter.seconds = *shot.shutterAngle / 360 / shot.frameRate;
+    if (shot.shutterAngle && !given.shutter) request.shutter = *shot.shutterAngle / 360 / shot.frameRate;
     scaleFocusPixels(shot, request);
-    const bool focusGiven = request.lens.focusDistance || !request.focusNode.empty() || request.focusPixel ||
-                            !request.focusPoints.empty() || request.focusAuto;
-    if (focusGiven) {
+    if (!std::holds_alternative<CameraFocus>(request.focus)) {
         shot.focus.reset();
         shot.lens.erase("focusDistance");
     }
     for (const char* const name : fieldsOfFocusPoints(request)) shot.lens.erase(name);
     if (std::optional<FocusTarget> target = takeFocusTarget(request)) shot.focus = FocusTrack{.keys = {{0, *target}}};
-    if (!request.metresPerUnit && saysLength(shot)) request.metresPerUnit = 1;
-    if (request.lens.exposureTime && shot.given.contains("exposure")) request.exposure.reset();
-    const LensValues lens = givenLensValues(request.lens);
+    if (!request.units && saysLength(shot)) request.units = 1;
+    if (request.lens.exposureTime && shot.given.contains("exposure")) request.exposure = DefaultExposure{};
+    const LensValues lens = givenLensValues(request);
     std::erase_if(shot.lens, [&](const auto& entry) { return lens.contains(entry.first); });
-    for (const auto& [name, track] : shot.lens)
-        giveLensValue(request.lens, *lensFieldNamed(name), track.keys.front().value);
+    for (const auto& [name, track] : shot.lens) giveLensValue(request, *lensFieldNamed(name), track.keys.front().value);
     shot.request = request;
     checkMethodKeys(shot);
 }
@@ -103,9 +102,9 @@ SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request) {
     base.lights = frame.world.lights;
     base.camera = request.camera;
     base.cameraStands = cameraPlaced(request);
-    base.hidden = request.hidden;
-    base.shutter = request.shutter;
-    for (const auto& [name, value] : givenLensValues(request.lens)) base.fixedLens.insert(name);
+    base.hidden = request.hide;
+    base.shutter = shutterSettings(request);
+    for (const auto& [name, value] : givenLensValues(request)) base.fixedLens.insert(name);
     for (const char* const name : fieldsOfFocusPoints(request)) base.fixedLens.insert(name);
     base.centre = frame.world.pose.bounds.centre();
     return base;

@@ -17,8 +17,8 @@
 #include "core/file.h"
 #include "eval/speedup/text.h"
 #include "frame/prepared_frame.h"
-#include "frame/presets.h"
 #include "frame/program_facts.h"
+#include "frame/settings/presets.h"
 #include "gl/context.h"
 
 namespace defocus {
@@ -59,7 +59,7 @@ void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) 
 
     SpeedupOptions options = arguments.speedup;
     options.renderer.layerFormat = arguments.request.layerFormat;
-    options.renderer.wave = arguments.request.wave;
+    options.renderer.wave = arguments.request.wave.value_or(0);
     options.renderer.shaderFolder = global.shaderDir;
     const BenchSubject subject = benchSubject(*context, global, frame, options.runs);
     fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
@@ -87,7 +87,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
         "speedup", "A fixed camera: frame time and image of full detail, nearest and fractional levels");
     const char* group = "Measurement";
     SpeedupOptions& options = arguments->speedup;
-    addWholes(*command, "--counts", options.sampleCounts, 1, mostSamples, "Numbers of lens samples")->group(group);
+    addIntegers(*command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples")->group(group);
     addNumbers(*command, "--fstops", options.fStops, {0.001, 1e6}, "N,N,…", "Further f-numbers, at 64 samples")
         ->group(group);
     addNumbers(*command, "--focus-distances", options.focusDistances, {1e-6, 1e12}, "M,M,…",
@@ -97,15 +97,15 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
               "Further methods, each with its settings, as in scheuermann,circular:far-components=2",
               [&options](const std::string& text) { options.methods = parseMethods(text); })
         ->group(group);
-    addWhole(*command, "--runs", options.runs, 1, 1000, "Runs of each mode; the median counts")->group(group);
-    addWhole(*command, "--seeds", options.seeds, 1, 1000,
-             "Seeds that the runs go through, so that errors have a spread, too; at most as many as runs")
+    addInteger(*command, "--runs", options.runs, 1, 1000, "Runs of each mode; the median counts")->group(group);
+    addInteger(*command, "--seeds", options.seeds, 1, 1000,
+               "Seeds that the runs go through, so that errors have a spread, too; at most as many as runs")
         ->group(group);
     addParsed(*command, "--reference-samples", "N",
               "Lens samples of the converged reference that each lens is compared with; without it, eight times the "
               "most that are measured with the lens; 0: no reference",
               [&options](const std::string& text) {
-                  options.referenceSamples = static_cast<std::uint32_t>(parseWhole(text, 0, mostSamples));
+                  options.referenceSamples = static_cast<std::uint32_t>(parseInteger(text, 0, maxSamples));
               })
         ->group(group);
     CLI::Option* output =
@@ -137,7 +137,7 @@ void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
 
 Request measuredRequest() {
     Request request;
-    request.metresPerUnit = 1;
+    request.units = 1;
     return request;
 }
 
@@ -150,10 +150,10 @@ void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list
 }
 
 void addAllowChanged(CLI::App& command, bool& allowed) {
-    command
-        .add_flag("--allow-changed", allowed,
-                  "Write results even if the program was built from sources that differ from their commit")
-        ->group("Output");
+    advanced(command
+                 .add_flag("--allow-changed", allowed,
+                           "Write results even if the program was built from sources that differ from their commit")
+                 ->group("Output"));
 }
 
 void refuseChangedSources(const std::filesystem::path& output, bool allowed, const std::string& commit) {

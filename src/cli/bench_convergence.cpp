@@ -25,8 +25,8 @@
 #include "eval/convergence/text.h"
 #include "eval/convergence/unlit_scene.h"
 #include "frame/prepared_frame.h"
-#include "frame/presets.h"
-#include "frame/settings.h"
+#include "frame/settings/presets.h"
+#include "frame/settings/settings.h"
 #include "gl/context.h"
 #include "image/colour_map.h"
 #include "image/image_io.h"
@@ -169,14 +169,14 @@ bool isAsked(const ConvergenceOptions& options, const MethodUse& published) {
 
 // The presets' forms of the methods. Those that draw levels get pyramids of their own, which `frames` keeps; `frame`
 // has none yet.
-std::vector<PublishedForm> publishedForms(const PreparedFrame& frame, const ConvergenceOptions& options,
-                                          std::deque<PreparedFrame>& frames, Progress& progress) {
+std::vector<PublishedForm> publishedForms(const Request& scene, const PreparedFrame& frame,
+                                          const ConvergenceOptions& options, std::deque<PreparedFrame>& frames,
+                                          Progress& progress) {
     std::vector<PublishedForm> forms;
     for (const Preset& preset : presets()) {
-        Request request;
-        request.settings = frame.settings;
+        Request request = scene;
         applyPreset(preset, request);
-        PublishedForm form{.preset = preset.name, .use = chosenMethod(request), .plan = request.settings};
+        PublishedForm form{.preset = preset.name, .use = chosenMethod(request), .plan = renderSettings(request)};
         if (!isAsked(options, form.use)) continue;
         if (form.use.method->usesLensSamples && form.plan.lod != LodMode::off) {
             PreparedFrame& own = frames.emplace_back(frame);
@@ -197,7 +197,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     Request scene = arguments.request;
     scene.noCache = true;  // the time that pyramids take is part of the result
     const bool usesLevels = std::ranges::any_of(options.lods, [](LodMode mode) { return mode != LodMode::off; });
-    if (!usesLevels) scene.settings.lod = LodMode::off;
+    if (!usesLevels) scene.lod = LodMode::off;
     PreparedFrame frame = placeFrame(scene, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     makeFolders(arguments);
@@ -207,7 +207,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     }
     options.plan = frame.settings;
     options.renderer.layerFormat = scene.layerFormat;
-    options.renderer.wave = scene.wave;
+    options.renderer.wave = scene.wave.value_or(0);
     options.renderer.shaderFolder = global.shaderDir;
     const ReferenceOptions referenceOptions = {arguments.referenceSamples, options.renderer, frame.settings.shadows};
     const std::uint64_t referenced = referenceHash(frame.world, frame.view, referenceOptions);
@@ -220,7 +220,7 @@ void runConvergence(const ConvergenceArguments& arguments, const GlobalOptions& 
     const fs::path folder = resultsFolder(arguments);
     if (arguments.overwrite) writeFile(folder / "runs.csv", runsCsv({}, hash));
     std::deque<PreparedFrame> publishedFrames;
-    options.published = publishedForms(frame, options, publishedFrames, progress);
+    options.published = publishedForms(scene, frame, options, publishedFrames, progress);
     addPyramids(frame, progress);
 
     // The reference, and where to look.
@@ -276,7 +276,7 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
             })
         ->default_str("published,best,standard")
         ->group(group);
-    addWholes(command, "--counts", options.sampleCounts, 1, mostSamples, "Numbers of lens samples")->group(group);
+    addIntegers(command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples")->group(group);
     addList(command, "--lod", "off,nearest,fractional,continuous", options.lods,
             "Levels of detail, of methods that draw levels",
             [](const std::string& part) {
@@ -302,12 +302,13 @@ void addMeasurement(CLI::App& command, ConvergenceArguments& arguments) {
         ->group(group);
     options.runs = 5;
     options.seeds = 5;
-    addWhole(command, "--runs", options.runs, 1, 1000, "Frames of each; the median counts")->group(group);
-    addWhole(command, "--seeds", options.seeds, 1, 1000,
-             "Sets of sample points, which the runs take in turn: the error is their mean, with the least and the most")
+    addInteger(command, "--runs", options.runs, 1, 1000, "Frames of each; the median counts")->group(group);
+    addInteger(
+        command, "--seeds", options.seeds, 1, 1000,
+        "Sets of sample points, which the runs take in turn: the error is their mean, with the least and the most")
         ->group(group);
-    addWhole(command, "--reference-samples", arguments.referenceSamples, 2, mostSamples,
-             "Lens samples of the reference, which is kept beside the results and used again")
+    addInteger(command, "--reference-samples", arguments.referenceSamples, 2, maxSamples,
+               "Lens samples of the reference, which is kept beside the results and used again")
         ->group(group);
 }
 

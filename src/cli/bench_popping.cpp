@@ -91,8 +91,7 @@ void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) 
 
 void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<PoppingArguments>();
-    arguments->request.width = 320;
-    arguments->request.height = 240;
+    arguments->request.size = {320, 240};
     CLI::App* command = bench.add_subcommand(
         "popping",
         "A focus pull, a dolly, a turntable and the scene's clip: what levels add to the change from frame to frame");
@@ -102,13 +101,13 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
         settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "exposureTime", "iso"}));
     const char* group = "Measurement";
     PoppingOptions& options = arguments->options;
-    addWholes(*command, "--counts", options.sampleCounts, 1, 4096, "Numbers of lens samples")->group(group);
-    addWhole(*command, "--frames", options.frames, 2, 10'000,
-             "Frames of each movement: the stretch of it over which levels change most often")
+    addIntegers(*command, "--counts", options.sampleCounts, 1, 4096, "Numbers of lens samples")->group(group);
+    addInteger(*command, "--frames", options.frames, 2, 10'000,
+               "Frames of each movement: the stretch of it over which levels change most often")
         ->group(group);
-    addWhole(*command, "--path-frames", options.pathFrames, 2, 100'000,
-             "Frames that a whole movement takes (focus from the nearest to the farthest object, dolly over half the "
-             "focus distance, once around, the clip once): its speed")
+    addInteger(*command, "--path-frames", options.pathFrames, 2, 100'000,
+               "Frames that a whole movement takes (focus from the nearest to the farthest object, dolly over half the "
+               "focus distance, once around, the clip once): its speed")
         ->group(group);
     CLI::Option* output =
         command->add_option("-o,--output", arguments->folder, "Folder for popping.csv and popping.json")

@@ -31,8 +31,8 @@ void runPrediction(const PredictionArguments& arguments, const GlobalOptions& gl
     const PreparedFrame frame = placeFrame(arguments.request, progress);
     const std::unique_ptr<GlContext> context = createHeadlessContext();
     PredictionOptions options = arguments.options;
-    options.width = arguments.request.width;
-    options.height = arguments.request.height;
+    options.width = arguments.request.size.width;
+    options.height = arguments.request.size.height;
     options.renderer.shaderFolder = global.shaderDir;
     BenchSubject subject = benchSubject(*context, global);
     subject.scene = frame.sceneName;
@@ -58,8 +58,7 @@ void runPrediction(const PredictionArguments& arguments, const GlobalOptions& gl
 
 void addPredictionCommand(CLI::App& bench, const GlobalOptions& global) {
     auto arguments = std::make_shared<PredictionArguments>();
-    arguments->request.width = arguments->options.width;
-    arguments->request.height = arguments->options.height;
+    arguments->request.size = {arguments->options.width, arguments->options.height};
     CLI::App* command = bench.add_subcommand(
         "prediction",
         "A scene's largest mesh alone, level by level under growing blur: the error that its pyramid "

@@ -107,7 +107,7 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
             "Also two large scenes, 100 million triangles in instances and 10,000 different objects: time of the "
             "plan, memory, and the first image; their pyramids take minutes")
         ->group(group);
-    addWhole(*command, "--runs", options.runs, 1, 1000, "Runs of each frame; the median counts")->group(group);
+    addInteger(*command, "--runs", options.runs, 1, 1000, "Runs of each frame; the median counts")->group(group);
     addSettings(*command, arguments->request, {"cacheFolder"});
     CLI::Option* output =
         command->add_option("-o,--output", arguments->folder, "Folder for scaling.csv and scaling.json")

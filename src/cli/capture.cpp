@@ -81,9 +81,9 @@ void checkArguments(const CaptureArguments& arguments) {
         checkVideo(arguments.shot.video);
     }
     if (!arguments.sampleRange) return;
-    if (arguments.request.stop.targetError)
+    if (arguments.request.targetError)
         throw UsageError("--sample-range needs a number of samples, which --target-error leaves open");
-    checkSampleRange(*arguments.sampleRange, arguments.request.settings.sampleCount);
+    checkSampleRange(*arguments.sampleRange, arguments.request.samples.value_or(maxSamples));
     if (arguments.shot.outputs.size() != 1 || fs::path(arguments.shot.outputs.front()).extension() != ".exr")
         fail("--sample-range writes the sums of samples to one EXR pattern, such as -o frames/####.exr");
 }
@@ -101,10 +101,10 @@ FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& s
 
 void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
                const std::vector<FilmFrame>& film) {
-    const StopSettings& stop = arguments.request.stop;
+    const StopSettings stop = stopSettings(arguments.request);
     const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
-                                : isAutomatic(arguments.request) ? "as many samples as each frame asks for"
-                                                                 : fmt::format("{} samples", base.settings.sampleCount);
+                                : stop.automatic ? "as many samples as each frame asks for"
+                                                 : fmt::format("{} samples", base.settings.sampleCount);
     fmt::print("{}, camera '{}', {}x{}, {}, {:g} frames a second\n", prepared.sceneName, prepared.cameraName,
                base.view.width, base.view.height, samples, arguments.shot.frameRate);
     fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
@@ -129,7 +129,8 @@ FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& 
                                                      const RenderStats& stats) {
         Request options = arguments.request;
         options.time = frame.time;
-        options.stop.timeLimit.reset();
+        options.timeLimit.reset();
+        options.seed = frame.settings.seed;
         Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0, exposure});
         metadata.erase("defocus:seconds");
         metadata["capDate"] = std::string();  // else the library puts the time of writing there
@@ -175,16 +176,17 @@ FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, c
                          const std::vector<FilmFrame>& film, FilmOptions& options, const MethodUse& use,
                          const GlobalOptions& global, const Progress& progress) try {
     const Request& request = arguments.request;
-    FrameDriver driver(prepared.world,
-                       {use, {request.memory, request.wave, request.layerFormat}, global.shaderDir, filmPixelBytes});
+    FrameDriver driver(
+        prepared.world,
+        {use, {request.memory, request.wave.value_or(0), request.layerFormat}, global.shaderDir, filmPixelBytes});
     const std::optional<double> exposure =
-        options.metered ? std::optional(film.front().write.exposure) : request.exposure;
+        options.metered ? std::optional(film.front().write.exposure) : exposureOf(request);
     stopWhenAsked();
     // With a time limit at least one frame is rendered, so that run after run ends some day.
     const Clock::time_point start = Clock::now();
     bool first = true;
     const auto stop = [&] {
-        const std::optional<double> limit = arguments.request.stop.timeLimit;
+        const std::optional<double> limit = arguments.request.timeLimit;
         const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;
         return stopAsked() || late;
     };
@@ -217,7 +219,7 @@ void runCapture(CaptureArguments& arguments, const GivenOptions& given, const Gl
     if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
     checkArguments(arguments);
     const MethodUse use = chosenMethod(arguments.request);
-    if (arguments.request.stop.targetError) checkStop(arguments.request);
+    if (arguments.request.targetError) checkStop(arguments.request);
     Progress progress = terminalProgress(global);
     PreparedFrame prepared = placedFrame(arguments, progress);
     const SequenceBase base = sequenceBase(prepared, arguments.request);
@@ -274,8 +276,8 @@ void parseShard(const std::string& text, Shard& shard) {
     const std::size_t slash = text.find('/');
     try {
         if (slash == std::string::npos) throw Error("");
-        shard.count = static_cast<int>(parseWhole(text.substr(slash + 1), 1, 1'000'000));
-        shard.index = static_cast<int>(parseWhole(text.substr(0, slash), 0, 999'999));
+        shard.count = static_cast<int>(parseInteger(text.substr(slash + 1), 1, 1'000'000));
+        shard.index = static_cast<int>(parseInteger(text.substr(0, slash), 0, 999'999));
     } catch (const Error&) {
         fail("'{}' is not I/N, such as 0/4: part I, from 0 to N-1, of N", text);
     }
@@ -288,20 +290,21 @@ void parseShard(const std::string& text, Shard& shard) {
 // they were added.
 void addShot(CLI::App& command, CaptureArguments& arguments) {
     const char* group = "Shot";
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--set",
-            [&arguments](const std::vector<std::string>& texts) {
-                try {
-                    for (const std::string& text : texts) arguments.overrides.push_back(parseShotOverride(text));
-                } catch (const Error& error) {
-                    throw CLI::ValidationError(error.what());  // a fault of the command line
-                }
-            },
-            "Replaces a value of the shot, by its place: --set /lens/fStop=1.4. Can be given several times")
-        ->allow_extra_args(false)
-        ->type_name("/PLACE=VALUE")
-        ->group(group);
+    advanced(command
+                 .add_option_function<std::vector<std::string>>(
+                     "--set",
+                     [&arguments](const std::vector<std::string>& texts) {
+                         try {
+                             for (const std::string& text : texts)
+                                 arguments.overrides.push_back(parseShotOverride(text));
+                         } catch (const Error& error) {
+                             throw CLI::ValidationError(error.what());  // a fault of the command line
+                         }
+                     },
+                     "Replaces a value of the shot, by its place: --set /lens/fStop=1.4. Can be given several times")
+                 ->allow_extra_args(false)
+                 ->type_name("/PLACE=VALUE")
+                 ->group(group));
     command
         .add_option_function<std::string>(
             "SHOT",
@@ -316,12 +319,12 @@ void addShot(CLI::App& command, CaptureArguments& arguments) {
               [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
         ->group(group);
     addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frames a second")->group(group);
-    addNumber(command, "--speed", arguments.shot.animationSpeed, {-1e3, 1e3}, "R", "Of the scene's animation")
-        ->group(group);
-    command
-        .add_flag("--animate-seed", arguments.shot.animateSeed,
-                  "Other sample positions in each frame, so that the noise moves like film grain")
-        ->group(group);
+    advanced(addNumber(command, "--speed", arguments.shot.animationSpeed, {-1e3, 1e3}, "R", "Of the scene's animation")
+                 ->group(group));
+    advanced(command
+                 .add_flag("--animate-seed", arguments.shot.animateSeed,
+                           "Other sample positions in each frame, so that the noise moves like film grain")
+                 ->group(group));
 }
 
 void addOutputs(CLI::App& command, CaptureArguments& arguments) {
@@ -345,13 +348,15 @@ void addOutputs(CLI::App& command, CaptureArguments& arguments) {
                   "With --resume: render frames anew that were made with other settings")
         ->needs(resume)
         ->group(group);
-    addParsed(command, "--shard", "I/N", "Render part I (0 to N-1) of the frames; N machines share a film",
-              [&arguments](const std::string& text) { parseShard(text, arguments.shard); })
-        ->group(group);
-    addParsed(command, "--sample-range", "FIRST:END",
-              "Of each frame, sum up only these samples (multiples of 64) to #.partFIRST-END.exr, for 'defocus merge'",
-              [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
-        ->group(group);
+    advanced(addParsed(command, "--shard", "I/N", "Render part I (0 to N-1) of the frames; N machines share a film",
+                       [&arguments](const std::string& text) { parseShard(text, arguments.shard); })
+                 ->group(group));
+    advanced(
+        addParsed(
+            command, "--sample-range", "FIRST:END",
+            "Of each frame, sum up only these samples (multiples of 64) to #.partFIRST-END.exr, for 'defocus merge'",
+            [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
+            ->group(group));
     command.add_flag("--dry-run", arguments.dryRun, "Print what each frame would be, and render nothing")->group(group);
 }
 

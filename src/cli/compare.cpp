@@ -158,12 +158,14 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
     CLI::Option* hdr = command->add_flag("--hdr", arguments->hdr,
                                          "FLIP for HDR images: the worst over several exposures, instead of at EV 0");
     const Range exposures = {-60, 60};
-    addNumber(*command, "--start-exposure", arguments->hdrFlip.startExposure, exposures, "EV",
-              "First exposure of --hdr")
-        ->needs(hdr);
-    addNumber(*command, "--stop-exposure", arguments->hdrFlip.stopExposure, exposures, "EV", "Last exposure of --hdr")
-        ->needs(hdr);
-    addWhole(*command, "--exposures", arguments->hdrFlip.exposures, 1, 64, "Number of exposures of --hdr")->needs(hdr);
+    advanced(addNumber(*command, "--start-exposure", arguments->hdrFlip.startExposure, exposures, "EV",
+                       "First exposure of --hdr")
+                 ->needs(hdr));
+    advanced(addNumber(*command, "--stop-exposure", arguments->hdrFlip.stopExposure, exposures, "EV",
+                       "Last exposure of --hdr")
+                 ->needs(hdr));
+    advanced(addInteger(*command, "--exposures", arguments->hdrFlip.exposures, 1, 64, "Number of exposures of --hdr")
+                 ->needs(hdr));
     command
         ->add_option("--fail-above", arguments->failAbove,
                      "METRIC=VALUE: exit with 1 when a metric is worse than VALUE: above it, or below it for psnr "

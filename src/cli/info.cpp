@@ -305,7 +305,7 @@ void printScene(const InfoOptions& options, const Scene& scene, const Pose& pose
 
 void runCameraInfo(const InfoOptions& options, const GlobalOptions& global) {
     Request seen = options.seen;
-    if (options.camera != flagOnly) seen.camera = options.camera;
+    if (options.camera != flagOnly) setByName(seen, "camera", options.camera);
     const PreparedFrame frame = placeFrame(seen, terminalProgress(global));
     printCacheUse(frame, global);
     WarningPrinter(global).print(frameWarnings(frame));

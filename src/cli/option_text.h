@@ -21,6 +21,12 @@ namespace defocus {
 CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
                        const std::string& description, std::function<void(const std::string&)> parse);
 
+// Marks an option that only --help-all shows. CLI11 has no such mark; `configurable` is free for it, as the program
+// reads no configuration files.
+inline CLI::Option* advanced(CLI::Option* option) {
+    return option->configurable(false);
+}
+
 // A check whose name --help leaves out: the description says what is allowed.
 inline CLI::Validator unnamed(const CLI::Validator& check) {
     return check.description("");
@@ -33,11 +39,11 @@ CLI::Option* addNumber(CLI::App& command, const std::string& names, double& targ
                        const std::string& type, const std::string& description);
 
 template <typename Whole>
-CLI::Option* addWhole(CLI::App& command, const std::string& names, Whole& target, std::uint64_t least,
-                      std::uint64_t most, const std::string& description) {
+CLI::Option* addInteger(CLI::App& command, const std::string& names, Whole& target, std::uint64_t least,
+                        std::uint64_t most, const std::string& description) {
     return addParsed(command, names, "N", description,
                      [&target, least, most](const std::string& text) {
-                         target = static_cast<Whole>(parseWhole(text, least, most));
+                         target = static_cast<Whole>(parseInteger(text, least, most));
                      })
         ->default_str(std::to_string(target));
 }
@@ -60,10 +66,11 @@ CLI::Option* addNumbers(CLI::App& command, const std::string& names, std::vector
                         const std::string& type, const std::string& description);
 
 template <typename Whole>
-CLI::Option* addWholes(CLI::App& command, const std::string& names, std::vector<Whole>& target, std::uint64_t least,
-                       std::uint64_t most, const std::string& description) {
-    return addList(command, names, "N,N,…", target, description,
-                   [least, most](const std::string& part) { return static_cast<Whole>(parseWhole(part, least, most)); })
+CLI::Option* addIntegers(CLI::App& command, const std::string& names, std::vector<Whole>& target, std::uint64_t least,
+                         std::uint64_t most, const std::string& description) {
+    return addList(
+               command, names, "N,N,…", target, description,
+               [least, most](const std::string& part) { return static_cast<Whole>(parseInteger(part, least, most)); })
         ->default_str(fmt::format("{}", fmt::join(target, ",")));
 }
 

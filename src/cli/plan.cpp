@@ -25,7 +25,7 @@ struct PlanArguments {
 void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
     const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
     FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
-    if (isAutomatic(arguments.request)) {  // as a render begins, which may go on by what it sees
+    if (stopSettings(arguments.request).automatic) {  // as a render begins, which may go on by what it sees
         RenderSettings settings = frame.settings;
         settings.sampleCount = samplesForBlur(plan);
         plan = planFrame(frame.world, frame.view, settings);

@@ -4,22 +4,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string_view>
 
 #include "core/parse.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "render/methods.h"
 
 namespace defocus {
 
 namespace {
-
-// Options of the commands' own that few people need.
-constexpr auto rarelyUsed = std::to_array<std::string_view>(
-    {"--aov", "--sample-range", "--tile", "--stats", "--set", "--speed", "--animate-seed", "--shard", "--allow-changed",
-     "--shader-dir", "--points", "--start-exposure", "--stop-exposure", "--exposures"});
 
 std::string longName(const CLI::Option& option) {
     return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
@@ -97,8 +91,8 @@ CommandOutline outlineOf(const CLI::App& program) {
 }
 
 bool isEveryday(const CLI::Option& option) {
-    if (const Setting* setting = settingOf(option)) return setting->everyday;
-    return !isOfMethod(option) && std::ranges::find(rarelyUsed, longName(option)) == rarelyUsed.end();
+    const std::string name = longName(option);
+    return option.get_configurable() || name == "--help" || name == "--help-all";  // CLI11 marks its own two
 }
 
 std::string joinedNames(const CommandOutline& command) {

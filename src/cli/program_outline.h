@@ -31,7 +31,7 @@ struct CommandOutline {
 
 CommandOutline outlineOf(const CLI::App& program);
 
-// Is it among the options that most people use, which --help shows?
+// Returns whether --help shows the option; --help-all shows all, see advanced() in option_text.h.
 bool isEveryday(const CLI::Option& option);
 
 // "bench speedup"

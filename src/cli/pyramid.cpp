@@ -347,7 +347,7 @@ void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) 
 
     WarningPrinter(global).print(damageWarnings(scene));
     PyramidOptions options;
-    options.vertices = arguments.request.settings.levelVertices;
+    options.vertices = arguments.request.levelVertices;
     const Finishes finishes(scene);
     options.finishes = &finishes;
     if (const std::string failure = buildAll(scene, arguments.cacheFolder, options, reports, progress);
@@ -380,8 +380,8 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
     addSettings(*command, arguments->request, sceneSettings);
     command->add_option("--mesh", arguments->mesh, "Only the mesh of this name, as defocus info lists it")
         ->type_name("NAME");
-    CLI::Option* points = addWhole(*command, "--points", arguments->points, 100, 100'000'000,
-                                   "Points on each of two surfaces at which their distance is measured");
+    CLI::Option* points = advanced(addInteger(*command, "--points", arguments->points, 100, 100'000'000,
+                                              "Points on each of two surfaces at which their distance is measured"));
     command->add_flag("--no-measure", arguments->noMeasure, "Don't measure distances, which takes longer than the rest")
         ->excludes(points);
     command->add_option("--export", arguments->exportFolder, "Write each level into this folder as a .glb of its own")

@@ -48,34 +48,36 @@ void addOutputs(CLI::App& command, RenderArguments& arguments) {
         ->type_name("FILE")
         ->default_str("out.exr")
         ->group(group);
-    addParsed(
-        command, "--aov", "depth,coc,level,rate,work,swept-work",
-        "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
-        "out.level.png (level of detail), out.rate.exr with out.rate.png (images that method multirate draws of an "
-        "object for a lens sample), out.work.exr with out.work.png (triangles that touch each pixel, "
-        "summed over the lens samples of the accumulation, hidden ones too) and out.swept-work.exr with "
-        "out.swept-work.png (triangles whose bounds over all of the lens cover each pixel: what a stochastic "
-        "rasteriser tests there)",
-        [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
-        ->group(group);
-    addParsed(command, "--sample-range", "FIRST:END",
-              "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
-              [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
-        ->group(group);
-    addParsed(command, "--tile", "I/N",
-              "Render part I (0 to N-1) of the image's rows, to an EXR file for 'defocus merge'",
-              [&arguments](const std::string& text) { arguments.tile = parseTileShare(text); })
-        ->group(group);
+    advanced(
+        addParsed(
+            command, "--aov", "depth,coc,level,rate,work,swept-work",
+            "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
+            "out.level.png (level of detail), out.rate.exr with out.rate.png (images that method multirate draws of an "
+            "object for a lens sample), out.work.exr with out.work.png (triangles that touch each pixel, "
+            "summed over the lens samples of the accumulation, hidden ones too) and out.swept-work.exr with "
+            "out.swept-work.png (triangles whose bounds over all of the lens cover each pixel: what a stochastic "
+            "rasteriser tests there)",
+            [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
+            ->group(group));
+    advanced(
+        addParsed(command, "--sample-range", "FIRST:END",
+                  "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
+                  [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
+            ->group(group));
+    advanced(addParsed(command, "--tile", "I/N",
+                       "Render part I (0 to N-1) of the image's rows, to an EXR file for 'defocus merge'",
+                       [&arguments](const std::string& text) { arguments.tile = parseTileShare(text); })
+                 ->group(group));
     command
         .add_flag(
             "--resume", arguments.resume,
             "Keep what an interrupted run of the same settings has finished: tiles of an image that doesn't fit into "
             "memory, which lie beside the first output in out.tiles, or the file of a --tile")
         ->group(group);
-    addParsed(command, "--stats", "FILE",
-              "Write times, triangles, memory and what was asked for as JSON; - is standard output",
-              [&arguments](const std::string& text) { arguments.stats = text; })
-        ->group(group);
+    advanced(addParsed(command, "--stats", "FILE",
+                       "Write times, triangles, memory and what was asked for as JSON; - is standard output",
+                       [&arguments](const std::string& text) { arguments.stats = text; })
+                 ->group(group));
 }
 
 // out.exr and "depth.exr" → out.depth.exr

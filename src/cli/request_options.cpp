@@ -10,18 +10,8 @@ namespace defocus {
 
 namespace {
 
-// Options that say the same thing in different ways: at most one of each line.
-const std::vector<std::vector<std::string>> alternatives = {
-    {"scene", "fishCount"},
-    {"scene", "trianglesPerFish"},
-    {"focusDistance", "focusNode", "focusPixel", "focusPoints", "focusAuto"},
-    {"exposure", "exposureTime"},
-    {"exposure", "iso"},
-    {"cacheFolder", "noCache"},
-};
-
-CLI::Option* addTruth(CLI::App& command, Request& request, const Setting& setting) {
-    // Both ways where a camera of the file may have it on or off.
+CLI::Option* addBoolean(CLI::App& command, Request& request, const Setting& setting) {
+    // A camera of the file may have it on or off, so both can be said.
     std::string names = setting.option;
     if (setting.lensField) names += ",!--no-" + setting.option.substr(2);
     return command
@@ -48,7 +38,7 @@ CLI::Option* addRepeated(CLI::App& command, Request& request, const Setting& set
 }
 
 CLI::Option* addRow(CLI::App& command, Request& request, const Setting& setting) {
-    if (setting.kind == SettingKind::truth) return addTruth(command, request, setting);
+    if (setting.kind == SettingKind::boolean) return addBoolean(command, request, setting);
     if (setting.repeated) return addRepeated(command, request, setting);
     CLI::Option* option = addParsed(command, setting.option, setting.metavar, setting.help,
                                     [&request, &setting](const std::string& text) { setting.set(request, text); });
@@ -67,11 +57,11 @@ void addSettings(CLI::App& command, Request& request, const std::vector<std::str
     std::map<std::string, CLI::Option*> added;
     for (const Setting& setting : settings())
         if (std::ranges::find(names, setting.name) != names.end())
-            added[setting.name] = addRow(command, request, setting)->group(groupTitle(setting.group));
-    for (const std::vector<std::string>& alike : alternatives)
-        for (const std::string& name : alike)
-            for (const std::string& other : alike)
-                if (name != other && added.contains(name) && added.contains(other)) added[name]->excludes(added[other]);
+            added[setting.name] =
+                addRow(command, request, setting)->group(groupTitle(setting.group))->configurable(setting.everyday);
+    for (const auto& [name, option] : added)
+        for (const std::string& other : settingNamed(name)->excludes)
+            if (added.contains(other)) option->excludes(added[other]);
 }
 
 std::vector<std::string> settingsOf(const std::vector<SettingGroup>& groups, const std::vector<std::string>& without) {
@@ -103,6 +93,7 @@ void addMethodSettings(CLI::App& command, Request& request) {
                     setting.description)
                 ->type_name(valuesOf(setting))
                 ->default_str(setting.standard)
+                ->configurable(false)
                 ->group("Method " + owner.mapped());
         }
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 
 namespace defocus {
 

@@ -40,11 +40,12 @@ void addGlobalOptions(CLI::App& program, GlobalOptions& global) {
     program.set_version_flag("--version", "defocus " + programVersion());
     program.add_flag("--quiet", global.quiet, "No progress and no summary; errors only");
     program.add_flag("--verbose", global.verbose, "Say what was chosen: device, levels, times");
-    program
-        .add_option("--shader-dir", global.shaderDir,
-                    "Read shaders from this folder instead of those built in, for live editing; of commands that draw")
-        ->type_name("FOLDER")
-        ->check(unnamed(CLI::ExistingDirectory));
+    advanced(program
+                 .add_option(
+                     "--shader-dir", global.shaderDir,
+                     "Read shaders from this folder instead of those built in, for live editing; of commands that draw")
+                 ->type_name("FOLDER")
+                 ->check(unnamed(CLI::ExistingDirectory)));
 }
 
 std::vector<std::string> namesOf(const CLI::App& program) {

@@ -1,6 +1,6 @@
 // defocus settings: the table of all settings, and the pages that are made from it.
 
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -31,12 +31,12 @@ struct SettingsArguments {
 };
 
 std::string rangeText(const Setting& setting) {
-    const bool ranged = setting.kind == SettingKind::number || setting.kind == SettingKind::whole;
+    const bool ranged = setting.kind == SettingKind::number || setting.kind == SettingKind::integer;
     const std::string words = fmt::format("{}", fmt::join(setting.choices, ", "));
     if (ranged)
-        return fmt::format("{:.10g} to {:.10g}{}{}", setting.least, setting.most, words.empty() ? "" : ", ", words);
+        return fmt::format("{:.10g} to {:.10g}{}{}", setting.min, setting.max, words.empty() ? "" : ", ", words);
     if (!words.empty()) return words;
-    if (setting.kind == SettingKind::truth) return "true, false";
+    if (setting.kind == SettingKind::boolean) return "true, false";
     return setting.metavar;
 }
 

@@ -59,10 +59,9 @@ double parseSeconds(const std::string& text) {
     return parseNumber(text.substr(0, slash), {0, longest}) / parseNumber(text.substr(slash + 1), {1e-6, longest});
 }
 
-std::uint64_t parseWhole(const std::string& text, std::uint64_t least, std::uint64_t most) {
+std::uint64_t parseInteger(const std::string& text, std::uint64_t least, std::uint64_t most) {
     const std::optional<std::uint64_t> number = wholeText<std::uint64_t>(text);
-    if (!number || *number < least || *number > most)
-        fail("'{}' is not a whole number from {} to {}", text, least, most);
+    if (!number || *number < least || *number > most) fail("'{}' is not an integer from {} to {}", text, least, most);
     return *number;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Text to values, by one set of rules: a wrong value gives one clear line, "'0' is not a whole number from 1 to 65536".
+// Text to values, by one set of rules: a wrong value gives one clear line, "'0' is not an integer from 1 to 65536".
 
 #include <cstdint>
 #include <string>
@@ -16,7 +16,7 @@ struct Range {
 
 // The whole text as a finite number in `range`. Throws Error saying what is allowed.
 double parseNumber(const std::string& text, const Range& range);
-std::uint64_t parseWhole(const std::string& text, std::uint64_t least, std::uint64_t most);
+std::uint64_t parseInteger(const std::string& text, std::uint64_t least, std::uint64_t most);
 // Seconds, as 0.02 or as photographers have them: 1/48.
 double parseSeconds(const std::string& text);
 // Exactly `count` finite numbers in `range`, parted by commas.

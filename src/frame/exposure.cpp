@@ -33,8 +33,9 @@ struct HiddenSurroundings {
 }  // namespace
 
 bool metersExposure(const Request& request, const Scene& scene, const Lens& lens) {
-    if (request.exposureAuto) return true;
-    return !request.exposure && lens.exposureTime == 0 && !scene.file.empty() && !scene.lights.empty();
+    if (std::holds_alternative<MeteredExposure>(request.exposure)) return true;
+    const bool open = std::holds_alternative<DefaultExposure>(request.exposure);
+    return open && lens.exposureTime == 0 && !scene.file.empty() && !scene.lights.empty();
 }
 
 double meteredExposure(const ImageView& image) {
@@ -78,11 +79,19 @@ double meteredExposure(World& world, const View& view, const RenderSettings& set
     return meteredExposure(renderer->image());
 }
 
+std::optional<double> exposureOf(const Request& request) {
+    const auto* const value = std::get_if<ExposureValue>(&request.exposure);
+    return value != nullptr ? std::optional(value->ev) : std::nullopt;
+}
+
+double unmeteredExposure(const Request& request, const Lens& lens) {
+    return exposureOf(request).value_or(photographicExposure(lens));
+}
+
 double chosenExposure(const Request& request, World& world, const View& view, const RenderSettings& settings,
                       const std::filesystem::path& shaderFolder) {
-    return metersExposure(request, *world.scene, view.lens)
-               ? meteredExposure(world, view, settings, shaderFolder)
-               : request.exposure.value_or(photographicExposure(view.lens));
+    return metersExposure(request, *world.scene, view.lens) ? meteredExposure(world, view, settings, shaderFolder)
+                                                            : unmeteredExposure(request, view.lens);
 }
 
 }  // namespace defocus

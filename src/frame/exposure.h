@@ -2,6 +2,7 @@
 // How 8-bit images and films are exposed: as they are asked to be, as the lens does it, or as a meter reads the scene.
 
 #include <filesystem>
+#include <optional>
 
 #include "frame/request.h"
 #include "image/image.h"
@@ -23,6 +24,12 @@ double meteredExposure(const ImageView& image);
 // current GL context and pyramids; the world's surroundings are hidden meanwhile.
 double meteredExposure(World& world, const View& view, const RenderSettings& settings,
                        const std::filesystem::path& shaderFolder = {});
+
+// The exposure (EV) that the request gives as a value; none if it leaves the exposure to the lens or a meter.
+std::optional<double> exposureOf(const Request& request);
+
+// The exposure (EV) that the request or the lens gives without a meter.
+double unmeteredExposure(const Request& request, const Lens& lens);
 
 // The exposure (EV) of a request's image.
 double chosenExposure(const Request& request, World& world, const View& view, const RenderSettings& settings,

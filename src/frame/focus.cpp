@@ -89,15 +89,16 @@ void focusThrough(std::span<const glm::dvec3> points, Lens& lens, const std::str
 void chooseFocus(const Request& request, const Camera& camera, const Scene& scene, const Pose& pose, View& view) {
     Lens& lens = view.lens;
     const std::optional<double> own = camera.lensValue("focusDistance");
-    if (request.lens.focusDistance)
-        lens.focusDistance = *request.lens.focusDistance;
-    else if (!request.focusNode.empty())
-        lens.focusDistance = depthOfNode(scene, pose, view, request.focusNode, "--focus-node");
-    else if (request.focusPixel)
-        lens.focusDistance = depthAtPixel(scene, pose, view, asVector(*request.focusPixel), "--focus-pixel");
-    else if (!request.focusPoints.empty())
-        focusAlong(scene, pose, request.focusPoints, view);
-    else if (request.focusAuto)
+    const Focus& focus = request.focus;
+    if (const auto* const distance = std::get_if<FocusDistance>(&focus))
+        lens.focusDistance = distance->metres;
+    else if (const auto* const node = std::get_if<FocusNode>(&focus))
+        lens.focusDistance = depthOfNode(scene, pose, view, node->name, "--focus-node");
+    else if (const auto* const at = std::get_if<FocusPixel>(&focus))
+        lens.focusDistance = depthAtPixel(scene, pose, view, asVector(at->pixel), "--focus-pixel");
+    else if (const auto* const points = std::get_if<FocusPoints>(&focus))
+        focusAlong(scene, pose, points->pixels, view);
+    else if (std::holds_alternative<FocusAuto>(focus))
         lens.focusDistance = depthOfMiddle(scene, pose, view, "--focus-auto");
     else
         lens.focusDistance = own && *own > 0 ? *own : depthOfSubject(scene, pose, view);

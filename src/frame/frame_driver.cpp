@@ -58,7 +58,7 @@ class FrameDriver::Tiled : public Drawing {
 public:
     Tiled(const World& world, Renderer& renderer, FrameOrder order, const std::vector<Band>& bands)
         : begin_(Clock::now()),
-          plan_(planOfTiles(world, order.view, order.settings)),
+          plan_(planOfTiles(world, order.view, order.settings, order.stop.automatic)),
           planMilliseconds_(millisecondsSince(begin_)),
           takeRows_(std::move(order.takeRows)),
           bands_(bands),
@@ -79,7 +79,7 @@ public:
     [[nodiscard]] const FramePlan& plan() const override { return plan_; }
     [[nodiscard]] RenderStats stats() const override {
         RenderStats stats = walk_.stats();
-        stats.samples = samples();
+        stats.samples = sampleTotal();  // each finished tile has all of them
         return stats;
     }
     [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
@@ -214,7 +214,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     // The previous frame's memory is given back before the rest is measured.
     renderer_.reset();
     giveBackFreedMemory();
-    const FramePlan plan = planOfTiles(*world_, order.view, order.settings);
+    const FramePlan plan = planOfTiles(*world_, order.view, order.settings, order.stop.automatic);
     const bool tiles = mustDrawInTiles(*world_, plan, limits, method, limit_);
     if (tiles && order.stop.given())
         refuseTiles(plan, limit_, "--target-error and --time-limit judge the whole image; give --samples");
@@ -308,8 +308,8 @@ FramePart FrameDriver::sums() {
     return std::move(*part);
 }
 
-FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings) {
-    if (settings.sampleCount != automaticSamples) return planFrame(world, view, settings);
+FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings, bool automaticSamples) {
+    if (!automaticSamples) return planFrame(world, view, settings);
     settings.sampleCount = blockSamples;
     settings.sampleCount = samplesForBlur(planFrame(world, view, settings));
     return planFrame(world, view, settings);

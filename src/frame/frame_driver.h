@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "render/methods.h"
+#include "render/stop_settings.h"
 #include "render/tiles/memory_needs.h"
 #include "render/tiles/sum_file.h"
 
@@ -35,7 +36,7 @@ using RowSink = std::function<void(const RowRange& rows, Image&& pixels)>;
 // One frame, or a part of it.
 struct FrameOrder {
     View view;
-    RenderSettings settings;  // sampleCount may be automaticSamples, see isAutomatic (frame/request.h)
+    RenderSettings settings;
     StopSettings stop = {};
     std::optional<SampleRange> samples = {};         // only the sums of these lens samples, for FrameDriver::sums
     std::optional<std::vector<RowRange>> rows = {};  // only these rows, in tiles; none: the whole frame
@@ -114,6 +115,6 @@ private:
 
 // Returns the plan of a frame that is drawn in tiles. An automatic number of samples becomes that which the blur asks
 // for: the error of an image, which may end a frame in one piece earlier, is known only once all of it is drawn.
-FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings);
+FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings, bool automaticSamples);
 
 }  // namespace defocus

@@ -54,12 +54,11 @@ FoundTiles tilesIn(const fs::path& folder, const RowFileHeader& wanted) {
 void FrameOutput::check(const FrameFiles& files, const Request& request) {
     const bool oneExr = files.outputs.size() == 1 && files.outputs.front().extension() == ".exr";
     if (files.samples) {
-        if (request.stop.given())
+        if (stopSettings(request).given())
             throw UsageError(
                 "--sample-range needs a number of samples, which --target-error and --time-limit leave open");
-        if (request.settings.sampleCount == automaticSamples)
-            throw UsageError("--sample-range is a part of a number of samples: give --samples N too");
-        checkSampleRange(*files.samples, request.settings.sampleCount);
+        if (!request.samples) throw UsageError("--sample-range is a part of a number of samples: give --samples N too");
+        checkSampleRange(*files.samples, *request.samples);
         if (!oneExr || !files.whole.empty())
             fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
     }
@@ -70,7 +69,7 @@ void FrameOutput::check(const FrameFiles& files, const Request& request) {
         throw UsageError(fmt::format("{}: method '{}' needs the whole image at once; 'accumulation' draws tiles",
                                      option, method.name));
     if (files.samples) throw UsageError(option + " and --sample-range don't go together: share one or the other");
-    if (request.stop.given())
+    if (stopSettings(request).given())
         throw UsageError(option + " needs a number of samples, which --target-error and --time-limit leave open");
     if (!files.whole.empty()) throw UsageError(fmt::format("{} cannot be used here: {}", option, files.whole));
     if (files.share && !oneExr) throw UsageError("--tile writes to one EXR file, such as -o tile.exr");
@@ -86,8 +85,8 @@ fs::path FrameOutput::tilesFolder() const {
 RowFileHeader FrameOutput::header() const {
     const Request& request = driver_.request();
     RowFileHeader header;
-    header.width = request.width;
-    header.height = request.height;
+    header.width = request.size.width;
+    header.height = request.size.height;
     header.rows = wanted_;
     header.settings = settings_;
     if (files_.share) header.share = fmt::format("{}/{}", files_.share->index, files_.share->count);
@@ -127,7 +126,7 @@ void FrameOutput::start(const Progress& progress) {
     const Request& request = driver_.request();
     check(files_, request);
     static_cast<void>(driver_.writeOptions());  // meters the exposure before the frame takes memory
-    wanted_ = {0, request.height};
+    wanted_ = {0, request.size.height};
     parts_ = {.samples = files_.samples, .whole = files_.whole};
     if (files_.whole.empty() && !files_.samples)
         parts_.takeRows = [this](const RowRange& rows, Image&& pixels) { takeRows(rows, std::move(pixels)); };

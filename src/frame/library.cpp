@@ -10,7 +10,7 @@
 #include "defocus/scene.h"
 #include "frame/prepared_frame.h"
 #include "frame/scene_scale.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lod/pyramid/cache.h"
 #include "lod/pyramid/finish.h"
 #include "plan/plan_text.h"
@@ -84,7 +84,7 @@ std::string pyramidJson(const Request& request, const Progress& progress) {
     checkRequest(request);
     const Scene scene = loadScene(request, progress);
     PyramidOptions options;
-    options.vertices = request.settings.levelVertices;
+    options.vertices = request.levelVertices;
     const Finishes finishes(scene);
     options.finishes = &finishes;
     const std::vector<Pyramid> pyramids =

@@ -22,9 +22,9 @@ double animationTime(const Request& request, const Scene& scene, double time) {
 }  // namespace
 
 Pose exposedPose(const Request& request, const Scene& scene) {
-    const double time = request.time + shutterMiddle(request.shutter);
+    const double time = request.time + shutterMiddle(shutterSettings(request));
     Pose pose = poseAt(scene, animationTime(request, scene, time), clipOf(request, scene));
-    hideNodes(scene, request.hidden, pose);
+    hideNodes(scene, request.hide, pose);
     return pose;
 }
 
@@ -36,11 +36,11 @@ void exposeMotion(const Request& request, const PlacedCamera& camera, const Rend
     const auto momentAt = [&](double offset) {
         const double time = animationTime(request, scene, request.time + offset);
         ShutterMoment moment{unmeasuredPoseAt(scene, time, clipOf(request, scene)), {}};
-        hideNodes(scene, request.hidden, moment.pose);
+        hideNodes(scene, request.hide, moment.pose);
         moment.worldFromCamera = worldFromCameraIn(camera, moment.pose);
         return moment;
     };
-    openShutter(request.shutter, settings, momentAt, world.shutter, view);
+    openShutter(shutterSettings(request), settings, momentAt, world.shutter, view);
 }
 
 }  // namespace defocus

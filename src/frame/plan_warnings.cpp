@@ -9,7 +9,7 @@
 
 #include "core/number_text.h"
 #include "defocus/settings.h"
-#include "frame/unused_settings.h"
+#include "frame/settings/unused_settings.h"
 #include "lens/lens_fields.h"
 #include "plan/lens_cells.h"
 #include "render/automatic_samples.h"
@@ -64,7 +64,7 @@ Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint6
 std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std::uint64_t samples) {
     const double needed = static_cast<double>(samples) * std::pow(gaps.size / gaps.good, 2);
     const double scale = plan.view.lens.blurScale * gaps.good / gaps.size;
-    const std::string more = needed <= mostSamples
+    const std::string more = needed <= maxSamples
                                  ? fmt::format("about {} samples fill it, ",
                                                grouped(64 * static_cast<std::uint64_t>(std::ceil(needed / 64))))
                                  : std::string();

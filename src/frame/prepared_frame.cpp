@@ -56,11 +56,11 @@ void brighten(Environment& environment, double scale) {
 // `folder`: where the scene's file lies.
 Lens chosenLens(const Request& request, const Camera& camera, const std::filesystem::path& folder,
                 std::vector<std::string>& refused) {
-    const LensValues given = givenLensValues(request.lens);
+    const LensValues given = givenLensValues(request);
     Lens lens;
     refused = setLensFields(lens, camera.lens);
     setLensFields(lens, given);
-    fitToCamera(lens, camera, static_cast<double>(request.width) / request.height,
+    fitToCamera(lens, camera, static_cast<double>(request.size.width) / request.size.height,
                 [&](std::string_view name) { return given.contains(name) || camera.lens.contains(name); });
     if (!request.lens.apertureImage.empty()) {
         lens.apertureImage = loadApertureImage(request.lens.apertureImage);
@@ -107,7 +107,7 @@ glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCam
 
 // The camera and its lens; the focus last, as it may depend on all else.
 PlacedCamera place(PreparedFrame& frame, const Request& request) {
-    const double aspect = static_cast<double>(request.width) / request.height;
+    const double aspect = static_cast<double>(request.size.width) / request.size.height;
     PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect);
     frame.cameraName = placed.camera.name;
     frame.view.worldFromCamera = placed.worldFromCamera;
@@ -116,10 +116,11 @@ PlacedCamera place(PreparedFrame& frame, const Request& request) {
         frame.view.worldFromCamera = wanderedCamera(request, placed.worldFromCamera);
         frame.view.nearPlane = wanderingNearPlane(placed.camera.znear, frame.world.pose.bounds);
     }
-    frame.view.width = request.width;
-    frame.view.height = request.height;
+    frame.view.width = request.size.width;
+    frame.view.height = request.size.height;
     Request withoutLens = request;
     withoutLens.lens = {};
+    withoutLens.focus = CameraFocus{};
     const std::filesystem::path folder = frame.scene->file.parent_path();
     frame.cameraLens = chosenLens(withoutLens, placed.camera, folder, frame.refusedLensValues);
     frame.view.lens = chosenLens(request, placed.camera, folder, frame.refusedLensValues);
@@ -159,12 +160,11 @@ Environment chosenEnvironment(const Request& request, const Scene& scene, const 
         environment.type = EnvironmentType::map;
         environment.map = loadEnvironment(request.environment, request.environmentRotation);
     }
-    if (request.background == Background::none) environment.visible = false;
-    if (request.background == Background::uniform) {
+    if (std::holds_alternative<TransparentBackground>(request.background)) environment.visible = false;
+    if (const auto* const color = std::get_if<Color>(&request.background)) {
         environment = {};
         environment.type = EnvironmentType::uniform;
-        const std::array<float, 3>& color = request.backgroundColor;
-        environment.zenith = environment.horizon = environment.nadir = glm::vec3(color[0], color[1], color[2]);
+        environment.zenith = environment.horizon = environment.nadir = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
     }
     return environment;
 }
@@ -187,12 +187,6 @@ PreparedFrame placeFrame(const Request& request, const Progress& progress) {
     PreparedFrame frame = placeFrame(scene, request);
     frame.loadMilliseconds = millisecondsSince(begin);
     return frame;
-}
-
-RenderSettings runSettings(const PreparedFrame& frame, const Request& request) {
-    RenderSettings settings = frame.settings;
-    if (isAutomatic(request)) settings.sampleCount = automaticSamples;
-    return settings;
 }
 
 void setGround(const Request& request, Scene& scene) {
@@ -230,11 +224,10 @@ PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& req
     frame.world.lights = sizedLights(request, frame.ownLights, frame.world.pose);
     frame.world.environment =
         environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
-    frame.settings = request.settings;
-    if (frame.settings.sampleCount == automaticSamples) frame.settings.sampleCount = RenderSettings{}.sampleCount;
+    frame.settings = renderSettings(request);
     exposeMotion(request, placed, frame.settings, frame.world, frame.view);
     // Levels of full detail are not worth storing.
-    if (request.settings.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);
+    if (request.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);
     return frame;
 }
 

@@ -45,10 +45,6 @@ PreparedFrame placeFrame(const Request& request, const Progress& progress = {});
 PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request,
                          const Environment* environment = nullptr);
 
-// What FrameRun::start takes: the frame's settings, with a number of samples that is automatic where the request leaves
-// it to the picture. In PreparedFrame::settings there are 64 then, which a plan can have.
-RenderSettings runSettings(const PreparedFrame& frame, const Request& request);
-
 // Scales the blur of the nodes that the request names. Throws Error for a name that the scene doesn't have.
 void setNodeBlur(const Request& request, Scene& scene);
 

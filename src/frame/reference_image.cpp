@@ -142,8 +142,8 @@ void complete(ReferenceImage& reference, const Part& one, const Part& other) {
 
 // Without its image yet.
 ReferenceImage askedFor(const World& world, const View& view, const ReferenceOptions& options) {
-    if (options.samples < 2 || options.samples > mostSamples)
-        fail("reference of {} samples: choose 2 to {}", options.samples, mostSamples);
+    if (options.samples < 2 || options.samples > maxSamples)
+        fail("reference of {} samples: choose 2 to {}", options.samples, maxSamples);
     ReferenceImage reference;
     reference.samples = options.samples;
     reference.hash = referenceHash(world, view, options);

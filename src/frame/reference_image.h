@@ -24,7 +24,7 @@ inline constexpr std::uint32_t referenceOffset = 1u << 20;
 inline constexpr Sequence referenceSequence = Sequence::halton;
 
 struct ReferenceOptions {
-    std::uint32_t samples = 4096;  // of both halves together, 2 … mostSamples
+    std::uint32_t samples = 4096;  // of both halves together, 2 … maxSamples
     RendererOptions renderer;      // its layer format is not used
     Shadows shadows = Shadows::automatic;
 };

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
 namespace defocus {
@@ -28,7 +28,7 @@ void addSetting(std::string& command, const Setting& setting, const Request& req
     if (!text) return;
     if (setting.repeated) {
         for (const std::string& each : setting.texts(request)) addWords(command, setting.option, each);
-    } else if (setting.kind == SettingKind::truth) {
+    } else if (setting.kind == SettingKind::boolean) {
         if (*text == "true")
             command += fmt::format(" {}", setting.option);
         else if (setting.lensField)
@@ -63,8 +63,8 @@ LensSettings lensOf(const RenderCommandText& text) {
         const std::string_view name = field.name;
         const bool brightness = name == "exposureTime" || name == "iso";
         if (brightness && !(lens.exposureTime > 0)) continue;
-        const bool always = name == "focalLength" || name == "focusDistance";
-        if (always || value != lensFieldValue(text.frame.cameraLens, field))
+        if (name == "focusDistance") continue;
+        if (name == "focalLength" || value != lensFieldValue(text.frame.cameraLens, field))
             giveLensValue(given, field, std::min(value, field.most));
     }
     return given;
@@ -73,30 +73,20 @@ LensSettings lensOf(const RenderCommandText& text) {
 // The picture's own request: what `render` would have to be asked for.
 Request requestOf(const RenderCommandText& text) {
     Request request = text.options;
-    request.width = text.view.width;
-    request.height = text.view.height;
+    request.size = {text.view.width, text.view.height};
     placeCameraOf(text, request);
     request.lens = lensOf(text);
-    request.focusNode.clear();
-    request.focusPixel.reset();
-    request.focusPoints.clear();
-    request.focusAuto = false;
+    request.focus = FocusDistance{std::min(text.view.lens.focusDistance, lensFieldNamed("focusDistance")->most)};
     const double metresPerUnit = text.frame.scene->metresPerUnit;
-    if (metresPerUnit != 1) request.metresPerUnit = metresPerUnit;  // a guess comes out otherwise for a placed camera
+    if (metresPerUnit != 1) request.units = metresPerUnit;  // a guess comes out otherwise for a placed camera
     request.toneMap = text.write.toneMap;
     // Brightness is by the lens or by an exposure value, which exclude each other.
-    request.exposure.reset();
+    request.exposure = DefaultExposure{};
     const bool byLens = text.view.lens.exposureTime > 0;
     const bool meters = !text.frame.scene->file.empty() && !text.frame.scene->lights.empty();
-    request.exposureAuto = false;
     if (!byLens && (text.write.exposure != 0 || text.frame.cameraLens.exposureTime > 0 || meters))
-        request.exposure = text.write.exposure;
+        request.exposure = ExposureValue{text.write.exposure};
     return request;
-}
-
-// A number of samples would limit those that a target error or a time limit takes.
-bool saysSamples(const Request& request) {
-    return !request.stop.given() || request.stop.sampleLimit < StopSettings{}.sampleLimit;
 }
 
 }  // namespace
@@ -133,7 +123,7 @@ std::string renderCommand(const RenderCommandText& text) {
     command += fmt::format(" -o {}", pathWord(text.output));
     for (const Setting& setting : settings()) {
         if (setting.name == "scene") continue;
-        const bool always = setting.name == "size" || (setting.name == "samples" && saysSamples(request));
+        const bool always = setting.name == "size" || (setting.name == "samples" && request.samples);
         const bool changed = setting.name == preset.name || setting.text(request) != setting.text(standard);
         if (always || changed) addSetting(command, setting, request);
     }

@@ -15,7 +15,7 @@
 
 #include "core/parse.h"
 #include "frame/program_facts.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
 #include "render/block_schedule.h"
@@ -45,20 +45,18 @@ glm::dmat4 ndcFromWorld(const FramePlan& plan) {
     return ndcFromCamera * cameraFromWorld(plan.view);
 }
 
-// Settings that change the picture, but for those that stand there already (camera and lens) or hold paths.
+// Adds the recorded settings. Camera and lens have attributes of their own, and paths are private.
 void addSettings(Metadata& metadata, const Request& request) {
     for (const Setting& setting : settings()) {
-        const bool elsewhere = setting.lensField || setting.group == SettingGroup::camera;
-        const bool samePicture = setting.name == "wave" || setting.name == "memory" || setting.name == "noCache" ||
-                                 setting.name == "keepAll";
         const std::optional<std::string> text = setting.text(request);
-        if (elsewhere || samePicture || setting.kind == SettingKind::path || !text) continue;
+        const bool elsewhere = setting.lensField || setting.group == SettingGroup::camera;
+        if (!setting.recorded || elsewhere || setting.kind == SettingKind::path || !text) continue;
         const std::string name = fmt::format("defocus:{}", setting.name);
         if (std::ranges::find(setting.choices, *text) != setting.choices.end())
             metadata[name] = *text;
-        else if (setting.kind == SettingKind::number || setting.kind == SettingKind::whole)
-            metadata[name] = parseNumber(*text, {setting.least, setting.most});
-        else if (setting.kind == SettingKind::truth)
+        else if (setting.kind == SettingKind::number || setting.kind == SettingKind::integer)
+            metadata[name] = parseNumber(*text, {setting.min, setting.max});
+        else if (setting.kind == SettingKind::boolean)
             metadata[name] = *text == "true" ? 1 : 0;
         else
             metadata[name] = *text;
@@ -97,12 +95,10 @@ Metadata renderMetadata(const RenderReport& report) {
         {"defocus:seconds", report.stats.renderMilliseconds / 1000},
         {"defocus:device", report.stats.device},
     };
-    Request drawn = report.options;
-    drawn.settings = report.plan.settings;
-    addSettings(metadata, drawn);
+    addSettings(metadata, report.options);
     // What was drawn where a setting leaves it open.
     metadata["defocus:samples"] = static_cast<int>(report.stats.samples);
-    if (report.options.stop.given()) metadata["defocus:stopped"] = stopReasonText(report.stats.stopped);
+    if (stopSettings(report.options).given()) metadata["defocus:stopped"] = stopReasonText(report.stats.stopped);
     if (report.stats.estimatedError) metadata["defocus:estimatedError"] = *report.stats.estimatedError;
     metadata["defocus:method"] = report.method;
     metadata["defocus:layerFormat"] = report.stats.layerFormat;
@@ -134,7 +130,7 @@ std::string statsJson(const RenderReport& report) {
         {"scene", report.frame.sceneName},
         {"camera", report.frame.cameraName},
         {"time", report.options.time},
-        {"shutter", report.options.shutter.seconds},
+        {"shutter", report.options.shutter},
         {"width", report.plan.view.width},
         {"height", report.plan.view.height},
         {"method", report.method},
@@ -175,11 +171,11 @@ std::string statsJson(const RenderReport& report) {
         {"device", stats.device},
         {"driver", stats.driver},
     };
-    if (report.options.stop.given()) {
+    if (stopSettings(report.options).given()) {
         json["stopped"] = stopReasonText(stats.stopped);
         json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
     }
-    if (isAutomatic(report.options)) {
+    if (stopSettings(report.options).automatic) {
         json["samplesAutomatic"] = true;
         json["estimatedError"] = stats.estimatedError ? nlohmann::ordered_json(*stats.estimatedError) : nullptr;
     }
@@ -197,9 +193,9 @@ std::string summary(const RenderReport& report) {
     if (report.plan.trianglesAtFullDetail > stats.trianglesDrawn)
         triangles += fmt::format(" (full detail: {})", inMillions(report.plan.trianglesAtFullDetail));
     std::string samples = fmt::format("{} samples", stats.samples);
-    if (report.options.stop.given())
+    if (stopSettings(report.options).given())
         samples += fmt::format(" ({}; {})", errorText(stats), stopReasonText(stats.stopped));
-    else if (isAutomatic(report.options))
+    else if (stopSettings(report.options).automatic)
         samples += stats.estimatedError ? fmt::format(" (automatic, {})", errorText(stats)) : " (automatic)";
     return fmt::format("{}x{}, {} in {:.2f} s: {}, {}", report.plan.view.width, report.plan.view.height, samples,
                        stats.renderMilliseconds / 1000, triangles, stats.device);

@@ -4,35 +4,69 @@
 #include <fmt/ranges.h>
 
 #include "core/error.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 #include "render/frame_run.h"
 
 namespace defocus {
 
 MethodUse chosenMethod(const Request& request) try {
-    MethodUse use = parseMethodUse(request.method);
-    for (const auto& [name, value] : request.methodSettings) use.settings[name] = value;
-    use.settings = completeSettings(use.method->name, use.method->settings, use.settings);
-    return use;
+    const Method& method = methodNamed(request.method);
+    return {&method, completeSettings(method.name, method.settings, request.methodSettings)};
 } catch (const Error& error) {
     throw UsageError(error.what());
 }
 
-bool isAutomatic(const Request& request) {
-    const bool exact = request.shutter.seconds > 0 && request.shutter.exactMotion;
-    return request.settings.sampleCount == automaticSamples && !request.stop.given() && !exact &&
-           chosenMethod(request).method->sumsBlocks;
+RenderSettings renderSettings(const Request& request) {
+    RenderSettings settings;
+    settings.sampleCount = request.samples.value_or(settings.sampleCount);
+    settings.sequence = request.sequence;
+    settings.seed = request.seed;
+    settings.lod = request.lod;
+    settings.metric = request.lodMetric;
+    settings.lodCoc = request.lodCoc;
+    settings.levelVertices = request.levelVertices;
+    settings.thresholds = givenThresholds(request);
+    settings.shadows = request.shadows;
+    settings.cocTolerance = request.cocTolerance;
+    settings.keepAll = request.keepAll;
+    return settings;
+}
+
+GivenThresholds givenThresholds(const Request& request) {
+    return {request.blurThreshold, request.sizeThreshold, request.lightThreshold};
+}
+
+ShutterSettings shutterSettings(const Request& request) {
+    return {request.shutter, request.shutterPosition, request.motionSegments};
+}
+
+StopSettings stopSettings(const Request& request) {
+    StopSettings stop{request.targetError, request.timeLimit, request.samples.value_or(maxSamples)};
+    const bool exact = request.shutter > 0 && shutterSettings(request).exactMotion();
+    stop.automatic = !request.samples && !stop.given() && !exact && chosenMethod(request).method->sumsBlocks;
+    return stop;
+}
+
+LensValues givenLensValues(const Request& request) {
+    LensValues values = givenLensValues(request.lens);
+    if (const auto* const focus = std::get_if<FocusDistance>(&request.focus)) values["focusDistance"] = focus->metres;
+    return values;
+}
+
+void giveLensValue(Request& request, const LensField& field, double value) {
+    giveLensValue(request.lens, field, value);
+    if (field.name == std::string_view("focusDistance")) request.focus = FocusDistance{value};
 }
 
 void checkStop(const Request& request) {
-    checkStop(request.stop, *chosenMethod(request).method, request.shutter);
+    checkStop(stopSettings(request), *chosenMethod(request).method, shutterSettings(request));
 }
 
 namespace {
 
 void checkValue(const Setting& setting, const Request& request, Request& scratch) {
-    if (setting.lensField) {  // their text holds no infinity
+    if (setting.lensField && setting.name != "focusDistance") {  // texts cannot hold infinity
         const LensField& field = *lensFieldNamed(setting.name);
         giveLensValue(scratch.lens, field, givenLensValue(request.lens, field));
     } else if (setting.repeated) {
@@ -53,15 +87,7 @@ void checkRequest(const Request& request) {
         } catch (const Error& error) {
             throw UsageError(fmt::format("{}: {}", setting.name, error.what()));
         }
-    if (request.stop.sampleLimit < 1 || request.stop.sampleLimit > mostSamples)
-        throw UsageError(
-            fmt::format("sampleLimit: {} is not a whole number from 1 to {}", request.stop.sampleLimit, mostSamples));
     checkStop(request);
-    const int focuses = (request.lens.focusDistance ? 1 : 0) + (request.focusNode.empty() ? 0 : 1) +
-                        (request.focusPixel ? 1 : 0) + (request.focusPoints.empty() ? 0 : 1) +
-                        (request.focusAuto ? 1 : 0);
-    if (focuses > 1)
-        throw UsageError("give at most one of focusDistance, focusNode, focusPixel, focusPoints and focusAuto");
 }
 
 }  // namespace defocus

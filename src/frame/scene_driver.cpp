@@ -28,11 +28,11 @@ bool sameScene(const Request& a, const Request& b) {
 
 bool sameSurroundings(const Request& a, const Request& b) {
     return a.environment == b.environment && a.environmentRotation == b.environmentRotation &&
-           a.background == b.background && a.backgroundColor == b.backgroundColor;
+           a.background == b.background;
 }
 
 DrawLimits limitsOf(const Request& request) {
-    return {request.memory, request.wave, request.layerFormat};
+    return {request.memory, request.wave.value_or(0), request.layerFormat};
 }
 
 // Returns whether one FrameDriver can draw both.
@@ -42,8 +42,8 @@ bool sameDriver(const Request& a, const Request& b) {
 }
 
 std::size_t pyramidKind(const Request& request) {
-    if (request.settings.lod == LodMode::off) return 0;
-    return 1 + static_cast<std::size_t>(request.settings.levelVertices);
+    if (request.lod == LodMode::off) return 0;
+    return 1 + static_cast<std::size_t>(request.levelVertices);
 }
 
 // Explains why a frame in tiles may have more samples than in one piece.
@@ -88,7 +88,7 @@ SceneDriver::~SceneDriver() {
 
 // Returns the scene with the request's units, node blur and ground: a copy if any differs, as others may use the scene.
 std::shared_ptr<Scene> SceneDriver::scaledScene(const Request& request) const {
-    const double metresPerUnit = request.metresPerUnit.value_or(scene_->metresPerUnit);
+    const double metresPerUnit = request.units.value_or(scene_->metresPerUnit);
     if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit && !request.ground) return scene_;
     if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur &&
         request.ground == request_.ground && metresPerUnit == frame_.scene->metresPerUnit)
@@ -145,8 +145,8 @@ void SceneDriver::start(const Request& request, const FrameParts& parts, const P
         if (!driver_)
             driver_.emplace(frame_.world,
                             DriverOptions{chosenMethod(request_), limitsOf(request_), shaderFolder_, keptPixelBytes});
-        driver_->start({frame_.view, runSettings(frame_, request_), request_.stop, parts.samples, parts.rows,
-                        parts.takeRows, parts.whole});
+        driver_->start({frame_.view, frame_.settings, stopSettings(request_), parts.samples, parts.rows, parts.takeRows,
+                        parts.whole});
     } catch (...) {
         driver_.reset();
         throw;
@@ -196,10 +196,11 @@ std::vector<std::string> SceneDriver::warnings() const {
     std::vector<std::string> lines = requestWarnings(request_, frame_);
     const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
     // Where the image decides how many samples there are, their number is known only at the end.
-    const bool counted = !request_.stop.given() && !isAutomatic(request_);
+    const StopSettings stop = stopSettings(request_);
+    const bool counted = !stop.given() && !stop.automatic;
     if (driver_ && (counted || driver_->samples() > 0)) {
         add(planWarnings(driver_->plan(), driver_->method(), counted ? 0 : driver_->samples()));
-        if (driver_->inTiles() && isAutomatic(request_)) add(tiledSamplesNote(driver_->plan()));
+        if (driver_->inTiles() && stop.automatic) add(tiledSamplesNote(driver_->plan()));
     }
     add(clipped_);
     return lines;
@@ -244,7 +245,7 @@ RenderStatistics SceneDriver::statistics() const {
     if (!driver_) return statistics;
     const InContext use(*context_);
     const RenderStats stats = driver_->stats();
-    statistics.samples = stats.samples;
+    statistics.samples = driver_->samples();
     statistics.setupMilliseconds = stats.setupMilliseconds;
     statistics.renderMilliseconds = stats.renderMilliseconds;
     statistics.trianglesDrawn = stats.trianglesDrawn;

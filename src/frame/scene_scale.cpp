@@ -16,8 +16,8 @@ namespace defocus {
 namespace {
 
 bool saysLength(const Request& request) {
-    return request.lens.focusDistance || request.lens.focusRangeFront || request.lens.focusRangeBehind ||
-           request.cameraPosition || request.cameraTarget;
+    return std::holds_alternative<FocusDistance>(request.focus) || request.lens.focusRangeFront ||
+           request.lens.focusRangeBehind || request.cameraPosition || request.cameraTarget;
 }
 
 bool physical(const Camera& camera) {
@@ -32,26 +32,26 @@ double framedExtent(const Request& request, const Scene& scene, const Pose& pose
     }
     View view;
     view.worldFromCamera = placed.worldFromCamera;
-    view.width = request.width;
-    view.height = request.height;
-    fitToCamera(view.lens, placed.camera, static_cast<double>(request.width) / request.height,
+    view.width = request.size.width;
+    view.height = request.size.height;
+    fitToCamera(view.lens, placed.camera, static_cast<double>(request.size.width) / request.size.height,
                 [](std::string_view) { return false; });
     const double width = 2 * tanHalfHorizontalFov(view.lens) * depthOfMiddle(scene, pose, view).value_or(0);
-    return width * std::max(1.0, static_cast<double>(request.height) / request.width);
+    return width * std::max(1.0, static_cast<double>(request.size.height) / request.size.width);
 }
 
 double guess(const Request& request, Scene& scene) {
     scene.metresPerUnit = 1;
     const Pose pose = exposedPose(request, scene);
     const PlacedCamera placed =
-        chooseCamera(scene, pose, request.camera, static_cast<double>(request.width) / request.height);
+        chooseCamera(scene, pose, request.camera, static_cast<double>(request.size.width) / request.size.height);
     return physical(placed.camera) ? 1 : guessedMetresPerUnit(framedExtent(request, scene, pose, placed));
 }
 
 }  // namespace
 
 void setScale(const Request& request, Scene& scene) {
-    const std::optional<double> said = request.metresPerUnit ? request.metresPerUnit : scene.ownMetresPerUnit;
+    const std::optional<double> said = request.units ? request.units : scene.ownMetresPerUnit;
     if (said)
         scene.metresPerUnit = *said;
     else
@@ -59,7 +59,7 @@ void setScale(const Request& request, Scene& scene) {
 }
 
 std::optional<std::string> guessedScaleNote(const Request& request, const Scene& scene) {
-    if (request.metresPerUnit || scene.ownMetresPerUnit || scene.metresPerUnit == 1) return {};
+    if (request.units || scene.ownMetresPerUnit || scene.metresPerUnit == 1) return {};
     const std::string unit = unitOfMetres(scene.metresPerUnit);
     const bool named = std::isalpha(static_cast<unsigned char>(unit.front())) != 0;
     return fmt::format(

@@ -7,7 +7,7 @@
 
 #include "core/hash.h"
 #include "frame/program_facts.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "frame/world_hash.h"
 #include "lens/lens_fields.h"
 
@@ -38,8 +38,6 @@ private:
 
 void addLens(HashedText& hashed, const Lens& lens) {
     for (const LensField& field : lensFields()) {
-        // Frames of before this setting stay valid where it changes nothing.
-        if (field.name == std::string_view("focusRangeRefocuses") && !(lens.focusRangeBehind > 0)) continue;
         hashed.add(lensFieldValue(lens, field));
     }
     if (!lens.apertureImage) return;
@@ -53,23 +51,6 @@ void addPose(HashedText& hashed, const Pose& pose) {
         hashed.add(object.cocScale);
         for (const double weight : object.morphWeights) hashed.add(weight);
     }
-}
-
-// Samples, levels and method, by their names; where the pyramids are kept, how many samples are drawn at once
-// and how long the film may take change nothing. What a preset stands for counts, not its name.
-void addSettings(HashedText& hashed, const Request& request) {
-    for (const Setting& setting : settings()) {
-        const bool counts = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
-                            setting.group == SettingGroup::developer;
-        if (!counts || setting.kind == SettingKind::path || setting.name == "noCache" || setting.name == "wave" ||
-            setting.name == "memory" || setting.name == "timeLimit" || setting.name == "preset")
-            continue;
-        // Frames of before these settings stay valid.
-        const bool later = setting.name == "targetError" || setting.name == "levelVertices";
-        if (later && !changedText(setting, request)) continue;
-        hashed.add(setting.name, setting.text(request).value_or(""));
-    }
-    if (request.stop.targetError) hashed.add(request.stop.sampleLimit);
 }
 
 }  // namespace
@@ -98,10 +79,8 @@ std::string settingsHash(const FilmSettings& film, const FrameMoment& moment) {
     hashed.add(moment.view.nearPlane, moment.view.width, moment.view.height);
     addLens(hashed, moment.view.lens);
     for (const auto& [name, value] : moment.view.methodValues) hashed.add(name, value);
-    Request request = film.request;
-    request.settings = moment.settings;
-    if (isAutomatic(film.request)) request.settings.sampleCount = automaticSamples;
-    addSettings(hashed, request);
+    hashed.add(pixelSettings(film.request));
+    hashed.add(moment.settings.seed);
     const LodThresholds thresholds =
         chosenThresholds(moment.settings.thresholds, moment.settings.metric, moment.settings.sampleCount);
     hashed.add(moment.settings.firstSample, thresholds.blur, thresholds.size, thresholds.light);

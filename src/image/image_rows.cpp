@@ -24,7 +24,7 @@ namespace defocus {
 
 namespace {
 
-constexpr int rowsAtOnce = 64;  // that are encoded; a whole number of an EXR file's blocks of 16
+constexpr int rowsAtOnce = 64;  // that are encoded; an integer of an EXR file's blocks of 16
 
 ImageView rowsOf(const ImageView& image, int first, int count) {
     const auto row = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);

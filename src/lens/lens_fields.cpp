@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "core/error.h"
 
@@ -15,70 +16,84 @@ constexpr double degree = std::numbers::pi / 180;
 // Infinity is no value that anybody types; a default of infinity stands for "none".
 const LensField fields[] = {
     {"focalLength", "--focal-length", "MM", 1e-2, 1e6, &Lens::focalLength, &LensSettings::focalLength,
-     "Sets the field of view; without it, it follows from the camera's"},
+     "Focal length, which sets the field of view. Default: from the camera's field of view", "50", LensFeature::camera,
+     true},
     {"fStop", "--fstop", "N", 1e-3, 1e6, &Lens::fStop, &LensSettings::fStop,
-     "f-number; without it, the camera's own, else 2.8"},
-    {"focusDistance", "--focus-distance", "M", 1e-6, 1e12, &Lens::focusDistance, &LensSettings::focusDistance,
-     "Distance of the focus plane along the view axis; without any focus option, the camera's own, else the median "
-     "depth of what the middle of the image shows"},
+     "f-number. Default: the camera's own, else 2.8", "1.4", LensFeature::fStop, true},
+    {"focusDistance", "--focus-distance", "M", 1e-6, 1e12, &Lens::focusDistance, std::monostate(),
+     "Distance of the focus plane along the view axis. Default without any focus option: the camera's own, else the "
+     "median depth of the surfaces in the image's middle",
+     "2.5", LensFeature::blur, true},
     {"horizontalAperture", "--horizontal-aperture", "MM", 1e-2, 1e6, &Lens::horizontalAperture,
-     &LensSettings::horizontalAperture, "Width of the sensor; without it, the camera's own, else 36"},
-    {"dofEnabled", "--dof", "", 0, 1, &Lens::dofEnabled, &LensSettings::dofEnabled, "Off: a pinhole, everything sharp"},
+     &LensSettings::horizontalAperture, "Width of the sensor. Default: the camera's own, else 36", "36",
+     LensFeature::camera},
+    {"dofEnabled", "--dof", "", 0, 1, &Lens::dofEnabled, &LensSettings::dofEnabled,
+     "Depth of field; --no-dof renders as a pinhole camera", "false", LensFeature::camera},
     {"blurScale", "--blur-scale", "R", 0, 1e3, &Lens::blurScale, &LensSettings::blurScale,
-     "Exaggerates the blur; 1 is physical"},
+     "Scale of the blur; 1 is physical", "2", LensFeature::blur, true},
     {"focusBreathing", "--focus-breathing", "", 0, 1, &Lens::focusBreathing, &LensSettings::focusBreathing,
-     "The textbook thin lens, whose field of view narrows as the focus comes nearer"},
+     "Thin lens whose field of view narrows as the focus comes nearer", "true", LensFeature::camera},
     {"exposureTime", "--exposure-time", "S", 0, 1e6, &Lens::exposureTime, &LensSettings::exposureTime,
-     "Exposes .png, .jpg and film as a camera does, with the f-number and --iso: seconds, as 0.008 or 1/125; a scene's "
-     "value of 1 is 1 cd/m2 (glTF's lights have cd and lx). Without it (or 0), --exposure. Motion blur has a --shutter "
-     "of its own"},
+     "Exposure time of PNG, JPEG and video, as 0.008 or 1/125, with the f-number and --iso; radiance is in cd/m2. 0: "
+     "as without it, see --exposure. Motion blur has --shutter",
+     "0.02", LensFeature::camera},
     {"iso", "--iso", "N", 1, 1e7, &Lens::iso, &LensSettings::iso,
-     "Sensitivity for --exposure-time; without it, the camera's own, else 100"},
+     "Sensitivity for --exposure-time. Default: the camera's own, else 100", "400", LensFeature::camera},
     {"bladeCount", "--blades", "N", 0, 64, &Lens::bladeCount, &LensSettings::bladeCount,
-     "Blades of the aperture: 3 to 64, or 0 for a disk"},
+     "Number of aperture blades: 3 to 64, or 0 for a disk", "7", LensFeature::shape, false,
+     R"({"anyOf": [{"enum": [0]}, {"type": "integer", "minimum": 3, "maximum": 64}]})"},
     {"bladeRotation", "--blade-rotation", "DEG", -1e6, 1e6, &Lens::bladeRotation, &LensSettings::bladeRotation,
-     "Turns the blades; at 0 a corner points to the right. Blender has the middle of an edge there: add 180/N for its "
-     "picture. Extras of files that Blender wrote are turned so as they are read"},
+     "Rotation of the blades. At 0 a corner points to the right, where Blender has the middle of an edge: add 180/N "
+     "for "
+     "Blender's picture; files by Blender are converted",
+     "15", LensFeature::shape},
     {"bladeCurvature", "--blade-curvature", "R", 0, 1, &Lens::bladeCurvature, &LensSettings::bladeCurvature,
-     "Bends the blades outwards, from 0 (straight) to 1 (a circle)"},
+     "Curvature of the blades, from 0 (straight) to 1 (a circle)", "0.5", LensFeature::shape},
     {"anamorphicRatio", "--anamorphic-ratio", "R", 1e-2, 1e2, &Lens::anamorphicRatio, &LensSettings::anamorphicRatio,
-     "Above 1, blurred points are tall ovals"},
+     "Height over width of the aperture; above 1, blurred points are tall ovals", "2", LensFeature::blur},
     {"obstruction", "--obstruction", "R", 0, 0.999, &Lens::obstruction, &LensSettings::obstruction,
-     "Rings, as of a mirror lens: the inner diameter over the outer"},
+     "Inner over outer diameter of the ring-shaped aperture of a mirror lens", "0.3", LensFeature::shape},
     {"sphericalAberration", "--spherical-aberration", "R", -1, 1, &Lens::sphericalAberration,
      &LensSettings::sphericalAberration,
-     "Above 0, blurred points are brighter at their rim (soap bubbles), below 0 in their middle (creamy)"},
+     "Brightness across blurred points: above 0 brighter at the rim (soap bubbles), below 0 in the middle (creamy)",
+     "0.5", LensFeature::shape},
     {"catEye", "--cat-eye", "R", 0, 1, &Lens::catEye, &LensSettings::catEye,
-     "Blurred points narrow towards the image's corners: how far the barrel hides the aperture there, in radii"},
+     "Vignetting by the barrel, which narrows blurred points towards the corners: the fraction of the aperture's "
+     "radius "
+     "hidden in the corners",
+     "0.5", LensFeature::lensPoint},
     {"axialChromaticAberration", "--axial-chromatic-aberration", "D", -100, 100, &Lens::axialChromaticAberration,
-     &LensSettings::axialChromaticAberration, "Colour fringes: dioptres by which red focuses farther away than blue"},
+     &LensSettings::axialChromaticAberration,
+     "Axial chromatic aberration, with colour fringes: dioptres by which red focuses farther away than blue", "0.2",
+     LensFeature::lensPoint},
     {"astigmatism", "--astigmatism", "MM", -100, 100, &Lens::astigmatism, &LensSettings::astigmatism,
-     "Points in focus become lines that point to the image's centre: their length on the sensor at its left and right "
-     "edge. Below 0, they are blurred as lines where the focus lies on the other side"},
+     "Astigmatism: length of the radial line that a point in focus becomes at the left and right edges, on the sensor. "
+     "Below 0: the line appears on the other side of the focus",
+     "0.2", LensFeature::lensPoint},
     {"coma", "--coma", "MM", -100, 100, &Lens::coma, &LensSettings::coma,
-     "Points grow tails, away from the image's centre (above 0) or towards it: their length on the sensor at its left "
-     "and right edge"},
+     "Coma: length of a point's tail at the left and right edges, on the sensor; above 0 the tail points outwards",
+     "0.2", LensFeature::lensPoint},
     {"foregroundLimit", "--foreground-limit", "PX", 0, 1e6, &Lens::foregroundLimit, &LensSettings::foregroundLimit,
-     "Largest blur in front of the focus plane"},
+     "Maximum blur in front of the focus plane", "20"},
     {"backgroundLimit", "--background-limit", "PX", 0, 1e6, &Lens::backgroundLimit, &LensSettings::backgroundLimit,
-     "Largest blur behind the focus plane"},
+     "Maximum blur behind the focus plane", "40"},
     {"focusRangeFront", "--focus-range-front", "M", 0, 1e12, &Lens::focusRangeFront, &LensSettings::focusRangeFront,
-     "How much in front of the focus distance is in focus too; the blur grows from there"},
+     "Depth in front of the focus distance that stays sharp; the blur grows from its end", "0.5"},
     {"focusRangeBehind", "--focus-range-behind", "M", 0, 1e12, &Lens::focusRangeBehind, &LensSettings::focusRangeBehind,
-     "How much behind the focus distance is in focus too"},
+     "Depth behind the focus distance that stays sharp; the blur grows from its end", "1"},
     {"focusRangeRefocuses", "--focus-range-refocuses", "", 0, 1, &Lens::focusRangeRefocuses,
      &LensSettings::focusRangeRefocuses,
-     "Behind the focus range, the blur of a lens that is focused at the range's far end; off: it grows from there to "
-     "what "
-     "it is far away without a range"},
+     "Behind the focus range, blur as if the lens were focused at the range's far end. Off: the blur grows from there "
+     "to its value at infinity without a range",
+     "true"},
     {"focusTilt", "--focus-tilt", "DEG", -89.9, 89.9, &Lens::focusTilt, &LensSettings::focusTilt,
-     "Turns the focus plane about the horizontal axis: above 0, its top comes nearer"},
+     "Tilt of the focus plane about the horizontal axis; above 0 its top is nearer", "10"},
     {"focusSwing", "--focus-swing", "DEG", -89.9, 89.9, &Lens::focusSwing, &LensSettings::focusSwing,
-     "Turns the focus plane about the vertical axis: above 0, its right side comes nearer"},
+     "Swing of the focus plane about the vertical axis; above 0 its right side is nearer", "10"},
     {"fieldCurvature", "--field-curvature", "R", -1e3, 1e3, &Lens::fieldCurvature, &LensSettings::fieldCurvature,
-     "Bends the focus surface: at the image's left and right edge it lies at the focus distance over 1 + R"},
+     "Field curvature: at the left and right edges the focus surface lies at the focus distance over 1 + R", "0.2"},
     {"radialBlurGain", "--radial-blur-gain", "R", 0, 1e3, &Lens::radialBlurGain, &LensSettings::radialBlurGain,
-     "More blur away from the image's centre: 1 + R times as much at the left and right edge"},
+     "Blur gain away from the image's centre: 1 + R at the left and right edges", "1"},
 };
 
 bool isAngle(const LensField& field) {
@@ -105,7 +120,7 @@ double lensFieldValue(const Lens& lens, const LensField& field) {
 void setLensField(Lens& lens, const LensField& field, double value) {
     const bool whole = !std::holds_alternative<double Lens::*>(field.member);
     if (!(value >= field.least && value <= field.most) || (whole && value != std::floor(value)))
-        fail("{} must be {} from {} to {}, not {}", field.name, whole ? "a whole number" : "a number", field.least,
+        fail("{} must be {} from {} to {}, not {}", field.name, whole ? "an integer" : "a number", field.least,
              field.most, value);
     if (field.name == std::string_view("bladeCount") && (value == 1 || value == 2))
         fail("bladeCount must be 0 (a disk) or 3 to 64, not {}", value);
@@ -119,9 +134,11 @@ void setLensField(Lens& lens, const LensField& field, double value) {
 
 std::optional<double> givenLensValue(const LensSettings& given, const LensField& field) {
     return std::visit(
-        [&](auto member) {
-            const auto& value = given.*member;
-            return value ? std::optional(static_cast<double>(*value)) : std::nullopt;
+        [&](auto member) -> std::optional<double> {
+            if constexpr (std::is_same_v<decltype(member), std::monostate>)
+                return {};
+            else
+                return given.*member ? std::optional(static_cast<double>(*(given.*member))) : std::nullopt;
         },
         field.given);
 }
@@ -133,9 +150,11 @@ void giveLensValue(LensSettings& given, const LensField& field, std::optional<do
     }
     std::visit(
         [&](auto member) {
-            using Value = typename std::decay_t<decltype(given.*member)>::value_type;
-            (given.*member).reset();
-            if (value) given.*member = static_cast<Value>(*value);
+            if constexpr (!std::is_same_v<decltype(member), std::monostate>) {
+                using Value = typename std::decay_t<decltype(given.*member)>::value_type;
+                (given.*member).reset();
+                if (value) given.*member = static_cast<Value>(*value);
+            }
         },
         field.given);
 }

@@ -16,6 +16,15 @@
 
 namespace defocus {
 
+// What a value of the lens shapes, which decides whether it has an effect.
+enum class LensFeature {
+    camera,     // field of view, focus mechanics, exposure
+    fStop,      // blur and exposure
+    blur,       // the size of the blur
+    shape,      // the shape of the aperture
+    lensPoint,  // a blur that depends on the colour or on the position in the image
+};
+
 struct LensField {
     const char* name;    // as in glTF extras and shot files: "bladeRotation"
     const char* option;  // on the command line: "--blade-rotation"
@@ -23,10 +32,14 @@ struct LensField {
     double least = 0;  // range of the value, in `unit`
     double most = 0;
     std::variant<double Lens::*, int Lens::*, bool Lens::*> member;
-    std::variant<std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
+    std::variant<std::monostate, std::optional<double> LensSettings::*, std::optional<int> LensSettings::*,
                  std::optional<bool> LensSettings::*>
-        given;                // what a request says of it, in `unit`
+        given;                // the request's value, in `unit`; none: Request::focus has it
     const char* description;  // of the option
+    const char* example;      // a value to begin with
+    LensFeature feature = LensFeature::blur;
+    bool everyday = false;    // shown by --help
+    const char* schema = "";  // JSON schema of the value, if its range has gaps
 };
 
 // All of them, in the order of Lens.
@@ -38,7 +51,7 @@ const LensField* lensFieldNamed(std::string_view name);
 // In the field's unit: degrees where a Lens holds radians, 0 or 1 for truth values.
 double lensFieldValue(const Lens& lens, const LensField& field);
 
-// Throws Error for a value out of the field's range or with a fraction where whole numbers are meant. What depends on
+// Throws Error for a value out of the field's range or with a fraction where integers are meant. What depends on
 // several fields is for checkLens.
 void setLensField(Lens& lens, const LensField& field, double value);
 

@@ -38,7 +38,7 @@ std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const F
         return std::sqrt(pixel + 0.75 * blur * coc * coc) / pixelsPerUnit(object, plan, depth);
     };
     std::array<double, patchDepths> sides;
-    if (plan.settings.lodCocAtCentre) {
+    if (plan.settings.lodCoc == LodCoc::centre) {
         sides.fill(sideAt(-object.viewBox.centre().z, cocAtCentre(object, plan)));
         return sides;
     }

@@ -14,7 +14,7 @@ inline constexpr std::size_t patchDepths = 5;
 // Returns their sides, in object units, at depths evenly spread over the object's box, which must lie in front of the
 // near plane. A disk of diameter c and a pixel, one after the other, spread a point as far as a square of side √(1 +
 // ¾c²) px does: they have the same variance along an axis. The circle of confusion is the one in the middle of the
-// image, clamped to those of the box. With RenderSettings::lodCocAtCentre, the box's centre stands for all depths.
+// image, clamped to those of the box. With LodCoc::centre, the box's centre stands for all depths.
 // RenderSettings::lodCause can leave out the disk or the pixel.
 std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan);
 

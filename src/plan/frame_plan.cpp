@@ -25,10 +25,10 @@ namespace {
 
 void checkRequest(const View& view, const RenderSettings& settings) {
     checkLens(view.lens);
-    if (view.width < 1 || view.height < 1 || view.width > mostPixels || view.height > mostPixels)
-        fail("image size {} x {}: each side must be 1 to {} px", view.width, view.height, mostPixels);
-    if (settings.sampleCount < 1 || settings.sampleCount > mostSamples)
-        fail("{} samples: choose 1 to {}", settings.sampleCount, mostSamples);
+    if (view.width < 1 || view.height < 1 || view.width > maxImageSide || view.height > maxImageSide)
+        fail("image size {} x {}: each side must be 1 to {} px", view.width, view.height, maxImageSide);
+    if (settings.sampleCount < 1 || settings.sampleCount > maxSamples)
+        fail("{} samples: choose 1 to {}", settings.sampleCount, maxSamples);
     if (!(view.nearPlane > 0)) fail("near plane {} m: must be above 0", view.nearPlane);
     if (!(settings.cocTolerance > 0)) fail("CoC tolerance {} px: must be above 0", settings.cocTolerance);
     const LodThresholds thresholds =
@@ -108,7 +108,7 @@ double selectedLevel(const Pyramid& pyramid, const ObjectPlan& object, const Fra
     LevelQuery query;
     const double depth = plan.settings.metric == LodMetric::score ? -object.viewBox.centre().z : object.nearestDepth;
     query.pixelsPerUnit = largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * depth);
-    query.coc = plan.settings.lodCocAtCentre ? cocAtCentre(object, plan) : object.coc.smallest;
+    query.coc = plan.settings.lodCoc == LodCoc::centre ? cocAtCentre(object, plan) : object.coc.smallest;
     LodThresholds thresholds = plan.thresholds;
     if (plan.settings.lodCause == LodCause::size) thresholds.blur = 0;
     if (plan.settings.lodCause == LodCause::blur) thresholds.size = 0;

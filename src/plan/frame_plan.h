@@ -70,7 +70,7 @@ struct ObjectPlan {
     CocDeviation cocDeviation;  // px, of the drawn levels
     double projectedEdge = 0;   // px; the mean edge of level 0 at the nearest depth
     double lambda = 0;          // fractional level
-    LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; there are none if λ is a whole number
+    LevelDraw coarse;           // samples [0, n) draw level ⌊λ⌋ + 1; there are none if λ is an integer
     LevelDraw fine;             // samples [n, N) draw level ⌊λ⌋
     // With LodMode::continuous, `coarse` and `fine` may share sample n. Then this share of its pixels draws `coarse`,
     // and the others draw `fine`.

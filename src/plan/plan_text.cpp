@@ -136,7 +136,7 @@ std::string planTable(const FramePlan& plan) {
         plan.view.width, plan.view.height, plan.samples.size(), sequenceName(plan.settings.sequence), lens.focalLength,
         lens.fStop, lens.focusDistance, plan.apertureDiameter * 1000, lodModeName(plan.settings.lod),
         lodMetricName(plan.settings.metric), thresholdsText(plan),
-        plan.settings.lodCocAtCentre ? "blur at the centre" : "smallest blur",
+        plan.settings.lodCoc == LodCoc::centre ? "blur at the centre" : "smallest blur",
         levelVerticesName(plan.settings.levelVertices));
     if (!plan.moments.empty())
         text.insert(text.size() - 1,
@@ -180,7 +180,7 @@ std::string planJson(const FramePlan& plan) {
                            {"lod",
                             {{"mode", lodModeName(plan.settings.lod)},
                              {"metric", lodMetricName(plan.settings.metric)},
-                             {"coc", plan.settings.lodCocAtCentre ? "centre" : "smallest"},
+                             {"coc", plan.settings.lodCoc == LodCoc::centre ? "centre" : "smallest"},
                              {"vertices", levelVerticesName(plan.settings.levelVertices)},
                              {"blurThreshold", plan.thresholds.blur},
                              {"sizeThreshold", plan.thresholds.size},

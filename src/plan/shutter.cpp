@@ -21,16 +21,16 @@ double openingOffset(const ShutterSettings& shutter) {
     return 0;
 }
 
-// Of the moments whose poses are needed: which share of the exposure has passed.
+// Returns the moments whose poses are needed, as shares of the exposure.
 std::vector<double> shutterShares(const ShutterSettings& shutter, const Lens& lens, const RenderSettings& settings) {
     std::vector<double> shares;
-    if (shutter.exactMotion)
+    if (const auto* const segments = std::get_if<std::uint32_t>(&shutter.motionSegments)) {
+        for (std::uint32_t i = 0; i <= *segments; ++i) shares.push_back(static_cast<double>(i) / *segments);
+    } else {
         for (const LensSample& sample :
              lensSamples(lens, settings.sequence, settings.firstSample, settings.sampleCount, settings.seed))
             shares.push_back(static_cast<double>(sample.time));
-    else
-        for (std::uint32_t i = 0; i <= shutter.motionSegments; ++i)
-            shares.push_back(static_cast<double>(i) / shutter.motionSegments);
+    }
     return shares;
 }
 
@@ -45,7 +45,7 @@ void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
     opened = {};
     view.shutterCameras.clear();
     if (!(shutter.seconds > 0)) return;
-    opened.perSample = shutter.exactMotion;
+    opened.perSample = shutter.exactMotion();
     for (const double share : shutterShares(shutter, view.lens, settings)) {
         ShutterMoment moment = momentAt(openingOffset(shutter) + share * shutter.seconds);
         opened.poses.push_back(std::move(moment.pose));

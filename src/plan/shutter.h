@@ -2,11 +2,21 @@
 // Says how long the shutter of a frame is open, and poses the scene at the moments that a plan needs.
 
 #include <functional>
+#include <variant>
 #include <vector>
 
 #include "plan/view.h"
 
 namespace defocus {
+
+// How long the shutter is open, and how motion is followed meanwhile.
+struct ShutterSettings {
+    double seconds = 0;  // 0: everything stands still
+    ShutterPosition position = ShutterPosition::centre;
+    MotionSegments motionSegments = 1u;
+
+    [[nodiscard]] bool exactMotion() const { return std::holds_alternative<ExactMotion>(motionSegments); }
+};
 
 // Returns the middle of the exposure, in seconds from the frame's time.
 double shutterMiddle(const ShutterSettings& shutter);

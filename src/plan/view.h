@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "defocus/settings.h"
 #include "lens/lens.h"
-#include "lod/pyramid/level_selection.h"
+#include "plan/render_settings.h"
 #include "scene/defaults.h"
 #include "scene/pose.h"
 #include "scene/scene.h"

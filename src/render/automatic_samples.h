@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "defocus/settings.h"
 #include "plan/frame_plan.h"
 
 namespace defocus {

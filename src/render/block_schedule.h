@@ -9,9 +9,9 @@
 #include <functional>
 #include <optional>
 
-#include "defocus/settings.h"
 #include "plan/frame_plan.h"
 #include "render/error_estimate.h"
+#include "render/stop_settings.h"
 
 namespace defocus {
 

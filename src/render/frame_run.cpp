@@ -18,7 +18,7 @@ void checkStop(const StopSettings& stop, const Method& method, const ShutterSett
     if (!method.sumsBlocks)
         throw UsageError(
             fmt::format("method '{}' doesn't add lens samples block by block, which {} needs", method.name, what));
-    if (shutter.seconds > 0 && shutter.exactMotion)
+    if (shutter.seconds > 0 && shutter.exactMotion())
         throw UsageError(
             fmt::format("exact motion poses the scene for each of a known number of samples, which {} leaves open; "
                         "give a number of motion segments",
@@ -36,7 +36,7 @@ void FrameRun::start(const View& view, const RenderSettings& settings, const Sto
         schedule_.emplace(settings, stop, measuredLevels(settings));
         return startBlock(true);
     }
-    if (settings.sampleCount == automaticSamples) return startAutomatic(settings);
+    if (stop.automatic) return startAutomatic(settings);
     plan_ = planned(settings);
     renderer_->start(plan_);
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <optional>
 
+#include "plan/shutter.h"
 #include "render/block_schedule.h"
 #include "render/methods.h"
 
@@ -21,8 +22,8 @@ public:
     // Both must outlive it; `renderer` was made for `world`.
     FrameRun(const World& world, Renderer& renderer) : world_(&world), renderer_(&renderer) {}
 
-    // Begins a frame, forgetting the one before. checkStop must have passed. A number of samples that is automatic is
-    // for methods that sum blocks, and for motion of lines (see frame/request.h).
+    // Begins a frame, forgetting the one before. checkStop must have passed. An automatic number of samples needs
+    // a method that sums blocks, and no exact motion.
     void start(const View& view, const RenderSettings& settings, const StopSettings& stop);
     // Draws one wave of samples; false once the frame is done.
     bool advance();

@@ -40,7 +40,7 @@ std::vector<Method>& table() {
 
 std::string accepted(const MethodSetting& setting) {
     if (!setting.choices.empty()) return fmt::format("one of {}", fmt::join(setting.choices, ", "));
-    return fmt::format("a {}number from {:g} to {:g}", setting.whole ? "whole " : "", setting.least, setting.most);
+    return fmt::format("{} from {:g} to {:g}", setting.whole ? "an integer" : "a number", setting.least, setting.most);
 }
 
 bool takes(const MethodSetting& setting, const std::string& value) {

@@ -24,7 +24,7 @@ struct MethodSetting {
     std::vector<std::string> choices;  // one of these, or, when empty, a number:
     double least = 0;
     double most = 0;
-    bool whole = true;          // a whole number
+    bool whole = true;          // an integer
     std::string onlyWith = {};  // "resolve=published": the setting without which a method refuses this one
     bool ofTheScene = false;    // no value suits all scenes: benches over all settings leave it out
     bool keyed = false;         // a number that a shot may give keys: see valueAt

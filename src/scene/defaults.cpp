@@ -153,28 +153,25 @@ PlacedLight placedAt(const StudioLight& studio, const PlacedCamera& camera, cons
 
 }  // namespace
 
-PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::string& name, double aspect) {
+PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect) {
     const bool posed = pose.cameras.size() == scene.cameras.size();
     const std::vector<CameraNode> places = cameraNodes(scene, posed ? pose.cameras : scene.cameras);
+    if (std::holds_alternative<FramingCamera>(choice)) return framingCamera(pose.bounds, aspect);
 
-    // By name; without one, the first that can be used.
     const CameraNode* chosen = nullptr;
-    if (!name.empty()) {
-        chosen = cameraNamed(places, name);
+    if (const auto* const named = std::get_if<NamedCamera>(&choice)) {
+        chosen = cameraNamed(places, named->name);
+        if (chosen == nullptr) failForCamera(places, named->name);
     } else if (!places.empty()) {
         const auto usable =
             std::ranges::find_if(places, [](const CameraNode& place) { return !place.camera->orthographic; });
         chosen = usable == places.end() ? &places.front() : &*usable;
     }
-    if (chosen != nullptr) {
-        if (chosen->camera->orthographic)
-            fail("camera '{}' cannot be used: {}; name another, or '{}' for one that frames the scene",
-                 labelOf(*chosen), *chosen->camera->orthographic, framingName);
-        return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index]), static_cast<int>(chosen->index)};
-    }
-
-    if (!name.empty() && name != framingName) failForCamera(places, name);
-    return framingCamera(pose.bounds, aspect);
+    if (chosen == nullptr) return framingCamera(pose.bounds, aspect);
+    if (chosen->camera->orthographic)
+        fail("camera '{}' cannot be used: {}; name another, or '{}' for one that frames the scene", labelOf(*chosen),
+             *chosen->camera->orthographic, framingName);
+    return {*chosen->camera, withoutScale(pose.worldFromNode[chosen->index]), static_cast<int>(chosen->index)};
 }
 
 glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose) {

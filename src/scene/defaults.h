@@ -4,6 +4,7 @@
 #include <glm/mat4x4.hpp>
 #include <span>
 
+#include "defocus/camera.h"
 #include "scene/pose.h"
 
 namespace defocus {
@@ -14,11 +15,11 @@ struct PlacedCamera {
     int node = -1;                    // that carries it; −1: it frames the scene
 };
 
-// The camera called `name` (camera's or its node's name; empty: the file's first that can be used). Without cameras, or
-// for the name "auto", one that frames `pose.bounds` from a three-quarter view at the given image aspect (width /
-// height), with focusDistance and znear to suit. Throws Error for an unknown name (listing those that exist) and for
-// orthographic cameras.
-PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const std::string& name, double aspect);
+// Returns the chosen camera; a NamedCamera has the camera's or its node's name, and FirstCamera skips orthographic
+// cameras. A camera that frames the scene shows `pose.bounds` from a three-quarter view at the given image aspect
+// (width / height) and has a fitting focusDistance and znear. Throws Error for an unknown name, listing the known ones,
+// and for orthographic cameras.
+PlacedCamera chooseCamera(const Scene& scene, const Pose& pose, const CameraChoice& choice, double aspect);
 
 // Where the camera is in another pose of its scene; one that frames the scene stays where it is.
 glm::dmat4 worldFromCameraIn(const PlacedCamera& camera, const Pose& pose);

@@ -290,7 +290,7 @@ TEST_F(FrameSequence, exposureFollowsTheLens) {
     EXPECT_NEAR(film[1].write.exposure, film[0].write.exposure + 1, 1e-12);
     EXPECT_NEAR(film[2].write.exposure, -std::log2(4 / 0.04 * 100 / 400) - std::log2(1.2), 1e-12);
     EXPECT_NE(film[0].settings, film[1].settings);
-    options.settings.request.exposure = -1.5;
+    options.settings.request.exposure = ExposureValue{-1.5};
     EXPECT_EQ(filmFrames(shot, base_, {0, 1}, options)[1].write.exposure, -1.5);
 
     const char* switched =

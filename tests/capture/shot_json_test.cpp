@@ -34,11 +34,11 @@ TEST(ShotJson, whatIsGivenBesideAPresetWins) {
         const Shot shot = parseShot(text, "x.json");
         Request request;
         applyShot(shot, request);
-        EXPECT_EQ(request.settings.sequence, Sequence::r2);
-        EXPECT_EQ(request.settings.metric, LodMetric::halving);
-        EXPECT_EQ(request.settings.levelVertices, LevelVertices::surviving);
-        EXPECT_TRUE(request.settings.lodCocAtCentre);
-        EXPECT_EQ(request.settings.thresholds.blur, 0.25);
+        EXPECT_EQ(request.sequence, Sequence::r2);
+        EXPECT_EQ(request.lodMetric, LodMetric::halving);
+        EXPECT_EQ(request.levelVertices, LevelVertices::surviving);
+        EXPECT_TRUE(request.lodCoc == LodCoc::centre);
+        EXPECT_EQ(request.blurThreshold, 0.25);
     }
     EXPECT_NE(faultOf(R"({"preset": "jeong2012"})").find("jeong2011"), std::string::npos);
 }
@@ -51,10 +51,9 @@ TEST(ShotJson, pathsOfTheSceneAreRelativeToTheShot) {
 }
 
 TEST(ShotJson, exposureIsANumberOrAuto) {
-    EXPECT_EQ(parseShot(R"({"exposure": -1.5})", "x.json").request.exposure, -1.5);
+    EXPECT_EQ(parseShot(R"({"exposure": -1.5})", "x.json").request.exposure, Exposure(ExposureValue{-1.5}));
     const Shot metered = parseShot(R"({"exposure": "auto"})", "x.json");
-    EXPECT_TRUE(metered.request.exposureAuto);
-    EXPECT_FALSE(metered.request.exposure);
+    EXPECT_EQ(metered.request.exposure, Exposure(MeteredExposure{}));
     EXPECT_THROW(parseShot(R"({"exposure": "bright"})", "x.json"), Error);
 }
 
@@ -65,7 +64,7 @@ TEST(ShotJson, lengthsInAShotAreMetres) {
         Request request;
         applyShot(shot, request);
         settleShot(shot, request, {});
-        return request.metresPerUnit;
+        return request.units;
     };
     EXPECT_FALSE(unitsOf(R"({"lens": {"fStop": 2}, "focus": {"node": "Fox"}})"));
     EXPECT_EQ(unitsOf(R"({"focus": {"distance": 2}})"), 1);
@@ -96,11 +95,11 @@ TEST(ShotJson, everyPartIsRead) {
     EXPECT_EQ(std::get<std::string>(keys.targets[0].value), "Fox");
     EXPECT_EQ(keys.positions[1].frame, 2.5);
     ASSERT_TRUE(shot.focus);
-    EXPECT_EQ(std::get<double>(shot.focus->keys[1].value), 4);
+    EXPECT_EQ(std::get<FocusDistance>(shot.focus->keys[1].value).metres, 4);
     EXPECT_EQ(shot.lens.at("dofEnabled").keys[0].value, 0);
     EXPECT_EQ(shot.lens.at("blurScale").keys[1].value, 2);
     EXPECT_EQ(shot.lens.at("blurScale").easing, Easing::smooth);
-    EXPECT_EQ(shot.request.settings.lod, LodMode::nearest);
+    EXPECT_EQ(shot.request.lod, LodMode::nearest);
     EXPECT_EQ(shot.outputs.size(), 2u);
     EXPECT_EQ(shot.request.toneMap, ToneMap::agx);
 }
@@ -109,7 +108,7 @@ TEST(ShotJson, faultsNameTheirPlaceAndWhatWasExpected) {
     const std::pair<const char*, const char*> cases[] = {
         {R"({"camera": {"keys": [{"frame": 0, "position": [0, 0, "a"], "target": [0, 0, 0]}]}})",
          R"(shots/x.json: /camera/keys/0/position: expected three numbers or the name of a node, not [0,0,"a"])"},
-        {R"({"range": [0, -1]})", "shots/x.json: /range/1: expected a whole number from 0 to 9999999, not -1"},
+        {R"({"range": [0, -1]})", "shots/x.json: /range/1: expected an integer from 0 to 9999999, not -1"},
         {R"({"range": [5, 3]})", "shots/x.json: /range: expected a last frame that isn't before the first, not [5,3]"},
         {R"({"lens": {"fStop": 0}})", "shots/x.json: /lens/fStop: expected a number from 0.001 to 1000000, not 0"},
         {R"({"lens": {"bladeCount": 2}})",
@@ -144,8 +143,8 @@ TEST(ShotJson, overridesReplaceValuesByTheirPlace) {
     const Shot shot = parseShot(
         R"({"samples": 4, "focus": {"node": "A"}})", "x.json",
         {parseShotOverride("/samples=32"), parseShotOverride("/focus/node=B C"), parseShotOverride("/lens/fStop=1.4")});
-    EXPECT_EQ(shot.request.settings.sampleCount, 32u);
-    EXPECT_EQ(std::get<std::string>(shot.focus->keys[0].value), "B C");
+    EXPECT_EQ(shot.request.samples, 32u);
+    EXPECT_EQ(std::get<FocusNode>(shot.focus->keys[0].value).name, "B C");
     EXPECT_EQ(shot.lens.at("fStop").keys[0].value, 1.4);
     EXPECT_EQ(faultOf("{}", {parseShotOverride("/smaples=3")}),
               "shots/x.json: /: there is no key 'smaples'; did you mean 'samples'?");

@@ -14,7 +14,7 @@
 #include "capture/setting_json.h"
 #include "capture/shot_json.h"
 #include "core/error.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
 namespace defocus {
@@ -234,9 +234,9 @@ json valueFor(const Setting& setting) {
         return json(settingJson(setting, *standard));
     switch (setting.kind) {
         case SettingKind::number:
-        case SettingKind::whole:
-            return std::clamp(setting.kind == SettingKind::whole ? 3.0 : 1.0, setting.least, setting.most);
-        case SettingKind::truth:
+        case SettingKind::integer:
+            return std::clamp(setting.kind == SettingKind::integer ? 3.0 : 1.0, setting.min, setting.max);
+        case SettingKind::boolean:
             return true;
         case SettingKind::choice:
             return setting.choices.front();

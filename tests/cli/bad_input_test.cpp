@@ -90,7 +90,7 @@ TEST_F(BadInput, valuesOutOfRange) {
 TEST_F(BadInput, settingsThatTheMethodDoesNotTake) {
     expectFault(2, "did you mean 'circular'", {"--method", "circulr"});
     expectFault(2, "no settings", {"--taps", "16"});  // of scheuermann, but accumulation was meant
-    expectFault(2, "far-components is a whole number from 1 to 9", {"--method", "circular", "--far-components", "10"});
+    expectFault(2, "far-components is an integer from 1 to 9", {"--method", "circular", "--far-components", "10"});
     expectFault(2, "storage is one of", {"--method", "circular:storage=double"});
     expectFault(2, "no setting 'taps'", {"--method", "circular:taps=8"});
     expectFault(2, "SETTING=VALUE", {"--method", "circular:half"});

@@ -185,7 +185,7 @@ TEST_F(Capture, warnsOfOptionsThatDoNothingAndOfClippedPictures) {
     };
     const auto says = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
     const std::string unused = warned({"--lod", "off", "--size-threshold", "2"});
-    EXPECT_TRUE(says(unused, "warning: --size-threshold does nothing: with --lod off")) << unused;
+    EXPECT_TRUE(says(unused, "warning: --size-threshold has no effect: with --lod off")) << unused;
     EXPECT_FALSE(says(unused, "of the picture is")) << unused;
     const std::string black = warned({"--exposure", "-20", "-o", "black/####.png"});
     EXPECT_TRUE(says(black, "of the picture is black at an exposure of -20 EV")) << black;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "image/image_io.h"
 #include "render/methods.h"
 #include "scene/gltf/builder.h"

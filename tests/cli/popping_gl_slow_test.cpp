@@ -36,8 +36,8 @@ protected:
 
     void SetUp() override {
         if (!context_) GTEST_SKIP() << "no GL context";
-        options_.width = 160;
-        options_.height = 120;
+        options_.size.width = 160;
+        options_.size.height = 120;
         options_.noCache = true;
     }
 
@@ -85,7 +85,7 @@ protected:
     // 576 triangles, 100 m long: few pixels and much blur bring its levels into play.
     void fox(const std::filesystem::path& path) {
         options_.scene = path;
-        options_.metresPerUnit = 1;
+        options_.units = 1;
         options_.clip = "Walk";
         options_.time = 0.3;  // in the middle of a step
         options_.lens.blurScale = 1000;
@@ -108,20 +108,20 @@ TEST_F(NoPopping, ofTheSchoolOfFishInADolly) {
 TEST_F(NoPopping, ofTheFoxInAFocusPull) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
     fox(path);
-    options_.width = 32;
-    options_.height = 24;
+    options_.size.width = 32;
+    options_.size.height = 24;
     options_.lens.fStop = 0.25;
-    options_.settings.lodCocAtCentre = true;
+    options_.lodCoc = LodCoc::centre;
     expectNoneAlong(Movement::focusPull);
 }
 
 TEST_F(NoPopping, ofTheFoxInADolly) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
     fox(path);
-    options_.width = 32;
-    options_.height = 24;
+    options_.size.width = 32;
+    options_.size.height = 24;
     options_.lens.fStop = 0.25;
-    options_.settings.lodCocAtCentre = true;
+    options_.lodCoc = LodCoc::centre;
     expectNoneAlong(Movement::dolly);
 }
 
@@ -130,10 +130,10 @@ TEST_F(NoPopping, ofTheFoxInADolly) {
 TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
     DEFOCUS_MODEL_OR_SKIP(path, "Fox.glb");
     fox(path);
-    options_.width = 96;
-    options_.height = 72;
+    options_.size.width = 96;
+    options_.size.height = 72;
     options_.lens.fStop = 0.4;
-    options_.lens.focusDistance = 125;
+    options_.focus = FocusDistance{125};
     PoppingOptions popping;
     popping.movements = {Movement::clip};
     popping.clip = 1;  // Walk, 0.708 s

@@ -9,7 +9,7 @@
 #include "cli/two_quads.h"
 #include "defocus/renderer.h"
 #include "frame/program_facts.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "image/image_io.h"
 #include "plan/lens_cells.h"
 
@@ -265,10 +265,10 @@ TEST_F(Render, theNumberOfSamplesIsAutomatic) {
     // The library's default is the program's.
     Request request;
     request.scene = folder() / "quads.gltf";
-    request.width = 128;
-    request.height = 96;
+    request.size.width = 128;
+    request.size.height = 96;
     request.lens.fStop = 0.3;
-    request.lens.focusDistance = 1;
+    request.focus = FocusDistance{1};
     EXPECT_TRUE(defocus::render(request).pixels == readImage(folder() / "much.exr").pixels);
 
     // A part of a number needs the number.

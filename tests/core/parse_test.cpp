@@ -37,9 +37,9 @@ TEST(ParseNumber, keepsToItsRange) {
 }
 
 TEST(ParseWhole, refusesSignsFractionsAndOverflow) {
-    EXPECT_EQ(parseWhole("65536", 1, 65'536), 65'536u);
+    EXPECT_EQ(parseInteger("65536", 1, 65'536), 65'536u);
     for (const char* text : {"", "-1", "1.5", "1e3", "65537", "0", "99999999999999999999999", "0x1", "1 "})
-        EXPECT_NE(faultOf([&] { parseWhole(text, 1, 65'536); }), "") << text;
+        EXPECT_NE(faultOf([&] { parseInteger(text, 1, 65'536); }), "") << text;
 }
 
 TEST(ParseNumbers, wantsExactlyTheirCount) {

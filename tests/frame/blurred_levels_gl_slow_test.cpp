@@ -30,8 +30,8 @@ protected:
         Request request;
         request.scene = modelPath(GetParam());
         if (!std::filesystem::exists(request.scene)) GTEST_SKIP() << request.scene << " is not there";
-        request.width = 384;
-        request.height = 288;
+        request.size.width = 384;
+        request.size.height = 288;
         request.noCache = true;
         request.lens.fStop = 0.95;
         frame_ = prepareFrame(request);

@@ -46,8 +46,8 @@ protected:
             GTEST_SKIP() << error.what();
         }
         Request request;
-        request.width = 96;
-        request.height = 72;
+        request.size.width = 96;
+        request.size.height = 72;
         request.trianglesPerFish = 2'000;
         request.noCache = true;
         request.lens.fStop = 0.95;

@@ -63,10 +63,10 @@ TEST(Meter, isReadForTheLightsOfFilesAlone) {
     EXPECT_TRUE(metersExposure(request, scene, lens));
     lens.exposureTime = 0.01;
     EXPECT_FALSE(metersExposure(request, scene, lens));
-    request.exposureAuto = true;
+    request.exposure = MeteredExposure{};
     EXPECT_TRUE(metersExposure(request, scene, lens));
     request = {};
-    request.exposure = 0;
+    request.exposure = ExposureValue{0};
     EXPECT_FALSE(metersExposure(request, scene, {}));
 }
 

@@ -56,9 +56,9 @@ TEST_F(Library, settingsByNameAreThoseOfTheStruct) {
     setSetting(request_, "lod", "off");
     setSetting(request_, "far-components", "5");
     EXPECT_EQ(request_.lens.fStop, 1.4);
-    EXPECT_EQ(request_.width, 64);
-    EXPECT_EQ(request_.height, 48);
-    EXPECT_EQ(request_.settings.lod, LodMode::off);
+    EXPECT_EQ(request_.size.width, 64);
+    EXPECT_EQ(request_.size.height, 48);
+    EXPECT_EQ(request_.lod, LodMode::off);
     EXPECT_EQ(request_.methodSettings.at("far-components"), "5");
     const std::string unknown = messageOf<UsageError>([&] { setSetting(request_, "fStopp", "2"); });
     EXPECT_NE(unknown.find("fStop"), std::string::npos) << unknown;
@@ -101,49 +101,43 @@ TEST_F(Library, valuesOutOfRangeAreUsageErrorsThatNameThem) {
         {"fStop", [](Request& r) { r.lens.fStop = 0; }},
         {"fStop", [](Request& r) { r.lens.fStop = nan; }},
         {"fStop", [](Request& r) { r.lens.fStop = 1e300; }},
-        {"focusDistance", [](Request& r) { r.lens.focusDistance = -1; }},
-        {"focusDistance", [](Request& r) { r.lens.focusDistance = infinity; }},
+        {"focusDistance", [](Request& r) { r.focus = FocusDistance{-1}; }},
+        {"focusDistance", [](Request& r) { r.focus = FocusDistance{infinity}; }},
         {"bladeCount", [](Request& r) { r.lens.bladeCount = 2; }},
         {"bladeCount", [](Request& r) { r.lens.bladeCount = -5; }},
         {"nodeBlur", [](Request& r) { r.nodeBlur["Near"] = -1; }},
-        {"size", [](Request& r) { r.width = 0; }},
-        {"size", [](Request& r) { r.height = -3; }},
-        {"size", [](Request& r) { r.width = mostPixels + 1; }},
-        {"samples", [](Request& r) { r.settings.sampleCount = mostSamples + 1; }},
-        {"cocTolerance", [](Request& r) { r.settings.cocTolerance = 0; }},
-        {"cocTolerance", [](Request& r) { r.settings.cocTolerance = nan; }},
-        {"blurThreshold", [](Request& r) { r.settings.thresholds.blur = -0.1; }},
-        {"lightThreshold", [](Request& r) { r.settings.thresholds.light = -0.1; }},
-        {"lod", [](Request& r) { r.settings.lod = static_cast<LodMode>(17); }},
-        {"sequence", [](Request& r) { r.settings.sequence = static_cast<Sequence>(-1); }},
+        {"size", [](Request& r) { r.size.width = 0; }},
+        {"size", [](Request& r) { r.size.height = -3; }},
+        {"size", [](Request& r) { r.size.width = maxImageSide + 1; }},
+        {"samples", [](Request& r) { r.samples = maxSamples + 1; }},
+        {"cocTolerance", [](Request& r) { r.cocTolerance = 0; }},
+        {"cocTolerance", [](Request& r) { r.cocTolerance = nan; }},
+        {"blurThreshold", [](Request& r) { r.blurThreshold = -0.1; }},
+        {"lightThreshold", [](Request& r) { r.lightThreshold = -0.1; }},
+        {"lod", [](Request& r) { r.lod = static_cast<LodMode>(17); }},
+        {"sequence", [](Request& r) { r.sequence = static_cast<Sequence>(-1); }},
         {"layerFormat", [](Request& r) { r.layerFormat = static_cast<LayerFormat>(99); }},
         {"wave", [](Request& r) { r.wave = 65; }},
         {"memory", [](Request& r) { r.memory = 0; }},
         {"time", [](Request& r) { r.time = infinity; }},
-        {"shutter", [](Request& r) { r.shutter.seconds = -1; }},
-        {"motionSegments", [](Request& r) { r.shutter.motionSegments = 0; }},
+        {"shutter", [](Request& r) { r.shutter = -1; }},
+        {"motionSegments", [](Request& r) { r.motionSegments = 0u; }},
         {"cameraPosition",
          [](Request& r) {
              r.cameraPosition = Vector3{0, nan, 0};
          }},
         {"focusPixel",
          [](Request& r) {
-             r.focusPixel = Pixel{-1, 0};
+             r.focus = FocusPixel{{-1, 0}};
          }},
         {"background",
          [](Request& r) {
-             r.background = Background::uniform;
-             r.backgroundColor = {0, -1, 0};
+             r.background = Color{0, -1, 0};
          }},
         {"fishCount", [](Request& r) { r.fishCount = -1; }},
-        {"exposure", [](Request& r) { r.exposure = nan; }},
+        {"exposure", [](Request& r) { r.exposure = ExposureValue{nan}; }},
         {"method", [](Request& r) { r.method = "none such"; }},
         {"method", [](Request& r) { r.methodSettings["far-components"] = "5"; }},  // not of this method
-        {"give at most one",
-         [](Request& r) {
-             r.focusAuto = true;
-             r.lens.focusDistance = 2;
-         }},
     };
     for (const BadValue& value : values) {
         Request request = request_;
@@ -167,7 +161,7 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
     const std::vector<std::function<void(Request&)>> setters = {
         [&](Request& r) { r.lens.focalLength = number(); },
         [&](Request& r) { r.lens.fStop = number(); },
-        [&](Request& r) { r.lens.focusDistance = number(); },
+        [&](Request& r) { r.focus = FocusDistance{number()}; },
         [&](Request& r) { r.lens.horizontalAperture = number(); },
         [&](Request& r) { r.lens.blurScale = number(); },
         [&](Request& r) { r.lens.focusBreathing = true; },
@@ -184,10 +178,10 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
         [&](Request& r) { r.lens.focusTilt = number(); },
         [&](Request& r) { r.lens.fieldCurvature = number(); },
         [&](Request& r) { r.lens.radialBlurGain = number(); },
-        [&](Request& r) { r.width = static_cast<int>(whole()); },
-        [&](Request& r) { r.height = static_cast<int>(whole()); },
+        [&](Request& r) { r.size.width = static_cast<int>(whole()); },
+        [&](Request& r) { r.size.height = static_cast<int>(whole()); },
         [&](Request& r) { r.time = number(); },
-        [&](Request& r) { r.shutter.seconds = number(); },
+        [&](Request& r) { r.shutter = number(); },
         [&](Request& r) {
             r.cameraPosition = Vector3{number(), number(), number()};
         },
@@ -198,21 +192,20 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
             r.cameraUp = Vector3{number(), number(), number()};
         },
         [&](Request& r) {
-            r.focusPixel = Pixel{static_cast<int>(whole()), static_cast<int>(whole())};
+            r.focus = FocusPixel{{static_cast<int>(whole()), static_cast<int>(whole())}};
         },
-        [&](Request& r) { r.settings.sampleCount = static_cast<std::uint32_t>(whole() & 0xff); },
-        [&](Request& r) { r.settings.firstSample = static_cast<std::uint32_t>(whole()); },
-        [&](Request& r) { r.settings.seed = static_cast<std::uint32_t>(whole()); },
-        [&](Request& r) { r.settings.sequence = static_cast<Sequence>(whole()); },
-        [&](Request& r) { r.settings.lod = static_cast<LodMode>(whole()); },
-        [&](Request& r) { r.settings.metric = static_cast<LodMetric>(whole()); },
-        [&](Request& r) { r.settings.levelVertices = static_cast<LevelVertices>(whole()); },
-        [&](Request& r) { r.settings.thresholds.blur = number(); },
-        [&](Request& r) { r.settings.thresholds.size = number(); },
-        [&](Request& r) { r.settings.thresholds.light = number(); },
-        [&](Request& r) { r.settings.cocTolerance = number(); },
+        [&](Request& r) { r.samples = static_cast<std::uint32_t>(whole() & 0xff); },
+        [&](Request& r) { r.seed = static_cast<std::uint32_t>(whole()); },
+        [&](Request& r) { r.sequence = static_cast<Sequence>(whole()); },
+        [&](Request& r) { r.lod = static_cast<LodMode>(whole()); },
+        [&](Request& r) { r.lodMetric = static_cast<LodMetric>(whole()); },
+        [&](Request& r) { r.levelVertices = static_cast<LevelVertices>(whole()); },
+        [&](Request& r) { r.blurThreshold = number(); },
+        [&](Request& r) { r.sizeThreshold = number(); },
+        [&](Request& r) { r.lightThreshold = number(); },
+        [&](Request& r) { r.cocTolerance = number(); },
         [&](Request& r) { r.nodeBlur["Far"] = number(); },
-        [&](Request& r) { r.camera = "auto"; },
+        [&](Request& r) { r.camera = FramingCamera{}; },
     };
     int planned = 0;
     int refused = 0;

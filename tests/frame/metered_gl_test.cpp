@@ -29,9 +29,9 @@ protected:
         builder.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
         GltfBuilder::save(folder_ / "sunny.glb", builder.glb());
         request_.scene = folder_ / "sunny.glb";
-        request_.width = 32;
-        request_.height = 24;
-        request_.settings.sampleCount = 4;
+        request_.size.width = 32;
+        request_.size.height = 24;
+        request_.samples = 4;
         request_.noCache = true;
         request_.toneMap = ToneMap::none;
     }
@@ -50,7 +50,7 @@ protected:
 // One even surface: the meter brings it to 40 %, however bright the sun is.
 TEST_F(MeteredRender, showsAWallUnderTheSun) {
     EXPECT_NEAR(written(), 0.4f, 0.02f);
-    request_.exposure = 0;
+    request_.exposure = ExposureValue{0};
     EXPECT_EQ(written(), 1);
 }
 

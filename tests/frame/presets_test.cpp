@@ -1,7 +1,7 @@
 // Presets: what they set, and that the plan of jeong2011 is what the paper's formulas give. The formulas are written
 // out here once more, from scene and camera alone.
 
-#include "frame/presets.h"
+#include "frame/settings/presets.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "frame/prepared_frame.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "plan/frame_plan.h"
 #include "plan/object_pose.h"
 
@@ -45,7 +45,7 @@ TEST(Presets, areLeftByAnotherValue) {
         Request request;
         applyPreset(jeong(), request);
         if (value.setting == "lod")  // as it is by default
-            request.settings.lod = LodMode::nearest;
+            request.lod = LodMode::nearest;
         else
             settingNamed(value.setting)->clear(request);
         EXPECT_EQ(presetOf(request), nullptr) << value.setting;
@@ -106,11 +106,11 @@ protected:
         request.noCache = true;
         request.lens.fStop = 0.5;
         setByName(request, "preset", "jeong2011");
-        request.settings.sampleCount = samples;
+        request.samples = samples;
         return request;
     }
     static FramePlan planOf(std::uint32_t samples) {
-        return planFrame(frame_->world, frame_->view, asked(samples).settings);
+        return planFrame(frame_->world, frame_->view, renderSettings(asked(samples)));
     }
     static inline PreparedFrame* frame_ = nullptr;
 };

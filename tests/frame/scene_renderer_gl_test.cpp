@@ -26,9 +26,9 @@ Request smallRequest() {
     request.fishCount = 2;
     request.trianglesPerFish = 1'000;
     request.noCache = true;
-    request.width = 96;
-    request.height = 72;
-    request.settings.sampleCount = 16;
+    request.size.width = 96;
+    request.size.height = 72;
+    request.samples = 16;
     request.lens.fStop = 1;
     request.wave = 4;
     return request;
@@ -38,7 +38,7 @@ Request movedRequest() {
     Request request = smallRequest();
     request.cameraPosition = Vector3{0.4, 0.2, 2.5};
     request.cameraTarget = Vector3{0, 0, -1};
-    request.lens.focusDistance = 3;
+    request.focus = FocusDistance{3};
     return request;
 }
 
@@ -79,15 +79,14 @@ TEST_F(SceneRendererTest, stepsEndInTheImageOfRender) {
 TEST_F(SceneRendererTest, everyFrameIsThatOfAFreshRenderer) {
     std::vector<Request> requests(11, smallRequest());
     requests[1] = movedRequest();
-    requests[2].settings.lod = LodMode::off;
+    requests[2].lod = LodMode::off;
     requests[4].method = "circular";
-    requests[5].background = Background::uniform;
-    requests[5].backgroundColor = {0.5f, 0.25f, 0.125f};
-    requests[6].width = 64;
+    requests[5].background = Color{0.5f, 0.25f, 0.125f};
+    requests[6].size.width = 64;
     requests[6].layerFormat = LayerFormat::rgba32f;
     requests[7] = movedRequest();
-    requests[7].settings.lod = LodMode::off;
-    requests[8].settings.levelVertices = LevelVertices::surviving;  // other pyramids, then those of before
+    requests[7].lod = LodMode::off;
+    requests[8].levelVertices = LevelVertices::surviving;  // other pyramids, then those of before
     requests[10] = requests[8];
     SceneRenderer renderer(requests[0]);
     for (std::size_t i = 0; i < requests.size(); ++i)
@@ -102,14 +101,14 @@ TEST_F(SceneRendererTest, publishedLevelsEndInFullDetail) {
     Request published = smallRequest();
     setSetting(published, "preset", "jeong2011");
     Request sharp = published;
-    sharp.settings.lod = LodMode::off;
+    sharp.lod = LodMode::off;
     const Image fullDetail = render(sharp);
     EXPECT_NE(render(published).pixels, fullDetail.pixels);
-    published.settings.thresholds = {0, 0};
+    published.blurThreshold = published.sizeThreshold = 0;
     EXPECT_EQ(render(published).pixels, fullDetail.pixels);
     // Nor where nothing is blurred and size alone would pick levels.
     published.lens.dofEnabled = sharp.lens.dofEnabled = false;
-    published.settings.thresholds = {0.25, 0};
+    published.blurThreshold = 0.25;
     EXPECT_EQ(render(published).pixels, render(sharp).pixels);
 }
 
@@ -125,7 +124,7 @@ TEST_F(SceneRendererTest, pyramidsAreBuiltWhereThereAreNone) {
     };
     using Stages = std::vector<std::string>;
     Request sharp = smallRequest();
-    sharp.settings.lod = LodMode::off;
+    sharp.lod = LodMode::off;
     SceneRenderer renderer(sharp);
     const double before = renderer.statistics().pyramidMilliseconds;
     EXPECT_EQ(stagesOf(renderer, sharp), Stages{"samples"});
@@ -151,7 +150,7 @@ TEST_F(SceneRendererTest, aProgressThatThrowsCancelsAndTheRendererGoesOn) {
 
     // While levels are made for the first time, too.
     Request sharp = smallRequest();
-    sharp.settings.lod = LodMode::off;
+    sharp.lod = LodMode::off;
     SceneRenderer late(sharp);
     const Image sharpImage = late.render();
     EXPECT_THROW(late.render(smallRequest(), [](auto...) { throw Cancelled(); }), Cancelled);
@@ -185,8 +184,8 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
 
     std::vector<Request> bad(5, smallRequest());
     bad[0].fishCount = 3;  // another scene
-    bad[1].camera = "none such";
-    bad[2].settings.sampleCount = 65'537;
+    bad[1].camera = NamedCamera{"none such"};
+    bad[2].samples = 65'537;
     bad[3].environment = folder_ / "missing.hdr";
     bad[4].nodeBlur["none such"] = 1;
     for (const Request& request : bad) EXPECT_THROW(renderer.start(request), Error);
@@ -216,11 +215,11 @@ TEST_F(SceneRendererTest, aovsPlanAndFilesAreOfTheFrame) {
     Request request;
     request.scene = folder_ / "quads.gltf";
     request.noCache = true;
-    request.width = 64;
-    request.height = 48;
-    request.settings.sampleCount = 4;
+    request.size.width = 64;
+    request.size.height = 48;
+    request.samples = 4;
     request.lens.fStop = 0.2;  // enough blur that the lens isn't left out
-    request.lens.focusDistance = 4;
+    request.focus = FocusDistance{4};
     SceneRenderer renderer(request);
     const Image image = renderer.render();
     const Aovs aovs = renderer.aovs();
@@ -268,7 +267,7 @@ TEST_F(SceneRendererTest, theCallersContextIsCurrentAfterEachCall) {
         static_cast<void>(renderer.aovs());
         check("aovs");
         Request bad = smallRequest();
-        bad.camera = "none such";
+        bad.camera = NamedCamera{"none such"};
         EXPECT_THROW(renderer.start(bad), Error);
         check("start that throws");
         renderer.render([&](auto...) { check("progress"); });
@@ -339,10 +338,10 @@ TEST_F(SceneRendererTest, threadsMayRenderAtOnce) {
 TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     if (!createHeadlessContext()->software()) GTEST_SKIP() << "a GPU has memory of its own for the pixels";
     Request request = smallRequest();
-    request.width = 1600;
-    request.height = 1200;
-    request.wave = 0;
-    request.settings.sampleCount = 4;
+    request.size.width = 1600;
+    request.size.height = 1200;
+    request.wave.reset();
+    request.samples = 4;
     (void)render(smallRequest());
     const std::uint64_t held = residentMemory();  // before there was a large image, of which drivers keep memory
     Image whole;
@@ -384,8 +383,8 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
     EXPECT_TRUE(movedImage.pixels == render(moved).pixels);
     // A small one fits, and so it does beside what the large one took.
     Request small = request;
-    small.width = 96;
-    small.height = 72;
+    small.size.width = 96;
+    small.size.height = 72;
     const Image smallImage = other.render(small);
     small.memory.reset();
     EXPECT_TRUE(smallImage.pixels == render(small).pixels);

@@ -32,8 +32,8 @@ protected:
     [[nodiscard]] Request request() const {
         Request request;
         request.scene = folder_ / "scene.glb";
-        request.width = 320;
-        request.height = 240;
+        request.size.width = 320;
+        request.size.height = 240;
         request.noCache = true;
         request.lens.fStop = 1;
         return request;
@@ -82,7 +82,7 @@ TEST_F(SceneScale, whatIsSaidCountsThenTheFileThenAGuess) {
     EXPECT_FALSE(placeFrame(request()).scaleNote);
 
     Request said = request();
-    said.metresPerUnit = 0.0254;
+    said.units = 0.0254;
     EXPECT_EQ(scaleOf(said), 0.0254);
 
     builder.json["asset"]["extras"] = {{"units", "miles"}};
@@ -94,7 +94,7 @@ TEST_F(SceneScale, lengthsThatAreGivenAreInMetresOfTheFile) {
     GltfBuilder builder = squareOf(200);
     save(builder);
     Request distance = request();
-    distance.lens.focusDistance = 400;
+    distance.focus = FocusDistance{400};
     EXPECT_EQ(scaleOf(distance), 1);
     Request place = request();
     place.cameraPosition = Vector3{0, 0, 500};
@@ -119,7 +119,7 @@ TEST_F(SceneScale, blurIsThatOfTheThing) {
     save(squareOf(200));
     EXPECT_NEAR(blurOf(request()), inMetres, 1e-5 * inMetres);
     Request wrong = request();
-    wrong.metresPerUnit = 1;
+    wrong.units = 1;
     EXPECT_NEAR(blurOf(wrong), inMetres / 100, 1e-5 * inMetres);
 }
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "defocus/renderer.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "render/methods.h"
 
 namespace defocus {
@@ -34,11 +34,11 @@ TEST(SettingInfos, haveEachSettingAndEachOfAMethodOnce) {
 
 TEST(SettingInfos, defaultsChangeNothing) {
     for (const SettingInfo& info : settingInfos()) {
-        if (!info.standard) continue;
+        if (!info.defaultValue) continue;
         Request standard;
         if (!info.methods.empty()) standard.method = info.methods.front();
         Request request = standard;
-        ASSERT_NO_THROW(setSetting(request, info.name, *info.standard)) << info.name;
+        ASSERT_NO_THROW(setSetting(request, info.name, *info.defaultValue)) << info.name;
         for (const Setting& setting : settings()) EXPECT_EQ(setting.text(request), setting.text(standard)) << info.name;
     }
 }
@@ -46,15 +46,15 @@ TEST(SettingInfos, defaultsChangeNothing) {
 TEST(SettingInfos, tellFormRangeAndOwners) {
     const std::vector<SettingInfo> infos = settingInfos();
     const SettingInfo& samples = infoNamed(infos, "samples");
-    EXPECT_EQ(samples.kind, SettingKind::whole);
-    EXPECT_EQ(samples.least, 1);
-    EXPECT_EQ(samples.most, mostSamples);
-    EXPECT_EQ(samples.standard, "auto");
+    EXPECT_EQ(samples.kind, SettingKind::integer);
+    EXPECT_EQ(samples.min, 1);
+    EXPECT_EQ(samples.max, maxSamples);
+    EXPECT_EQ(samples.defaultValue, "auto");
     EXPECT_TRUE(samples.methods.empty());
     const SettingInfo& focus = infoNamed(infos, "focusDistance");
     EXPECT_EQ(focus.keyword, "focus_distance");
     EXPECT_EQ(focus.unit, "m");
-    EXPECT_FALSE(focus.standard);
+    EXPECT_FALSE(focus.defaultValue);
     const SettingInfo& components = infoNamed(infos, "far-components");
     EXPECT_EQ(components.keyword, "far_components");
     EXPECT_EQ(components.option, "--far-components");

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "frame/presets.h"
-#include "frame/settings.h"
+#include "frame/settings/presets.h"
+#include "frame/settings/settings.h"
 
 namespace defocus {
 namespace {
@@ -14,7 +14,7 @@ std::string hashOf(const Request& request) {
     FilmSettings film;
     film.request = request;
     FrameMoment frame;
-    frame.settings = request.settings;
+    frame.settings = renderSettings(request);
     return settingsHash(film, frame);
 }
 

@@ -16,10 +16,10 @@ Request twoFish() {
     request.fishCount = 2;
     request.trianglesPerFish = 2'000;
     request.noCache = true;
-    request.width = 64;
-    request.height = 48;
+    request.size.width = 64;
+    request.size.height = 48;
     request.lens.fStop = 1;
-    request.settings.sampleCount = 64;
+    request.samples = 64;
     return request;
 }
 
@@ -33,7 +33,8 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     EXPECT_EQ(renderer.statistics().stopped, StopReason::sampleCount);
     EXPECT_FALSE(renderer.statistics().estimatedError);
 
-    request.stop.targetError = 0.05;
+    request.samples.reset();
+    request.targetError = 0.05;
     static_cast<void>(renderer.render(request));
     EXPECT_EQ(renderer.statistics().samples, 128u);
     EXPECT_EQ(renderer.sampleTotal(), 128u);
@@ -41,12 +42,15 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
     EXPECT_LE(renderer.statistics().estimatedError.value(), 0.05);
     EXPECT_GT(renderer.statistics().trianglesDrawn, 0u);
 
-    request.stop = {.targetError = {}, .timeLimit = 1e-3, .sampleLimit = mostSamples};
+    request.targetError.reset();
+    request.timeLimit = 1e-3;
     static_cast<void>(renderer.render(request));
     EXPECT_EQ(renderer.statistics().samples, 64u) << "one block at least, and the next would end too late";
     EXPECT_EQ(renderer.statistics().stopped, StopReason::timeLimit);
 
-    request.stop = {.targetError = 1e-6, .timeLimit = {}, .sampleLimit = 256};
+    request.targetError = 1e-6;
+    request.timeLimit.reset();
+    request.samples = 256;
     request.lens.dofEnabled = false;
     static_cast<void>(renderer.render(request));
     EXPECT_EQ(renderer.statistics().stopped, StopReason::nothingBlurred);
@@ -56,31 +60,30 @@ TEST_F(StoppedRender, statisticsSayWhyAndHowFarOff) {
 // Full detail: the blocks of an open number of samples are those of a fixed one, bit for bit.
 TEST_F(StoppedRender, blocksMakeTheImageOfAsManySamples) {
     Request request = twoFish();
-    request.settings.lod = LodMode::off;
-    request.settings.sampleCount = 200;
+    request.lod = LodMode::off;
+    request.samples = 200;
     const Image fixed = render(request);
-    request.stop.targetError = 1e-6;
-    request.stop.sampleLimit = 200;
+    request.targetError = 1e-6;
     EXPECT_TRUE(render(request).pixels == fixed.pixels);
 }
 
 TEST_F(StoppedRender, whatCannotBeFollowedIsRefused) {
     Request request = twoFish();
-    request.stop.targetError = 0.01;
+    request.targetError = 0.01;
     request.method = "circular";
     EXPECT_THROW(static_cast<void>(render(request)), UsageError);
     request = twoFish();
-    request.stop.timeLimit = 1;
-    request.shutter.seconds = 0.1;
-    request.shutter.exactMotion = true;
+    request.timeLimit = 1;
+    request.shutter = 0.1;
+    request.motionSegments = ExactMotion{};
     EXPECT_THROW(static_cast<void>(render(request)), UsageError);
     for (const double wrong : {0.0, -1.0, 2.0, std::nan("")}) {
         request = twoFish();
-        request.stop.targetError = wrong;
+        request.targetError = wrong;
         EXPECT_THROW(static_cast<void>(render(request)), UsageError) << wrong;
     }
     request = twoFish();
-    request.stop.sampleLimit = 0;
+    request.samples = 0;
     EXPECT_THROW(static_cast<void>(render(request)), UsageError);
 }
 

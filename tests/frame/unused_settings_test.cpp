@@ -1,8 +1,8 @@
-#include "frame/unused_settings.h"
+#include "frame/settings/unused_settings.h"
 
 #include <gtest/gtest.h>
 
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 
 namespace defocus {
 namespace {
@@ -27,21 +27,21 @@ TEST(UnusedSettings, aDefaultRequestHasNone) {
 
 TEST(UnusedSettings, eachIsNamedWithItsReason) {
     const std::vector<std::pair<std::vector<Given>, std::string>> cases = {
-        {{{"method", "circular"}, {"seed", "2"}}, "--seed does nothing: the method circular draws no lens samples"},
+        {{{"method", "circular"}, {"seed", "2"}}, "--seed has no effect: the method circular draws no lens samples"},
         {{{"method", "circular"}, {"bladeCount", "5"}, {"obstruction", "0.5"}},
-         "--blades, --obstruction do nothing: the method circular has a round or oval aperture"},
+         "--blades, --obstruction have no effect: the method circular has a round or oval aperture"},
         {{{"method", "scheuermann"}, {"bladeCount", "5"}, {"catEye", "0.5"}, {"coma", "1"}},
-         "--cat-eye, --coma do nothing: the method scheuermann has one lens for all colours and all places of the "
-         "image"},
-        {{{"method", "circular"}, {"shutter", "0.1"}}, "--shutter does nothing: the method circular draws no motion"},
-        {{{"motionSegments", "4"}}, "--motion-segments does nothing: without --shutter it is open for a moment"},
+         "--cat-eye, --coma have no effect: the method scheuermann has the same lens for all colours and pixels"},
+        {{{"method", "circular"}, {"shutter", "0.1"}}, "--shutter has no effect: the method circular draws no motion"},
+        {{{"motionSegments", "4"}},
+         "--motion-segments has no effect: without --shutter nothing moves during the exposure"},
         {{{"environmentRotation", "30"}},
-         "--environment-rotation does nothing: without --environment the surroundings are the same all around"},
-        {{{"time", "2"}}, "--time does nothing: the scene has no animation"},
-        {{{"dofEnabled", "false"}, {"fStop", "2"}}, "--fstop does nothing: with --no-dof nothing is blurred"},
+         "--environment-rotation has no effect: without --environment the surroundings are the same all around"},
+        {{{"time", "2"}}, "--time has no effect: the scene has no animation"},
+        {{{"dofEnabled", "false"}, {"fStop", "2"}}, "--fstop has no effect: with --no-dof nothing is blurred"},
         {{{"lod", "off"}, {"lightThreshold", "0.1"}},
-         "--light-threshold does nothing: with --lod off there is full detail alone"},
-        {{{"lodCoc", "centre"}}, "--lod-coc does nothing: measured levels take the blur over the whole object"}};
+         "--light-threshold has no effect: with --lod off everything is drawn in full detail"},
+        {{{"lodCoc", "centre"}}, "--lod-coc has no effect: measured levels take the blur over the whole object"}};
     for (const auto& [given, line] : cases) EXPECT_EQ(linesOf(given), std::vector<std::string>{line});
 }
 

@@ -18,7 +18,7 @@
 #include "core/hash.h"
 #include "core/memory_limits.h"
 #include "frame/prepared_frame.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "image/image_io.h"
 #include "image/image_rows.h"
 #include "image/metrics.h"
@@ -79,9 +79,9 @@ void runGltf(std::span<const std::byte> bytes) {
         const auto scene = std::make_shared<Scene>(loadGltf(written(binary ? "scene.glb" : "scene.gltf", bytes)));
         if (trianglesOf(scene->meshes) > mostPlannedTriangles || scene->nodes.size() > mostPlannedNodes) return;
         Request request;
-        request.width = 64;
-        request.height = 48;
-        request.settings.sampleCount = 8;
+        request.size.width = 64;
+        request.size.height = 48;
+        request.samples = 8;
         // In the air, and then on a ground with shadows.
         std::vector<Pyramid> pyramids;
         for (const bool ground : {false, true}) {
@@ -361,7 +361,7 @@ std::vector<Bytes> settingsSeeds() {
     for (const Setting& setting : settings()) {
         std::string line = setting.name + "=";
         if (!setting.choices.empty()) line += setting.choices.front();
-        if (setting.least != setting.most) line += "1";
+        if (setting.min != setting.max) line += "1";
         seeds.push_back(bytesOf(line + "\n"));
     }
     for (const char* line : {"memory=1.5 GiB", "memory=2000kB", "tile=3/16", "samples=64:128", "range=0:24",

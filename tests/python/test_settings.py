@@ -60,7 +60,7 @@ def test_each_keyword_is_of_one_setting():
     keywords = [info.keyword for info in defocus._defocus.setting_infos()]
     assert len(keywords) == len(set(keywords)) > 50
     far = {setting.keyword: setting for setting in defocus.settings()}["far_components"]
-    assert "circular" in far.methods and far.kind == "whole" and far.range[0] >= 1
+    assert "circular" in far.methods and far.kind == "integer" and far.range[0] >= 1
 
 
 def test_a_setting_tells_range_and_unit():

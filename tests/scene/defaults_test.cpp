@@ -35,7 +35,7 @@ TEST_P(Framing, boxFitsCentredWithLittleToSpare) {
          {glm::vec3(1, 1, 1), glm::vec3(20, 0.1f, 5), glm::vec3(0.01f, 0.5f, 0.01f), glm::vec3(0, 3000, 4000)}) {
         const Scene scene = boxScene({7, -2, 3}, glm::vec3(7, -2, 3) + size);
         const Pose pose = poseAt(scene, 0);
-        const PlacedCamera placed = chooseCamera(scene, pose, "", aspect);
+        const PlacedCamera placed = chooseCamera(scene, pose, {}, aspect);
         const glm::dmat4 cameraFromWorld = glm::inverse(placed.worldFromCamera);
         const double tanY = std::tan(placed.camera.yfov / 2);
         glm::dvec2 least(1e9), most(-1e9);
@@ -55,9 +55,9 @@ INSTANTIATE_TEST_SUITE_P(Aspects, Framing, testing::Values(1.0, 4.0 / 3, 2.39, 0
 
 TEST(FramingCamera, copesWithNothingAndWithAPoint) {
     Scene empty;
-    EXPECT_TRUE(std::isfinite(chooseCamera(empty, poseAt(empty, 0), "", 1.5).worldFromCamera[3].z));
+    EXPECT_TRUE(std::isfinite(chooseCamera(empty, poseAt(empty, 0), {}, 1.5).worldFromCamera[3].z));
     const Scene point = boxScene({1, 1, 1}, {1, 1, 1});
-    const PlacedCamera placed = chooseCamera(point, poseAt(point, 0), "", 1.5);
+    const PlacedCamera placed = chooseCamera(point, poseAt(point, 0), {}, 1.5);
     EXPECT_GT(placed.camera.znear, 0);
     EXPECT_TRUE(std::isfinite(placed.worldFromCamera[3].x));
 }
@@ -83,15 +83,15 @@ Scene withCameras() {
 TEST(ChooseCamera, byCameraOrNodeNameElseTheFirstThatWorks) {
     const Scene scene = withCameras();
     const Pose pose = poseAt(scene, 0);
-    EXPECT_EQ(chooseCamera(scene, pose, "", 1).worldFromCamera[3].x, 1);
-    EXPECT_EQ(chooseCamera(scene, pose, "shot", 1).worldFromCamera[3].x, 1);
-    EXPECT_EQ(chooseCamera(scene, pose, "node2", 1).worldFromCamera[3].x, 2);
-    EXPECT_EQ(chooseCamera(scene, pose, "auto", 1).camera.name, "auto");
+    EXPECT_EQ(chooseCamera(scene, pose, {}, 1).worldFromCamera[3].x, 1);
+    EXPECT_EQ(chooseCamera(scene, pose, NamedCamera{"shot"}, 1).worldFromCamera[3].x, 1);
+    EXPECT_EQ(chooseCamera(scene, pose, NamedCamera{"node2"}, 1).worldFromCamera[3].x, 2);
+    EXPECT_EQ(chooseCamera(scene, pose, FramingCamera{}, 1).camera.name, "auto");
 }
 
 TEST(ChooseCamera, matricesAreRigidWhateverTheNodesScale) {
     const Scene scene = withCameras();
-    const glm::dmat4 m = chooseCamera(scene, poseAt(scene, 0), "shot", 1).worldFromCamera;
+    const glm::dmat4 m = chooseCamera(scene, poseAt(scene, 0), NamedCamera{"shot"}, 1).worldFromCamera;
     EXPECT_NEAR(glm::determinant(m), 1, 1e-12);
     EXPECT_NEAR(glm::dot(glm::dvec3(m[2]), glm::dvec3(0, 0, 1)), 1, 1e-12);
     EXPECT_NEAR(glm::dot(glm::dvec3(m[1]), glm::dvec3(0, 1, 0)), 1, 1e-12);
@@ -102,7 +102,7 @@ TEST(ChooseCamera, unknownAndOrthographicOnesSaySo) {
     const Pose pose = poseAt(scene, 0);
     const auto messageFor = [&](const char* name) {
         try {
-            (void)chooseCamera(scene, pose, name, 1);
+            (void)chooseCamera(scene, pose, NamedCamera{name}, 1);
         } catch (const Error& error) {
             return std::string(error.what());
         }
@@ -117,7 +117,7 @@ TEST(DefaultLights, giveWayToTheScenesOwn) {
     Scene scene = boxScene({0, 0, 0}, {1, 1, 1});
     const auto count = [&] {
         const Pose pose = poseAt(scene, 0);
-        return lightsOrDefault(scene, pose, chooseCamera(scene, pose, "", 1)).size();
+        return lightsOrDefault(scene, pose, chooseCamera(scene, pose, {}, 1)).size();
     };
     EXPECT_EQ(count(), 3u);
     scene.materials.resize(1);
@@ -152,7 +152,7 @@ glm::dvec3 skyLight(const Environment& sky, const glm::dvec3& normal) {
 TEST(DefaultLights, greyBallLooksMidGrey) {
     const Scene scene = boxScene({-1, -1, -1}, {1, 1, 1});
     const Pose pose = poseAt(scene, 0);
-    const PlacedCamera camera = chooseCamera(scene, pose, "", 1);
+    const PlacedCamera camera = chooseCamera(scene, pose, {}, 1);
     const std::vector<PlacedLight> lights = lightsOrDefault(scene, pose, camera);
     const Environment sky = environmentOrDefault(scene);
     glm::dvec3 sum(0);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "frame/request.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
 namespace defocus {
@@ -41,34 +42,33 @@ inline Request randomOptions(Dice& dice) {
     if (dice.coin()) options.clip = dice.name();
     if (dice.coin()) options.time = dice.number(-2, 9);
     options.loop = dice.coin();
-    if (dice.coin()) options.shutter.seconds = dice.number(0, 0.1);
-    options.shutter.position = static_cast<ShutterPosition>(dice.whole(0, 2));
-    options.shutter.exactMotion = dice.coin();
-    if (!options.shutter.exactMotion) options.shutter.motionSegments = static_cast<std::uint32_t>(dice.whole(1, 64));
+    if (dice.coin()) options.shutter = dice.number(0, 0.1);
+    options.shutterPosition = static_cast<ShutterPosition>(dice.whole(0, 2));
+    options.motionSegments = static_cast<std::uint32_t>(dice.whole(1, 64));
+    if (dice.coin()) options.motionSegments = ExactMotion{};
     if (dice.coin()) options.environment = dice.name() + ".hdr";
-    options.background = static_cast<Background>(dice.whole(0, 2));
-    if (options.background == Background::uniform)
-        options.backgroundColor = {static_cast<float>(dice.number(0, 2)), 0.1f, 3};
-    if (dice.coin()) options.camera = dice.name();
+    if (dice.coin()) options.background = TransparentBackground{};
+    if (dice.coin()) options.background = Color{static_cast<float>(dice.number(0, 2)), 0.1f, 3};
+    if (dice.coin()) options.camera = NamedCamera{dice.name()};
     if (dice.coin()) options.lens.apertureImage = dice.name() + ".png";
     if (dice.coin()) options.nodeBlur = {{dice.name(), dice.number(0, 3)}, {"another", 0}};
-    if (dice.coin()) options.hidden = {dice.name(), "7"};
-    if (dice.coin()) options.settings.cocTolerance = dice.number(0.01, 3);
-    options.settings.sampleCount = static_cast<std::uint32_t>(dice.whole(1, 4096));
-    options.settings.sequence = allSequences[static_cast<std::size_t>(dice.whole(0, 3))];
-    if (dice.coin()) options.settings.seed = static_cast<std::uint32_t>(dice.whole(0, 1'000'000));
-    options.settings.lod = static_cast<LodMode>(dice.whole(0, 3));
-    options.settings.metric = static_cast<LodMetric>(dice.whole(0, 2));
-    options.settings.levelVertices = static_cast<LevelVertices>(dice.whole(0, 1));
-    options.settings.lodCocAtCentre = dice.coin();
-    if (dice.coin()) options.settings.thresholds.blur = dice.number(0, 2);
-    if (dice.coin()) options.settings.thresholds.size = dice.number(0, 9);
-    options.settings.keepAll = dice.coin();
+    if (dice.coin()) options.hide = {dice.name(), "7"};
+    if (dice.coin()) options.cocTolerance = dice.number(0.01, 3);
+    options.samples = static_cast<std::uint32_t>(dice.whole(1, 4096));
+    options.sequence = allSequences[static_cast<std::size_t>(dice.whole(0, 3))];
+    if (dice.coin()) options.seed = static_cast<std::uint32_t>(dice.whole(0, 1'000'000));
+    options.lod = static_cast<LodMode>(dice.whole(0, 3));
+    options.lodMetric = static_cast<LodMetric>(dice.whole(0, 2));
+    options.levelVertices = static_cast<LevelVertices>(dice.whole(0, 1));
+    if (dice.coin()) options.lodCoc = LodCoc::centre;
+    if (dice.coin()) options.blurThreshold = dice.number(0, 2);
+    if (dice.coin()) options.sizeThreshold = dice.number(0, 9);
+    options.keepAll = dice.coin();
     options.noCache = dice.coin();
     if (!options.noCache && dice.coin()) options.cacheFolder = dice.name();
-    if (dice.coin()) options.method = "circular:far-components=3";
+    if (dice.coin()) setByName(options, "method", "circular:far-components=3");
     if (dice.coin()) options.layerFormat = LayerFormat::rgba32f;
-    if (dice.coin()) options.wave = static_cast<std::uint32_t>(dice.whole(0, 64));
+    if (dice.coin()) options.wave = static_cast<std::uint32_t>(dice.whole(1, 64));
     return options;
 }
 

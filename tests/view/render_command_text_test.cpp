@@ -12,11 +12,13 @@
 #include <numbers>
 
 #include "cli/render.h"
-#include "frame/presets.h"
+#include "frame/exposure.h"
+#include "frame/settings/presets.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
-#include "view/state/camera_controls.h"
 #include "view/random_view.h"
+#include "view/state/camera_controls.h"
 
 namespace defocus {
 namespace {
@@ -143,17 +145,17 @@ TEST(RenderCommandText, switchesBackWhatTheCameraSwitched) {
 TEST(RenderCommandText, aCameraThatMovesDuringTheExposureIsTheFiles) {
     ShotRequest shot;
     shot.view.shutterCameras = {shot.view.worldFromCamera, shot.view.worldFromCamera};
-    shot.options.camera = "Flying camera";
+    shot.options.camera = NamedCamera{"Flying camera"};
     const RenderArguments arguments = argumentsOf(shot.command());
     EXPECT_FALSE(arguments.request.cameraPosition);
-    EXPECT_EQ(arguments.request.camera, "Flying camera");
+    EXPECT_EQ(arguments.request.camera, CameraChoice(NamedCamera{"Flying camera"}));
 }
 
 TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
     ShotRequest shot;
-    shot.options.settings.lod = LodMode::nearest;
-    shot.options.settings.sampleCount = 12;
-    shot.options.method = "circular:far-components=5";
+    shot.options.lod = LodMode::nearest;
+    shot.options.samples = 12;
+    setByName(shot.options, "method", "circular:far-components=5");
     const std::string command = shot.command();
     for (const char* part :
          {"defocus render", "--fish 2", "--fish-triangles 300", "-o 'a picture.png'", "--lod nearest", "--samples 12",
@@ -165,38 +167,21 @@ TEST(RenderCommandText, namesWhatDiffersFromTheStandard) {
 
 // ---- any view
 
+// The command gives camera, lens and exposure of the view instead of the request's.
 void expectSameOptions(const Request& a, const Request& b) {
-    const auto path = [](const std::filesystem::path& p) { return p.lexically_normal(); };  // ./-x is -x
-    EXPECT_EQ(path(a.scene), b.scene);
-    EXPECT_EQ(a.fishCount, b.fishCount);
-    EXPECT_EQ(a.trianglesPerFish, b.trianglesPerFish);
-    EXPECT_EQ(a.clip, b.clip);
-    EXPECT_EQ(a.time, b.time);
-    EXPECT_EQ(a.loop, b.loop);
-    EXPECT_EQ(a.shutter, b.shutter);
-    EXPECT_EQ(path(a.environment), b.environment);
-    EXPECT_EQ(a.background, b.background);
-    EXPECT_EQ(a.backgroundColor, b.backgroundColor);
-    EXPECT_EQ(a.camera, b.camera);
-    EXPECT_EQ(path(a.lens.apertureImage), b.lens.apertureImage);
+    for (const Setting& setting : settings()) {
+        if (setting.group == SettingGroup::camera || setting.group == SettingGroup::lens ||
+            setting.group == SettingGroup::display)
+            continue;
+        if (setting.kind == SettingKind::path)  // ./-x is -x
+            EXPECT_EQ(std::filesystem::path(setting.text(a).value_or("")).lexically_normal(),
+                      setting.text(b).value_or(""));
+        else
+            EXPECT_EQ(setting.text(a), setting.text(b)) << setting.name;
+    }
+    EXPECT_EQ(a.lens.apertureImage.lexically_normal(), b.lens.apertureImage);
     EXPECT_EQ(a.nodeBlur, b.nodeBlur);
-    EXPECT_EQ(a.hidden, b.hidden);
-    EXPECT_EQ(a.settings.cocTolerance, b.settings.cocTolerance);
-    EXPECT_EQ(a.settings.sampleCount, b.settings.sampleCount);
-    EXPECT_EQ(a.settings.sequence, b.settings.sequence);
-    EXPECT_EQ(a.settings.seed, b.settings.seed);
-    EXPECT_EQ(a.settings.lod, b.settings.lod);
-    EXPECT_EQ(a.settings.metric, b.settings.metric);
-    EXPECT_EQ(a.settings.lodCocAtCentre, b.settings.lodCocAtCentre);
-    EXPECT_EQ(a.settings.levelVertices, b.settings.levelVertices);
-    EXPECT_EQ(a.settings.thresholds.blur, b.settings.thresholds.blur);
-    EXPECT_EQ(a.settings.thresholds.size, b.settings.thresholds.size);
-    EXPECT_EQ(a.settings.keepAll, b.settings.keepAll);
-    EXPECT_EQ(path(a.cacheFolder), b.cacheFolder);
-    EXPECT_EQ(a.noCache, b.noCache);
-    EXPECT_EQ(chosenMethod(a).text(), chosenMethod(b).text());
-    EXPECT_EQ(a.layerFormat, b.layerFormat);
-    EXPECT_EQ(a.wave, b.wave);
+    EXPECT_EQ(a.camera, b.camera);
 }
 
 TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
@@ -222,16 +207,16 @@ TEST(RenderCommandText, ofAnyViewIsReadBackAsThatView) {
         EXPECT_EQ(read.outputs, std::vector<std::filesystem::path>{"./-out.png"});
         EXPECT_EQ(read.request.toneMap, write.toneMap);
         Lens lens = frame.cameraLens;
-        EXPECT_TRUE(setLensFields(lens, givenLensValues(read.request.lens)).empty());
-        EXPECT_DOUBLE_EQ(read.request.exposure.value_or(photographicExposure(lens)), write.exposure);
+        EXPECT_TRUE(setLensFields(lens, givenLensValues(read.request)).empty());
+        EXPECT_DOUBLE_EQ(unmeteredExposure(read.request, lens), write.exposure);
         if (!(view.lens.exposureTime > 0)) {  // what the exposure replaces
             lens.exposureTime = view.lens.exposureTime;
             lens.iso = view.lens.iso;
         }
         View again;
         again.lens = lens;
-        again.width = read.request.width;
-        again.height = read.request.height;
+        again.width = read.request.size.width;
+        again.height = read.request.size.height;
         again.worldFromCamera = glm::inverse(glm::lookAt(asVector(read.request.cameraPosition.value()),
                                                          asVector(read.request.cameraTarget.value()),
                                                          asVector(read.request.cameraUp.value_or(Vector3{0, 1, 0}))));
@@ -252,7 +237,7 @@ TEST(RenderCommandText, namesAPresetOrItsSettings) {
     EXPECT_EQ(command().find("--sequence"), std::string::npos) << command();
     expectSameOptions(argumentsOf(command()).request, options);
 
-    options.settings.sequence = Sequence::r2;
+    options.sequence = Sequence::r2;
     EXPECT_EQ(command().find("--preset"), std::string::npos) << command();
     EXPECT_NE(command().find(" --level-vertices surviving"), std::string::npos) << command();
     expectSameOptions(argumentsOf(command()).request, options);
@@ -262,7 +247,7 @@ TEST(CaptureCommand, saysWhatNoShotFileSays) {
     Request options;
     options.lens.apertureImage = "my star.png";
     options.nodeBlur = {{"Fish 3", 0}};
-    options.settings.sampleCount = 9;  // the shot says it
+    options.samples = 9;  // the shot says it
     EXPECT_EQ(captureCommand("-a shot.json", options),
               "defocus capture './-a shot.json' --aperture-image 'my star.png' --node-blur 'Fish 3=0'");
     EXPECT_EQ(captureCommand("shot.json", {}), "defocus capture shot.json");

@@ -69,7 +69,7 @@ Stand standFor(const PreparedFrame& frame, const PredictionOptions& options) {
     Pose ball = stand.world.pose;
     ball.bounds = {bounds.centre() - radius, bounds.centre() + radius};
     const double aspect = static_cast<double>(options.width) / options.height;
-    stand.camera = chooseCamera(*scene, ball, "", aspect);
+    stand.camera = chooseCamera(*scene, ball, {}, aspect);
     stand.world.lights = lightsOrDefault(*scene, stand.world.pose, stand.camera);
     stand.world.environment = environmentOrDefault(*scene);
     stand.world.environment.visible = false;

@@ -24,7 +24,7 @@ void surround(ScalingWorld& result) {
     world.scene = result.scene;
     world.pose = poseAt(scene, 0);
     const double aspect = 4.0 / 3.0;
-    const PlacedCamera placed = chooseCamera(scene, world.pose, "", aspect);
+    const PlacedCamera placed = chooseCamera(scene, world.pose, {}, aspect);
     View& view = result.view;
     view.width = 640;
     view.height = 480;

@@ -53,7 +53,7 @@ std::uint32_t referenceSamplesOf(const Setting& setting, const std::vector<Setti
     std::uint32_t most = 0;
     for (const Setting& other : all)
         if (sameLens(other, setting)) most = std::max(most, other.samples);
-    return std::clamp(referenceFactor * most, 2u, mostSamples);
+    return std::clamp(referenceFactor * most, 2u, maxSamples);
 }
 
 // Of the setting's lens; that of the setting before where it has the same.

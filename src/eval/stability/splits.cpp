@@ -1,4 +1,4 @@
-// λ at whole numbers, and where a sample changes its level: what moves is one sample at most, in the split and in the
+// λ at integers, and where a sample changes its level: what moves is one sample at most, in the split and in the
 // image.
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ constexpr double nudge = 1e-6;                 // of λ
 constexpr double oneSample = 1 + 1e-4;         // of an image in 32-bit floats
 constexpr std::uint32_t renderedSamples = 60;  // not a multiple of a wave
 
-// Samples drawn at another level when λ passes the whole number `level`.
+// Samples drawn at another level when λ passes the integer `level`.
 double splitError(double level, std::uint32_t samples) {
     const auto levelsOf = [&](double lambda) {
         const SampleSplit split = splitSamples(lambda, samples, LodMode::fractional);

@@ -108,17 +108,6 @@ LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, s
     return {given.blur.value_or(standard.blur), given.size.value_or(standard.size)};
 }
 
-void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor) {
-    const LodThresholds standard = chosenThresholds(settings.thresholds, settings.metric, sampleCount);
-    settings.metric = chosenMetric(settings.metric, settings.thresholds);
-    if (settings.metric == LodMetric::measured)
-        settings.thresholds.light = factor * standard.light;
-    else if (settings.metric == LodMetric::score)
-        settings.thresholds.blur = factor * standard.blur;
-    else
-        settings.thresholds = {.blur = factor * standard.blur, .size = factor * standard.size};
-}
-
 double levelOfDetail(const Pyramid& pyramid, const LevelQuery& query, LodMetric metric,
                      const LodThresholds& thresholds) {
     if (!std::isfinite(query.pixelsPerUnit) || query.pixelsPerUnit < 0 || pyramid.levels.empty()) return 0;

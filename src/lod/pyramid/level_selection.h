@@ -3,6 +3,7 @@
 // in the camera (Jeong, Kim and Lee 2011). The N lens samples are split between the two levels around λ.
 
 #include <cstdint>
+#include <optional>
 
 #include "defocus/settings.h"
 #include "lod/pyramid/pyramid.h"
@@ -12,6 +13,16 @@ namespace defocus {
 // The names on the command line.
 const char* lodModeName(LodMode mode);
 const char* lodMetricName(LodMetric metric);
+
+// The thresholds that a request gives. By size and by error the target is max(blur · c, size) px for a circle of
+// confusion of c px. Measured levels err by at most light / edge, in standard deviations of the object's light within
+// its blur, for edges of `edge` px. A threshold that isn't given follows the number of samples, so that long renders
+// converge to full detail.
+struct GivenThresholds {
+    std::optional<double> blur = {};   // px a px of blur, ≥ 0
+    std::optional<double> size = {};   // px, ≥ 0; not of LodMetric::score
+    std::optional<double> light = {};  // px, ≥ 0; only of LodMetric::measured, which has neither of the others
+};
 
 // Returns the metric that `automatic` stands for, and any other metric as it is.
 LodMetric chosenMetric(LodMetric metric, const GivenThresholds& given);
@@ -25,10 +36,6 @@ struct LodThresholds {
 
 // Returns the thresholds that are given, and the rest from defaultThresholds. Those that the metric doesn't have are 0.
 LodThresholds chosenThresholds(const GivenThresholds& given, LodMetric metric, std::uint32_t sampleCount);
-
-// Sets the thresholds to those for `sampleCount` samples, times `factor`. They stay so whatever number of samples is
-// drawn.
-void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor = 1);
 
 // Returns the error of N lens samples relative to that of one sample: N^(−0.65), which is how all sequences but the
 // random one converge on rendered scenes (bench/results/llvmpipe-sequences.txt).

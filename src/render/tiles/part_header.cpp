@@ -21,8 +21,8 @@ SampleRange parseSampleRange(std::string_view text) {
     const auto number = [&](std::string_view part) {
         std::uint32_t value = 0;
         const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), value);
-        if (fault != std::errc() || end != part.data() + part.size() || value > mostSamples)
-            fail("'{}' is not FIRST:END, samples from 0 to {}, such as 64:128", text, mostSamples);
+        if (fault != std::errc() || end != part.data() + part.size() || value > maxSamples)
+            fail("'{}' is not FIRST:END, samples from 0 to {}, such as 64:128", text, maxSamples);
         return value;
     };
     const std::size_t colon = std::min(text.find(':'), text.size());
@@ -44,9 +44,9 @@ TileShare parseTileShare(std::string_view text) {
     const std::size_t slash = std::min(text.find('/'), text.size());
     TileShare share;
     try {
-        share.index = static_cast<int>(parseWhole(std::string(text.substr(0, slash)), 0, mostPixels - 1));
+        share.index = static_cast<int>(parseInteger(std::string(text.substr(0, slash)), 0, maxImageSide - 1));
         share.count =
-            static_cast<int>(parseWhole(std::string(text.substr(std::min(slash + 1, text.size()))), 1, mostPixels));
+            static_cast<int>(parseInteger(std::string(text.substr(std::min(slash + 1, text.size()))), 1, maxImageSide));
     } catch (const Error&) {
         fail("'{}' is not I/N, such as 0/4: tile I, from 0 to N-1, of N", text);
     }

@@ -59,7 +59,7 @@ Value attribute(const Metadata& metadata, const char* name, const std::string& f
 
 std::uint32_t sampleAttribute(const Metadata& metadata, const char* name, const std::string& file) {
     const int value = attribute<int>(metadata, name, file);
-    if (value < 0 || value > static_cast<int>(mostSamples)) fail("{}: '{}' is {}", file, name, value);
+    if (value < 0 || value > static_cast<int>(maxSamples)) fail("{}: '{}' is {}", file, name, value);
     return static_cast<std::uint32_t>(value);
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "frame/exposure.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "view/document/kept_files.h"
 
 namespace defocus {
@@ -76,8 +76,8 @@ void adoptScene(Document& document, ViewState& state, LoadedScene scene) {
     state.nearPlane = wanderingNearPlane(frame.view.nearPlane, bounds);
     state.exposure = metersExposure(scene.options, *frame.scene, state.lens)
                          ? meteredExposure(frame.world, frame.view, frame.settings, document.shaderFolder)
-                         : scene.options.exposure.value_or(state.exposure);
-    state.meters = scene.options.exposureAuto;
+                         : exposureOf(scene.options).value_or(state.exposure);
+    state.meters = std::holds_alternative<MeteredExposure>(scene.options.exposure);
     sayNotes(frame, state);
     sayCacheFailure(frame, state);
     readKeptLists(document, state);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
 namespace defocus {

@@ -60,9 +60,9 @@ void SceneLoader::run(Job& job) {
             job.ready = LoadedScene{job.options, std::move(draft), {}, true};
         }
         // The window may switch between all modes, which need more than full detail.
-        frame->settings.lod = job.options.settings.lod == LodMode::off ? LodMode::fractional : job.options.settings.lod;
+        frame->settings.lod = job.options.lod == LodMode::off ? LodMode::fractional : job.options.lod;
         addPyramids(*frame, progress);
-        frame->settings.lod = job.options.settings.lod;
+        frame->settings.lod = job.options.lod;
         result.frame = std::move(frame);
     } catch (const std::bad_alloc&) {
         result.fault = "out of memory";

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "frame/moment.h"
+#include "frame/settings/settings.h"
 #include "scene/ground.h"
 #include "view/document/document.h"
 
@@ -17,11 +18,12 @@ constexpr auto cameraPart = [](auto& request) { return std::tie(request.camera);
 constexpr auto aperturePart = [](auto& request) { return std::tie(request.lens.apertureImage); };
 constexpr auto nodeBlurPart = [](auto& request) { return std::tie(request.nodeBlur); };
 constexpr auto posePart = [](auto& request) {
-    return std::tie(request.time, request.clip, request.shutter, request.hidden);
+    return std::tie(request.time, request.clip, request.shutter, request.shutterPosition, request.motionSegments,
+                    request.hide);
 };
 constexpr auto groundPart = [](auto& request) { return std::tie(request.ground); };
 constexpr auto surroundingsPart = [](auto& request) {
-    return std::tie(request.environment, request.environmentRotation, request.background, request.backgroundColor);
+    return std::tie(request.environment, request.environmentRotation, request.background);
 };
 constexpr auto lightsPart = [](auto& request) { return std::tie(request.lightAngle, request.lightRadius); };
 
@@ -39,15 +41,15 @@ void apply(const Part& part, Document& document, ViewState& state, const Update&
 }
 
 // Returns the request for placing a camera of the file: without another place, focus or size.
-Request cameraRequest(const ViewState& state, const std::string& name) {
+Request cameraRequest(const ViewState& state, const CameraChoice& camera) {
     Request request = state.options;
-    request.camera = name;
+    request.camera = camera;
     request.cameraPosition = request.cameraTarget = request.cameraUp = std::nullopt;
-    request.focusPixel.reset();
-    request.focusPoints.clear();
-    request.focusAuto = false;
-    request.width = state.pictureSize.x;
-    request.height = state.pictureSize.y;
+    const bool needsPixels = std::holds_alternative<FocusPixel>(request.focus) ||
+                             std::holds_alternative<FocusPoints>(request.focus) ||
+                             std::holds_alternative<FocusAuto>(request.focus);
+    if (needsPixels) request.focus = CameraFocus{};
+    request.size = {state.pictureSize.x, state.pictureSize.y};
     return request;
 }
 
@@ -87,7 +89,7 @@ void updatePose(Document& document, ViewState& state) {
     const PlacedCamera camera = followedCamera(document, state);
     state.camera.worldFromCamera = camera.worldFromCamera;
     View view = currentView(document, state);
-    exposeMotion(state.options, camera, state.options.settings, world, view);
+    exposeMotion(state.options, camera, renderSettings(state.options), world, view);
     document.shutterCameras = view.shutterCameras;
     document.poseIsStale = false;
 }
@@ -139,11 +141,13 @@ void updateWorld(Document& document, ViewState& state, bool held) {
 }
 
 void switchCamera(Document& document, ViewState& state, const std::string& name) {
-    const Request request = cameraRequest(state, name);
+    Request named;
+    setByName(named, "camera", name);
+    const Request request = cameraRequest(state, named.camera);
     PreparedFrame& frame = *document.frame;
     placeCamera(frame, request);
     state.options = request;
-    document.shown.camera = name;
+    document.shown.camera = named.camera;
     state.lens = frame.view.lens;
     state.pull.reset();
     state.camera = {frame.view.worldFromCamera, std::clamp(state.lens.focusDistance, 1e-3, 1e6)};

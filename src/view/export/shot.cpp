@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "capture/setting_json.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 #include "plan/camera_path.h"
 #include "scene/built_in_environment.h"
@@ -42,7 +42,7 @@ double rollOf(const glm::dmat4& worldFromCamera, const glm::dvec3& target, doubl
 
 ordered_json cameraJson(const Request& options, const std::vector<ShotKey>& keys) {
     ordered_json camera = ordered_json::object();
-    if (!options.camera.empty()) camera["name"] = options.camera;
+    if (const auto name = settingNamed("camera")->text(options)) camera["name"] = *name;
     double roll = 0;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const glm::dmat4& matrix = keys[i].view.worldFromCamera;
@@ -97,8 +97,8 @@ void addSettings(ordered_json& shot, const Request& request) {
         if (text) shot[ordered_json::json_pointer(setting.shotPlace)] = settingJson(setting, *text);
     }
     if (!shot.contains("shutter")) return;
-    shot["shutter"]["seconds"] = request.shutter.seconds;  // a shutter needs it
-    if (request.shutter.exactMotion) {
+    shot["shutter"]["seconds"] = request.shutter;  // a shutter needs it
+    if (shutterSettings(request).exactMotion()) {
         shot["shutter"].erase("segments");
         shot["shutter"]["exact"] = true;
     }
@@ -113,15 +113,13 @@ std::string shotJson(const ShotRecording& recording) {
     if (!request.environment.empty() && !isBuiltInEnvironment(request.environment.string()))
         request.environment = std::filesystem::absolute(request.environment);
     request.time = keys.front().time;
-    request.width = keys.back().view.width;
-    request.height = keys.back().view.height;
-    if (recording.metresPerUnit != 1) request.metresPerUnit = recording.metresPerUnit;
+    request.size = {keys.back().view.width, keys.back().view.height};
+    if (recording.metresPerUnit != 1) request.units = recording.metresPerUnit;
     request.toneMap = recording.write.toneMap;
-    request.exposure.reset();
-    request.exposureAuto = false;
+    request.exposure = DefaultExposure{};
     const double exposure = recording.write.exposure;
     if (!shotExposedByLens(keys) && (exposure != 0 || recording.cameraLens.exposureTime > 0 || !request.scene.empty()))
-        request.exposure = exposure;
+        request.exposure = ExposureValue{exposure};
 
     ordered_json shot;
     shot["frameRate"] = 24;

@@ -15,11 +15,11 @@ StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request
     checkWritable(request.output);
     checkStop(options);
     // Small waves keep the window awake.
-    const std::uint32_t wave = options.wave > 0 ? options.wave : (request.software ? 2 : 8);
+    const std::uint32_t wave = options.wave.value_or(request.software ? 2 : 8);
     driver_.emplace(
         frame.world,
         DriverOptions{chosenMethod(options), {options.memory, wave, options.layerFormat}, request.shaderFolder});
-    driver_->start({request.view, options.settings, options.stop});
+    driver_->start({request.view, renderSettings(options), stopSettings(options)});
 }
 
 bool StillExport::step() {

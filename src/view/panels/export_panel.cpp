@@ -41,8 +41,8 @@ void stillRows(ViewState& state) {
     if (ImGui::InputInt2("##size", edited.data()))
         state.exportSize = glm::ivec2(std::clamp(edited[0], 1, 16384), std::clamp(edited[1], 1, 16384));
     rowLabel("Samples");
-    if (slider("##samples", state.options.settings.sampleCount, 1, 4096, ImGuiSliderFlags_Logarithmic))
-        state.options.stop.sampleLimit = state.options.settings.sampleCount;
+    std::uint32_t samples = renderSettings(state.options).sampleCount;
+    if (slider("##samples", samples, 1, 4096, ImGuiSliderFlags_Logarithmic)) state.options.samples = samples;
 }
 
 // Asks whether to replace the file. Returns true once a file name is chosen.

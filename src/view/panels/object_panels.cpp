@@ -79,7 +79,7 @@ void treeRow(const Ui& ui, const TreeRow& row, bool hidden, std::set<int>& close
     const std::string name = rowName(scene, row.node);
     ImGui::PushID(row.node);
     bool on = !hidden;
-    if (ImGui::Checkbox("##shown", &on)) toggleNode(scene, row.node, state.options.hidden);
+    if (ImGui::Checkbox("##shown", &on)) toggleNode(scene, row.node, state.options.hide);
     notePlace("show " + name);
     tooltip(hidden ? "Show the node" : "Hide the node and all nodes below it (--hide)");
     ImGui::SameLine();
@@ -152,8 +152,7 @@ void objectsPanel(const Ui& ui) {
     const Scene& scene = ui.scene();
     ViewState& state = ui.state;
     std::vector<bool> hidden(scene.nodes.size());
-    for (const std::string& text : state.options.hidden)
-        hidden[static_cast<std::size_t>(nodeCalled(scene, text))] = true;
+    for (const std::string& text : state.options.hide) hidden[static_cast<std::size_t>(nodeCalled(scene, text))] = true;
     static std::set<int> closed;
     static std::weak_ptr<Scene> seen;
     if (seen.lock() != ui.document.frame->scene) closed.clear();
@@ -171,7 +170,7 @@ void objectsPanel(const Ui& ui) {
             treeRow(ui, row, hidden[static_cast<std::size_t>(row.node)], closed);
         }
     ImGui::EndChild();
-    if (!state.options.hidden.empty() && ImGui::Button("Show all")) state.options.hidden.clear();
+    if (!state.options.hide.empty() && ImGui::Button("Show all")) state.options.hide.clear();
     ImGui::EndDisabled();
 }
 

@@ -7,22 +7,22 @@ namespace defocus {
 
 // The sections from top to bottom: function, title, whether it is open at first, when it is shown. A new section needs
 // its function and a line here.
-#define DEFOCUS_PANELS(PANEL)                                  \
-    PANEL(scenePanel, "Scene", true, always)                   \
-    PANEL(objectsPanel, "Objects", false, withScene)           \
-    PANEL(materialPanel, "Material", false, withScene)         \
-    PANEL(viewsPanel, "Views", false, withScene)               \
-    PANEL(animationPanel, "Animation", true, withAnimations)   \
-    PANEL(focusPanel, "Focus", true, withScene)                \
-    PANEL(lensPanel, "Lens", true, withScene)                  \
-    PANEL(aperturePanel, "Aperture", false, withScene)         \
-    PANEL(surroundingsPanel, "Surroundings", false, withScene) \
-    PANEL(imagePanel, "Image", false, withScene)               \
-    PANEL(levelPanel, "Level of detail", false, withScene)     \
-    PANEL(methodPanel, "Method", false, withScene)             \
-    PANEL(overlayPanel, "Overlays", false, withScene)          \
-    PANEL(comparePanel, "Compare", false, withScene)           \
-    PANEL(performancePanel, "Performance", false, withScene)   \
+#define DEFOCUS_PANELS(PANEL)                                    \
+    PANEL(scenePanel, "Scene", true, always)                     \
+    PANEL(objectsPanel, "Objects", false, withScene)             \
+    PANEL(materialPanel, "Material", false, withScene)           \
+    PANEL(viewsPanel, "Views", false, withScene)                 \
+    PANEL(animationPanel, "Animation", true, withAnimations)     \
+    PANEL(focusPanel, "Focus", true, withScene)                  \
+    PANEL(lensPanel, "Lens", true, withScene)                    \
+    PANEL(aperturePanel, "Aperture", false, withScene)           \
+    PANEL(surroundingsPanel, "Surroundings", false, withScene)   \
+    PANEL(imagePanel, "Image", false, withScene)                 \
+    PANEL(methodPanel, "Method", false, withScene)               \
+    PANEL(settingsPanel, "Samples and levels", false, withScene) \
+    PANEL(overlayPanel, "Overlays", false, withScene)            \
+    PANEL(comparePanel, "Compare", false, withScene)             \
+    PANEL(performancePanel, "Performance", false, withScene)     \
     PANEL(exportPanel, "Export", false, withScene)
 
 #define DEFOCUS_DECLARE_PANEL(draw, ...) void draw(const Ui& ui);

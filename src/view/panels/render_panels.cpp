@@ -38,23 +38,39 @@ void environmentRows(ViewState& state) {
     if (!environment.empty()) settingRow(state.options, "environmentRotation");
 }
 
+// Whether the settings panel lists the setting.
+bool hasPlainRow(const Setting& setting) {
+    const bool group = setting.group == SettingGroup::samples || setting.group == SettingGroup::method ||
+                       setting.group == SettingGroup::developer;
+    const bool widget =
+        setting.kind != SettingKind::text && setting.kind != SettingKind::path && setting.kind != SettingKind::other;
+    return group && widget && setting.effect == SettingEffect::pixels;
+}
+
+void backgroundCombo(Background& background) {
+    static const Background choices[] = {EnvironmentBackground{}, TransparentBackground{}, Color{}};
+    int chosen = static_cast<int>(background.index());
+    if (ImGui::Combo("##background", &chosen, "environment\0none: transparent\0one colour\0"))
+        background = choices[chosen];
+}
+
 }  // namespace
 
 void surroundingsPanel(const Ui& ui) {
     Request& options = ui.state.options;
     ImGui::BeginDisabled(ui.still.has_value());
     rowLabel("Background", "What shows behind the scene (--background)");
-    enumCombo("##background", options.background, "environment\0none: transparent\0one colour\0");
-    if (options.background == Background::uniform) {
+    backgroundCombo(options.background);
+    if (auto* const colour = std::get_if<Color>(&options.background)) {
         rowLabel("Colour", "Linear; lights the scene too (--background R,G,B)");
-        ImGui::ColorEdit3("##colour", options.backgroundColor.data(),
+        ImGui::ColorEdit3("##colour", colour->data(),
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR | ImGuiColorEditFlags_NoLabel);
     } else {
         environmentRows(ui.state);
     }
     settingRow(options, "ground");
     settingRow(options, "shadows");
-    const Shadows shadows = options.settings.shadows;
+    const Shadows shadows = options.shadows;
     if (shadows == Shadows::on || (shadows == Shadows::automatic && options.ground)) {
         settingRow(options, "lightAngle", "5");
         settingRow(options, "lightRadius", "0.1");
@@ -62,19 +78,17 @@ void surroundingsPanel(const Ui& ui) {
     ImGui::EndDisabled();
 }
 
-void levelPanel(const Ui& ui) {
+// All settings of samples, levels and methods that a widget can edit.
+void settingsPanel(const Ui& ui) {
     Request& request = ui.state.options;
-    settingRow(request, "lod");
-    settingRow(request, "lodMetric");
-    const LodMetric metric = chosenMetric(request.settings.metric, request.settings.thresholds);
-    const LodThresholds defaults = defaultThresholds(metric, request.settings.sampleCount);
-    if (metric == LodMetric::measured) {
-        settingRow(request, "lightThreshold", fmt::format("{:.3g}", defaults.light));
-    } else {
-        settingRow(request, "blurThreshold", fmt::format("{}", defaults.blur));
-        if (metric != LodMetric::score) settingRow(request, "sizeThreshold", fmt::format("{}", defaults.size));
+    for (const Setting& setting : settings()) {
+        if (!hasPlainRow(setting)) continue;
+        const SettingContext context{request, *chosenMethod(request).method, ui.scene(), ui.state.lens};
+        const std::string reason = setting.unused ? setting.unused(context) : "";
+        ImGui::BeginDisabled(!reason.empty());
+        settingRow(request, setting.name, setting.example);
+        ImGui::EndDisabled();
     }
-    settingRow(request, "lodCoc");
 }
 
 void methodPanel(const Ui& ui) {
@@ -91,9 +105,6 @@ void methodPanel(const Ui& ui) {
     for (const MethodSetting& setting : use.method->settings)
         methodSettingRow(setting, edited.settings.at(setting.name));
     if (edited.text() != use.text()) options.methodSettings = edited.settings;
-    settingRow(options, "sequence");
-    settingRow(options, "seed");
-    settingRow(options, "cocTolerance");
 }
 
 }  // namespace defocus

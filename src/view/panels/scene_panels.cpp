@@ -89,10 +89,11 @@ void clipRow(const Scene& scene, ViewState& state) {
 
 void shutterRows(Request& request) {
     settingRow(request, "shutter");
-    if (!(request.shutter.seconds > 0)) return;
+    if (!(request.shutter > 0)) return;
     settingRow(request, "shutterPosition");
     rowLabel("Motion segments", "Straight segments of a vertex's path while the shutter is open (--motion-segments)");
-    slider("##segments", request.shutter.motionSegments, 1, 64);
+    std::uint32_t segments = std::get<std::uint32_t>(request.motionSegments);
+    if (slider("##segments", segments, 1, 64)) request.motionSegments = segments;
 }
 
 }  // namespace
@@ -105,7 +106,7 @@ void scenePanel(const Ui& ui) {
     std::vector<std::string> cameras = cameraNames(ui.scene());
     cameras.insert(cameras.begin(), "auto");
     rowLabel("Camera", "A camera of the file, or 'auto' to frame the scene (0 and 1 … 9)");
-    std::string camera = state.options.camera.empty() ? ui.document.frame->cameraName : state.options.camera;
+    std::string camera = settingNamed("camera")->text(state.options).value_or(ui.document.frame->cameraName);
     if (combo("##camera", cameras, camera)) ui.actions.chooseCamera = camera;
     rowLabel("Mouse", "orbit: turns the camera around the point in focus. fly: turns it on the spot (V)");
     enumCombo("##navigation", state.navigation, "orbit\0fly\0");

@@ -9,6 +9,7 @@
 #include "frame/picture_warnings.h"
 #include "frame/plan_warnings.h"
 #include "frame/reference_image.h"
+#include "frame/settings/settings.h"
 #include "plan/camera_path.h"
 
 namespace defocus {
@@ -46,24 +47,35 @@ double poppingFocus(const FramePlan& plan, double nearPlane, double seconds) {
     return focusBetween(nearest, std::max(nearest, farthest), share);
 }
 
+// Returns the settings that the picture depends on. It has its own number of samples, and its sides have their methods.
+std::string pictureSettings(Request request) {
+    const Request defaults;
+    request.samples = defaults.samples;
+    request.lod = defaults.lod;
+    request.method = defaults.method;
+    request.methodSettings.clear();
+    return pixelSettings(request);
+}
+
 // Returns the picture that the state asks for. `plan`: of the previous frame, for the depths of the popping test.
 PictureRequest pictureRequest(const Document& document, const ViewState& state, const FramePlan& plan, bool software) {
     PictureRequest result;
     result.view = currentView(document, state);
-    result.settings = state.options.settings;
+    result.settings = renderSettings(state.options);
+    result.settingsKey = pictureSettings(state.options);
     result.poseVersion = document.poseVersion;
     result.display = state.display;
     result.display.exposure = shownExposure(state);
     result.display.toneMap = state.options.toneMap;
     result.maxSamples = state.maxSamples;
-    result.targetError = state.options.stop.targetError;
+    result.targetError = state.options.targetError;
     if (state.poppingSince) {
         result.view.lens.focusDistance = poppingFocus(plan, result.view.nearPlane, state.now - *state.poppingSince);
         result.sides = {{"accumulation", LodMode::fractional, 0}, {"accumulation", LodMode::nearest, 0}};
         result.fixedQuality = FrameQuality{software ? 0.5 : 1.0, 16, 1};
         return result;
     }
-    const PictureSide first{chosenMethod(state.options).text(), state.options.settings.lod, 0};
+    const PictureSide first{chosenMethod(state.options).text(), state.options.lod, 0};
     result.sides = {first};
     if (const std::optional<PictureSide> second = comparedSide(state, first)) result.sides.push_back(*second);
     return result;
@@ -73,7 +85,7 @@ void makeImage(LivePicture& picture, const Document& document, const ViewState& 
     RendererOptions options;
     options.layerFormat = state.options.layerFormat;
     options.shaderFolder = document.shaderFolder;
-    options.wave = state.options.wave > 0 ? state.options.wave : (software ? 1 : 8);
+    options.wave = state.options.wave.value_or(software ? 1 : 8);
     picture.image.reset();  // frees its memory first
     picture.image.emplace(document.frame->world, options, software);
     picture.worldVersion = document.worldVersion;

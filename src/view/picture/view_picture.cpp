@@ -20,28 +20,13 @@ constexpr double visibleGrowth = 1.08;        // growth of the sample count that
 constexpr double softwareGrowthTime = 60;     // ms per frame, the minimum on a CPU
 constexpr auto psnrInterval = 700ms;
 
-// Returns everything that the images depend on as numbers, except for sides and aperture image. Exposure time and ISO
-// only change the display.
+// Returns the numbers that the images depend on, beside settings, sides and aperture image. Exposure time and ISO only
+// change the display.
 std::vector<double> imageKey(const PictureRequest& request) {
     const View& view = request.view;
-    const RenderSettings& settings = request.settings;
-    std::vector<double> key = {static_cast<double>(view.width),
-                               static_cast<double>(view.height),
-                               view.nearPlane,
+    std::vector<double> key = {static_cast<double>(view.width), static_cast<double>(view.height), view.nearPlane,
                                static_cast<double>(request.poseVersion),
-                               static_cast<double>(settings.seed),
-                               static_cast<double>(settings.sequence),
-                               settings.cocTolerance,
-                               static_cast<double>(settings.metric),
-                               static_cast<double>(settings.lodCocAtCentre),
-                               static_cast<double>(settings.levelVertices),
-                               static_cast<double>(settings.keepAll),
-                               static_cast<double>(settings.shadows),
-                               static_cast<double>(request.fixedQuality.has_value()),
-                               request.targetError.value_or(0)};
-    for (const std::optional<double>& threshold :
-         {settings.thresholds.blur, settings.thresholds.size, settings.thresholds.light})
-        key.push_back(threshold.value_or(-1));
+                               static_cast<double>(request.fixedQuality.has_value())};
     const double* const matrix = glm::value_ptr(view.worldFromCamera);
     key.insert(key.end(), matrix, matrix + 16);
     Lens lens = view.lens;
@@ -100,8 +85,10 @@ const FramePlan& ViewPicture::plan() const {
 void ViewPicture::update(const PictureRequest& request, FrameBudget& budget) {
     const std::vector<double> key = imageKey(request);
     const std::shared_ptr<const Image>& aperture = request.view.lens.apertureImage;
-    const bool changed = prepareSides(request) || key != lastKey_ || aperture != lastAperture_;
+    const bool otherSettings = request.settingsKey != lastSettings_;
+    const bool changed = prepareSides(request) || key != lastKey_ || otherSettings || aperture != lastAperture_;
     lastKey_ = key;
+    lastSettings_ = request.settingsKey;
     lastAperture_ = aperture;
     const std::vector<double> shown = displayKey(request.display);
     bool presents = shown != lastDisplayKey_;

@@ -29,6 +29,7 @@ struct PictureSide {
 struct PictureRequest {
     View view;                       // at the window's resolution
     RenderSettings settings;         // its thresholds, if set, replace those for the number of samples
+    std::string settingsKey;         // the image starts again when it changes
     std::uint64_t poseVersion = 0;   // Document::poseVersion
     std::vector<PictureSide> sides;  // one, or two to compare
     DisplaySettings display;
@@ -103,6 +104,7 @@ private:
     bool workGrows_ = false;  // samples of the work are still to come
     std::vector<std::unique_ptr<Side>> sides_;
     std::vector<double> lastKey_, lastDisplayKey_;
+    std::string lastSettings_;
     std::shared_ptr<const Image> lastAperture_;
     Clock::time_point settlesAt_;
     Clock::time_point nextPsnr_;

@@ -29,22 +29,22 @@ std::string numberFormat(const Setting& setting, double value) {
 // The functions below draw a widget and return the edited text; none if it was not edited.
 
 std::optional<std::string> numberText(const Setting& setting, const std::string& text) {
-    double value = parseNumber(text, {setting.least, setting.most});
+    double value = parseNumber(text, {setting.min, setting.max});
     const std::string format = numberFormat(setting, value);
     const double minStep = setting.unit == "degrees" ? 0.25 : setting.unit == "s" ? 1e-5 : 1e-3;
     const auto step = static_cast<float>(std::max(minStep, 0.005 * std::abs(value)));
-    const bool slides = setting.least >= -1 && setting.least <= 0 && setting.most <= 1;
-    const bool edited =
-        slides ? slider("##value", value, setting.least, setting.most, "%.2f", ImGuiSliderFlags_AlwaysClamp)
-               : ImGui::DragScalar("##value", ImGuiDataType_Double, &value, step, &setting.least, &setting.most,
-                                   format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+    const bool slides = setting.min >= -1 && setting.min <= 0 && setting.max <= 1;
+    const bool edited = slides
+                            ? slider("##value", value, setting.min, setting.max, "%.2f", ImGuiSliderFlags_AlwaysClamp)
+                            : ImGui::DragScalar("##value", ImGuiDataType_Double, &value, step, &setting.min,
+                                                &setting.max, format.c_str(), ImGuiSliderFlags_AlwaysClamp);
     return edited ? std::optional(fmt::format("{}", value)) : std::nullopt;
 }
 
 std::optional<std::string> integerText(const Setting& setting, const std::string& text) {
-    const auto min = static_cast<std::uint32_t>(setting.least);
-    const auto max = static_cast<std::uint32_t>(setting.most);
-    auto value = static_cast<std::uint32_t>(parseWhole(text, min, max));
+    const auto min = static_cast<std::uint32_t>(setting.min);
+    const auto max = static_cast<std::uint32_t>(setting.max);
+    auto value = static_cast<std::uint32_t>(parseInteger(text, min, max));
     const std::uint32_t step = 1;
     const bool edited = max - min <= maxSliderRange ? slider("##value", value, min, max)
                                                     : ImGui::InputScalar("##value", ImGuiDataType_U32, &value, &step);
@@ -65,11 +65,11 @@ std::optional<std::string> editedText(const Setting& setting, const std::string&
     switch (setting.kind) {
         case SettingKind::number:
             return numberText(setting, text);
-        case SettingKind::whole:
+        case SettingKind::integer:
             return integerText(setting, text);
         case SettingKind::choice:
             return choiceText(setting, text);
-        case SettingKind::truth:
+        case SettingKind::boolean:
             return booleanText(text);
         case SettingKind::text:
         case SettingKind::path:
@@ -106,7 +106,10 @@ bool settingRow(Request& request, const std::string& name, const std::string& fi
     const Setting& setting = *settingNamed(name);
     ImGui::PushID(name.c_str());
     rowLabel(fieldLabel(name), fmt::format("{} ({})", setting.help, setting.option));
-    const std::string before = setting.text(request).value_or("");
+    // A number that a word may replace, as in "auto", counts as unset while the word stands.
+    const bool words = setting.kind != SettingKind::choice && !setting.choices.empty();
+    const auto unset = [&](const std::string& text) { return words && text == setting.choices.front() ? "" : text; };
+    const std::string before = unset(setting.text(request).value_or(""));
     std::string after = before;
     if (first.empty() || valueIsSet(name, after, first)) after = editedText(setting, after).value_or(after);
     ImGui::PopID();
@@ -130,15 +133,15 @@ bool lensFieldRow(Lens& lens, const LensField& field) {
     const bool isTime = field.name == std::string_view("exposureTime");
     const std::string first = isTime ? "0.008" : std::isinf(unset) ? "16" : "";
     Request request;
-    if (first.empty() || value != unset) giveLensValue(request.lens, field, std::clamp(value, field.least, field.most));
+    if (first.empty() || value != unset) giveLensValue(request, field, std::clamp(value, field.least, field.most));
     ImGui::BeginDisabled(hasNoEffect(lens, field.name));
     const bool changed = settingRow(request, field.name, first);
     ImGui::EndDisabled();
     if (!changed) return false;
     Lens edited = lens;
     try {
-        if (const std::optional<double> given = givenLensValue(request.lens, field))
-            setLensField(edited, field, *given);
+        if (const LensValues given = givenLensValues(request); given.contains(field.name))
+            setLensField(edited, field, given.find(field.name)->second);
         else
             edited.*std::get<double Lens::*>(field.member) = unset;
         checkLens(edited);
@@ -158,11 +161,11 @@ bool methodCombo(std::string& name) {
 void methodSettingRow(const MethodSetting& setting, std::string& value) {
     Setting row;
     row.kind = !setting.choices.empty() ? SettingKind::choice
-               : setting.whole          ? SettingKind::whole
+               : setting.whole          ? SettingKind::integer
                                         : SettingKind::number;
     row.choices = setting.choices;
-    row.least = setting.least;
-    row.most = setting.most;
+    row.min = setting.least;
+    row.max = setting.most;
     std::string label = setting.name;
     std::ranges::replace(label, '-', ' ');
     label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
 namespace defocus {

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/message.h"
+#include "frame/exposure.h"
 #include "view/hud/hud.h"
 #include "view/panels/panels.h"
 
@@ -29,8 +30,7 @@ ViewSettings rememberedSettings() {
 }
 
 WindowOptions windowOptions(const SessionOptions& options, const ViewSettings& settings) {
-    const Request defaults;
-    const bool sizeGiven = options.request.width != defaults.width || options.request.height != defaults.height;
+    const bool sizeGiven = options.request.size != ImageSize{};
     WindowOptions window;
     if (settings.width > 0 && settings.height > 0 && !sizeGiven && options.frames == 0) {
         window.width = settings.width;
@@ -38,8 +38,8 @@ WindowOptions windowOptions(const SessionOptions& options, const ViewSettings& s
         return window;
     }
     const double panel = settings.panel ? panelWidth * settings.interfaceScale : 0;
-    window.width = options.request.width + static_cast<int>(panel);
-    window.height = options.request.height;
+    window.width = options.request.size.width + static_cast<int>(panel);
+    window.height = options.request.size.height;
     return window;
 }
 
@@ -190,7 +190,7 @@ void drawFrame(Session& session) {
 Session::Session(const SessionOptions& chosen)
     : options(chosen), settings(rememberedSettings()), window(windowOptions(chosen, settings)), interface(window) {
     state.options = options.request;
-    state.exposure = options.request.exposure.value_or(0);
+    state.exposure = exposureOf(options.request).value_or(0);
     state.dark = settings.dark;
     state.panel = settings.panel;
     state.interfaceScale = settings.interfaceScale;

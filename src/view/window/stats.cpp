@@ -63,7 +63,7 @@ ordered_json documentJson(const Session& session) {
         {"undoSteps", document.history.undoSteps()},
         {"redoSteps", document.history.redoSteps()},
         {"exposure", shownExposure(state)},
-        {"hidden", state.options.hidden},
+        {"hidden", state.options.hide},
         {"objects", frame ? frame->world.pose.objects.size() : 0},
         {"views", state.savedViews.size()},
         {"shotKeys", state.shotKeys.size()},

@@ -204,11 +204,6 @@ TEST(BlurredError, theThresholdFollowsTheSamples) {
     EXPECT_GT(light(16), light(64));
     EXPECT_LT(light(1024) / expectedSampleError(1024), 0.8 * light(16) / expectedSampleError(16));
     EXPECT_EQ(expectedSampleError(1), 1);
-    RenderSettings fixed;
-    fixThresholds(fixed, 64, 2);
-    EXPECT_EQ(fixed.metric, LodMetric::measured);
-    EXPECT_FALSE(fixed.thresholds.blur || fixed.thresholds.size);
-    EXPECT_EQ(chosenThresholds(fixed.thresholds, LodMetric::measured, 7).light, 2 * light(64));
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST_F(ScreenDoor, changesLittleWithLambda) {
         return renderedPlan(*small, plan);
     };
     const double pixels = 160.0 * 120;
-    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {  // whole numbers of samples among them
+    for (const double lambda : {1.0, 1.03, 1 + 5.0 / samples, 1.5, 2.0}) {  // integers of samples among them
         const Image below = at(lambda - 1e-4);
         const Image above = at(lambda + 1e-4);
         int changed = 0;

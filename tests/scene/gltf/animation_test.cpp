@@ -128,7 +128,7 @@ TEST(GltfAnimation, camerasMoveWithTheirNodes) {
     addChannel(builder, animation, {0, 0, 0, 4, 0, 0}, "VEC3", {{"node", 0}, {"path", "translation"}});
     builder.json["animations"] = {animation};
     const Scene scene = builder.load();
-    const PlacedCamera camera = chooseCamera(scene, poseAt(scene, 0.5), "", 1);
+    const PlacedCamera camera = chooseCamera(scene, poseAt(scene, 0.5), {}, 1);
     EXPECT_DOUBLE_EQ(camera.worldFromCamera[3].x, 1);
     EXPECT_DOUBLE_EQ(worldFromCameraIn(camera, poseAt(scene, 1))[3].x, 2);
 }
@@ -150,8 +150,8 @@ TEST(GltfAnimation, pointersDriveCamerasLightsAndNodes) {
     builder.json["animations"] = {animation};
     const Scene scene = builder.load();
     const Pose pose = poseAt(scene, 1);
-    EXPECT_NEAR(chooseCamera(scene, pose, "", 1).camera.yfov, 0.6, 1e-6);
-    EXPECT_NEAR(chooseCamera(scene, pose, "", 1).camera.lensValue("focusDistance").value(), 2, 1e-6);
+    EXPECT_NEAR(chooseCamera(scene, pose, {}, 1).camera.yfov, 0.6, 1e-6);
+    EXPECT_NEAR(chooseCamera(scene, pose, {}, 1).camera.lensValue("focusDistance").value(), 2, 1e-6);
     EXPECT_FLOAT_EQ(pose.lights.at(0).light.intensity, 15);
     EXPECT_FLOAT_EQ(pose.lights[0].light.color.r, 0.5f);
     EXPECT_DOUBLE_EQ(pose.lights[0].position.y, 4);

@@ -106,7 +106,7 @@ TEST_F(ViewHistory, timeAndTheWayOfACameraThatIsFollowedAreNoEdits) {
     EXPECT_FALSE(sameEdit(now, other));
     now.followsCamera = other.followsCamera = true;
     EXPECT_TRUE(sameEdit(now, other));
-    other.options.hidden = {"a"};
+    other.options.hide = {"a"};
     EXPECT_FALSE(sameEdit(now, other));
     other = now;
     other.meters = now.meters = true;

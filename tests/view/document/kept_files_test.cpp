@@ -1,5 +1,7 @@
 // What a window keeps from one run to the next: recent scenes and saved views.
 
+#include "view/document/kept_files.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +12,6 @@
 #include "core/error.h"
 #include "lens/lens_fields.h"
 #include "view/random_view.h"
-#include "view/document/kept_files.h"
 
 namespace defocus {
 namespace {

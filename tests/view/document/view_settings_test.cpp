@@ -1,11 +1,10 @@
-#include "view/document/kept_files.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
 
 #include "core/error.h"
+#include "view/document/kept_files.h"
 
 namespace defocus {
 namespace {

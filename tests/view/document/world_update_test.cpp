@@ -42,15 +42,15 @@ TEST_F(WorldUpdate, hiddenNodesLeaveThePoseAndTheSelectionStays) {
     const std::string first = nameOf(0);
     const std::string last = objects().back().name;
     state.selected = static_cast<int>(all) - 1;
-    state.options.hidden = {first};
+    state.options.hide = {first};
     update();
     EXPECT_EQ(objects().size(), all - 1);
     EXPECT_EQ(nameOf(state.selected), last);
     EXPECT_GT(document.poseVersion, 0u);
-    state.options.hidden = {last};
+    state.options.hide = {last};
     update();
     EXPECT_EQ(state.selected, -1);
-    state.options.hidden.clear();
+    state.options.hide.clear();
     update();
     EXPECT_EQ(objects().size(), all);
 }

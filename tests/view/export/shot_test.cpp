@@ -11,6 +11,7 @@
 
 #include "capture/shot_json.h"
 #include "capture/shot_options.h"
+#include "frame/exposure.h"
 #include "view/random_view.h"
 
 namespace defocus {
@@ -30,22 +31,22 @@ ShotKey keyAt(const glm::dvec3& position, double focus, double fStop) {
 TEST(ViewShot, isReadBackAsItWasTaken) {
     Request options;
     options.scene = "a scene.glb";
-    options.settings.sampleCount = 12;
+    options.samples = 12;
     const std::vector<ShotKey> keys = {keyAt({0, 1, 5}, 2, 1.4), keyAt({3, 1, 4}, 4.5, 2.8)};
     const Shot shot = parseShot(shotJson({options, Lens{}, keys, 1, {ToneMap::agx, -1}}), "x.json");
     EXPECT_EQ(shot.request.scene.filename(), "a scene.glb");
     EXPECT_EQ(shot.range.first, 0);
     EXPECT_EQ(shot.range.last, framesBetweenKeys);
-    EXPECT_EQ(shot.request.settings.sampleCount, 12u);
-    EXPECT_EQ(shot.request.width, 320);
+    EXPECT_EQ(shot.request.samples, 12u);
+    EXPECT_EQ(shot.request.size.width, 320);
     EXPECT_EQ(shot.request.toneMap, ToneMap::agx);
-    EXPECT_EQ(shot.request.exposure, -1);
+    EXPECT_EQ(shot.request.exposure, Exposure(ExposureValue{-1}));
     const auto& camera = std::get<CameraKeys>(shot.movement);
     ASSERT_EQ(camera.positions.size(), 2u);
     EXPECT_EQ(std::get<glm::dvec3>(camera.positions[1].value), glm::dvec3(keys[1].view.worldFromCamera[3]));
     EXPECT_NEAR(glm::length(std::get<glm::dvec3>(camera.targets[1].value)), 0, 1e-12);
     ASSERT_EQ(shot.focus->keys.size(), 2u);
-    EXPECT_EQ(std::get<double>(shot.focus->keys[1].value), 4.5);
+    EXPECT_EQ(std::get<FocusDistance>(shot.focus->keys[1].value).metres, 4.5);
     ASSERT_EQ(shot.lens.at("fStop").keys.size(), 2u);
     EXPECT_EQ(shot.lens.at("fStop").keys[1].value, 2.8);
     EXPECT_EQ(shot.lens.at("focalLength").keys.size(), 1u);
@@ -67,7 +68,9 @@ TEST(ViewShot, oneKeyOfTheSchoolIsAShotToo) {
 TEST(ViewShot, clipTimeSpeedAndShutterAreSaid) {
     Request options;
     options.clip = "Run";
-    options.shutter = {.seconds = 0.02, .position = ShutterPosition::end, .motionSegments = 4};
+    options.shutter = 0.02;
+    options.shutterPosition = ShutterPosition::end;
+    options.motionSegments = 4u;
     ShotKey key = keyAt({0, 0, 3}, 2, 2);
     key.time = 0.75;
     const Shot shot = parseShot(shotJson({options, Lens{}, {key}, 0.5, {}}), "x.json");
@@ -94,7 +97,7 @@ TEST(ViewShot, rollGoesTheShortWay) {
 Lens lensAtKey(const Shot& shot, std::size_t key, Lens lens) {
     for (const auto& [name, track] : shot.lens)
         setLensField(lens, *lensFieldNamed(name), track.keys[track.keys.size() == 1 ? 0 : key].value);
-    lens.focusDistance = std::get<double>(shot.focus->keys[key].value);
+    lens.focusDistance = std::get<FocusDistance>(shot.focus->keys[key].value).metres;
     return lens;
 }
 
@@ -106,15 +109,16 @@ void expectSameOfShot(const Request& read, const Request& options) {
     EXPECT_EQ(read.loop, options.loop);
     EXPECT_EQ(read.shutter, options.shutter);
     EXPECT_EQ(read.background, options.background);
-    EXPECT_EQ(read.backgroundColor, options.backgroundColor);
     EXPECT_EQ(read.camera, options.camera);
-    EXPECT_EQ(read.settings.sampleCount, options.settings.sampleCount);
-    EXPECT_EQ(read.settings.sequence, options.settings.sequence);
-    EXPECT_EQ(read.settings.seed, options.settings.seed);
-    EXPECT_EQ(read.settings.lod, options.settings.lod);
-    EXPECT_EQ(read.settings.metric, options.settings.metric);
-    EXPECT_EQ(read.settings.thresholds.blur, options.settings.thresholds.blur);
-    EXPECT_EQ(read.settings.thresholds.size, options.settings.thresholds.size);
+    EXPECT_EQ(read.shutterPosition, options.shutterPosition);
+    EXPECT_EQ(read.motionSegments, options.motionSegments);
+    EXPECT_EQ(read.samples, options.samples);
+    EXPECT_EQ(read.sequence, options.sequence);
+    EXPECT_EQ(read.seed, options.seed);
+    EXPECT_EQ(read.lod, options.lod);
+    EXPECT_EQ(read.lodMetric, options.lodMetric);
+    EXPECT_EQ(read.blurThreshold, options.blurThreshold);
+    EXPECT_EQ(read.sizeThreshold, options.sizeThreshold);
     EXPECT_EQ(chosenMethod(read).text(), chosenMethod(options).text());
     EXPECT_EQ(read.layerFormat, options.layerFormat);
 }
@@ -146,13 +150,14 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
         Request read;
         applyShot(shot, read);
         expectSameOfShot(read, options);
-        EXPECT_EQ(read.width, keys.back().view.width);
-        EXPECT_EQ(read.height, keys.back().view.height);
+        EXPECT_EQ(read.size.width, keys.back().view.width);
+        EXPECT_EQ(read.size.height, keys.back().view.height);
         EXPECT_EQ(shot.request.toneMap, write.toneMap);
         const bool ofLens =
             std::ranges::any_of(keys, [](const ShotKey& key) { return key.view.lens.exposureTime > 0; });
-        EXPECT_EQ(shot.request.exposure.has_value() && ofLens, false);
-        EXPECT_EQ(ofLens ? write.exposure : shot.request.exposure.value_or(0), write.exposure);
+        const std::optional<double> exposure = exposureOf(shot.request);
+        EXPECT_FALSE(exposure && ofLens);
+        EXPECT_EQ(ofLens ? write.exposure : exposure.value_or(0), write.exposure);
         const auto& camera = std::get<CameraKeys>(shot.movement);
         for (std::size_t i = 0; i < keys.size(); ++i) {
             const Lens again = lensAtKey(shot, i, cameraLens);

@@ -1,11 +1,11 @@
-#include "frame/presets.h"
+#include "frame/settings/presets.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/error.h"
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 
 namespace defocus {
 

@@ -1,4 +1,4 @@
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 
 #include <fmt/format.h>
 
@@ -56,6 +56,14 @@ std::optional<std::string> changedText(const Setting& setting, const Request& re
     static const Request standard;
     std::optional<std::string> text = setting.text(request);
     if (text == setting.text(standard)) return std::nullopt;
+    return text;
+}
+
+std::string pixelSettings(const Request& request) {
+    std::string text;
+    for (const Setting& setting : settings())
+        if (setting.effect == SettingEffect::pixels && setting.kind != SettingKind::path)
+            text += fmt::format("{}={};", setting.name, setting.text(request).value_or(""));
     return text;
 }
 

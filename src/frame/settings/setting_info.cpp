@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "frame/settings.h"
+#include "frame/settings/settings.h"
 #include "render/methods.h"
 
 namespace defocus {
@@ -18,11 +18,13 @@ SettingInfo infoOf(const Setting& setting) {
     info.kind = setting.kind;
     info.metavar = setting.metavar;
     info.unit = setting.unit;
-    info.least = setting.least;
-    info.most = setting.most;
+    info.min = setting.min;
+    info.max = setting.max;
     info.choices = setting.choices;
     info.help = setting.help;
-    info.standard = setting.text(Request{});
+    info.defaultValue = setting.text(Request{});
+    info.excludes = setting.excludes;
+    info.arraySeparator = setting.arraySeparator;
     info.repeated = setting.repeated;
     return info;
 }
@@ -34,14 +36,14 @@ SettingInfo infoOf(const MethodSetting& setting) {
     info.option = "--" + setting.name;
     info.group = groupTitle(SettingGroup::method);
     info.kind = !setting.choices.empty() ? SettingKind::choice
-                : setting.whole          ? SettingKind::whole
+                : setting.whole          ? SettingKind::integer
                                          : SettingKind::number;
     info.metavar.assign(1, setting.whole ? 'N' : 'R');
-    info.least = setting.least;
-    info.most = setting.most;
+    info.min = setting.least;
+    info.max = setting.most;
     info.choices = setting.choices;
     info.help = setting.description;
-    info.standard = setting.standard;
+    info.defaultValue = setting.standard;
     return info;
 }
 

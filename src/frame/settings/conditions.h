@@ -1,0 +1,29 @@
+#pragma once
+// Why a setting has no effect in a request: each function returns a reason, or an empty string if the setting has one.
+
+#include <initializer_list>
+#include <string>
+
+#include "frame/settings/settings.h"
+
+namespace defocus {
+
+using Condition = std::string (*)(const SettingContext&);
+
+std::string methodWithoutSamples(const SettingContext& context);     // the method draws no lens samples
+std::string methodWithoutShapes(const SettingContext& context);      // the method's aperture is round or oval
+std::string methodWithoutLensPoints(const SettingContext& context);  // the method's lens is the same for all pixels
+std::string methodWithoutMotion(const SettingContext& context);
+std::string withoutShutter(const SettingContext& context);
+std::string withoutEnvironment(const SettingContext& context);
+std::string withoutAnimation(const SettingContext& context);
+std::string withoutShadows(const SettingContext& context);
+std::string withoutBlur(const SettingContext& context);
+std::string withoutBlurOrExposure(const SettingContext& context);
+std::string withoutLevels(const SettingContext& context);
+std::string withMeasuredLevels(const SettingContext& context);
+
+// Returns the first reason.
+std::string firstOf(const SettingContext& context, std::initializer_list<Condition> conditions);
+
+}  // namespace defocus

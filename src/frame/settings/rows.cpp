@@ -1,0 +1,564 @@
+// The rows of the table of settings, in the order in which --help shows them.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "core/memory_limits.h"
+#include "frame/settings/conditions.h"
+#include "frame/settings/presets.h"
+#include "frame/settings/row.h"
+#include "frame/settings/values.h"
+#include "lens/lens_fields.h"
+#include "lens/lens_samples.h"
+#include "lod/pyramid/level_selection.h"
+#include "scene/units.h"
+
+namespace defocus {
+
+namespace {
+
+using Rows = std::vector<Setting>;
+
+// A member of Request, for the functions of row.h.
+#define MEMBER(path)             \
+    [](auto& request) -> auto& { \
+        return request.path;     \
+    }
+
+// ---- scene ----------------------------------------------------------------------------------------------------------
+
+Row unitsRow() {
+    return Row(SettingKind::number, "units", "--units", "m|cm|mm|M|auto",
+               "Length of one unit of the scene, on which the blur depends: m, cm, mm or a number of metres. auto: the "
+               "file's extras; else metres if the camera or an option gives a length; else a guess from the size of "
+               "the scene")
+        .range(1e-9, 1e9)
+        .choices({"auto", "m", "cm", "mm"})
+        .clears(MEMBER(units))
+        .values(
+            [](Request& request, const std::string& text) {
+                request.units = text == "auto" ? std::nullopt : std::optional(metresOfUnit(text));
+            },
+            [](const Request& request) -> std::optional<std::string> {
+                return request.units ? unitOfMetres(*request.units) : "auto";
+            });
+}
+
+Row shutterRow() {
+    return rows::other(
+               "shutter", "--shutter", "S",
+               [](Request& request, const std::string& text) { request.shutter = parseSeconds(text); },
+               [](const Request& request) { return std::optional(fmt::format("{}", request.shutter)); },
+               "Seconds that the shutter stays open, as 0.02 or 1/48, for motion blur of the animation. Default: 0, no "
+               "motion blur")
+        .kind(SettingKind::number)
+        .range(0, 1e6)
+        .clears(MEMBER(shutter));
+}
+
+Row hideRow() {
+    return rows::other(
+               "hide", "--hide", "NODE",
+               [](Request& request, const std::string& text) {
+                   if (std::ranges::find(request.hide, text) == request.hide.end()) request.hide.push_back(text);
+               },
+               [](const Request& request) -> std::optional<std::string> {
+                   if (request.hide.empty()) return std::nullopt;
+                   return fmt::format("{}", fmt::join(request.hide, ","));
+               },
+               "Leave out a node and its children, given by name or number. Can be given several times")
+        .clears(MEMBER(hide))
+        .repeats([](const Request& request) { return request.hide; });
+}
+
+Rows sceneRows() {
+    return {
+        rows::words(SettingKind::path, "scene", "SCENE", "FILE", MEMBER(scene),
+                    "glTF file (.gltf, .glb). Default: the built-in school of fish")
+            .everyday()
+            .example("scene.glb")
+            .inShot("/scene"),
+        rows::integer("fishCount", "--fish", 1, 10'000, MEMBER(fishCount), "Number of fish in the built-in school")
+            .excludes({"scene"})
+            .inShot("/fish/count"),
+        rows::integer("trianglesPerFish", "--fish-triangles", 200, 10'000'000, MEMBER(trianglesPerFish),
+                      "Approximate number of triangles of each fish in the built-in school")
+            .excludes({"scene"})
+            .inShot("/fish/triangles"),
+        unitsRow().inShot("/units"),
+        rows::number("time", "--time", "S", -1e9, 1e9, MEMBER(time),
+                     "Time in the animation, in seconds. Before its start and after its end the animation holds")
+            .unit("s")
+            .everyday()
+            .inShot("/animation/start")
+            .unused(withoutAnimation),
+        rows::words(SettingKind::text, "clip", "--clip", "NAME|N", MEMBER(clip),
+                    "Animation to play, by name or number; 'defocus info' lists them. Default: the first")
+            .example("Walk")
+            .inShot("/animation/clip")
+            .json(R"({"anyOf": [{"type": "integer", "minimum": 0, "maximum": 1000000},
+                                {"type": "string", "minLength": 1}]})"),
+        rows::boolean("loop", "--loop", MEMBER(loop), "Repeat the animation instead of holding its ends")
+            .inShot("/animation/loop")
+            .unused(withoutAnimation),
+        shutterRow().unit("s").inShot("/shutter/seconds").unused(methodWithoutMotion),
+        rows::choice<ShutterPosition>(
+            "shutterPosition", "--shutter-position",
+            {{"start", ShutterPosition::start}, {"centre", ShutterPosition::centre}, {"end", ShutterPosition::end}},
+            MEMBER(shutterPosition), "Position of --time in the exposure")
+            .inShot("/shutter/position")
+            .unused(withoutShutter),
+        rows::other("motionSegments", "--motion-segments", "N|exact", setMotionSegments, motionSegmentsText,
+                    "Straight segments of a vertex's path while the shutter is open (1 to 64), or 'exact' for a pose "
+                    "of its own for each sample")
+            .clears(MEMBER(motionSegments))
+            .inShot("/shutter/segments")
+            .json(R"({"type": "integer", "minimum": 1, "maximum": 64})")
+            .unused(withoutShutter),
+        rows::words(SettingKind::path, "environment", "--environment", "studio|overcast|sunset|FILE",
+                    MEMBER(environment),
+                    "Environment map: studio, overcast, sunset, or an equirectangular .hdr or .exr file. Replaces the "
+                    "default light; lights in the file still shine")
+            .everyday()
+            .example("studio")
+            .inShot("/environment"),
+        rows::number("environmentRotation", "--environment-rotation", "DEG", -360, 360, MEMBER(environmentRotation),
+                     "Rotation of the environment map, counter-clockwise seen from above")
+            .unit("degrees")
+            .inShot("/environmentRotation")
+            .unused(withoutEnvironment),
+        rows::other("background", "--background", "environment|none|R,G,B", setBackground, backgroundText,
+                    "Background: the environment, none for a transparent image, or a uniform linear colour R,G,B that "
+                    "also lights the scene")
+            .clears(MEMBER(background))
+            .inShot("/background")
+            .json(R"({"anyOf": [{"enum": ["environment", "none"]},
+                                {"type": "array", "minItems": 3, "maxItems": 3,
+                                 "items": {"type": "number", "minimum": 0, "maximum": 1000000000}}]})",
+                  ','),
+        rows::boolean("ground", "--ground", MEMBER(ground),
+                      "Add a grey ground at the scene's lowest point, which catches its shadows")
+            .inShot("/ground"),
+        hideRow(),
+        rows::choice<Shadows>("shadows", "--shadows",
+                              {{"auto", Shadows::automatic}, {"on", Shadows::on}, {"off", Shadows::off}},
+                              MEMBER(shadows), "Soft shadows of lights and surroundings. auto: on with --ground")
+            .inShot("/shadows"),
+        rows::number("lightAngle", "--light-angle", "DEG", 0, 90, MEMBER(lightAngle),
+                     "Angular diameter of directional lights, for the softness of their shadows. Default: each light's "
+                     "own, else 0.53 as the sun")
+            .unit("degrees")
+            .example("5")
+            .inShot("/lightAngle")
+            .unused(withoutShadows),
+        rows::number("lightRadius", "--light-radius", "M", 0, 1e6, MEMBER(lightRadius),
+                     "Radius of point and spot lights, for the softness of their shadows. Default: each light's own, "
+                     "else 0.03")
+            .unit("m")
+            .example("0.1")
+            .inShot("/lightRadius")
+            .unused(withoutShadows),
+    };
+}
+
+// ---- camera ---------------------------------------------------------------------------------------------------------
+
+template <typename Member>
+Row pointRow(std::string name, std::string option, Member member, std::string help) {
+    return rows::other(
+               std::move(name), std::move(option), "X,Y,Z",
+               [=](Request& request, const std::string& text) { member(request) = parsePoint(text); },
+               [=](const Request& request) -> std::optional<std::string> {
+                   if (!member(request)) return std::nullopt;
+                   return fmt::format("{}", fmt::join(*member(request), ","));
+               },
+               std::move(help))
+        .clears(member);
+}
+
+Rows cameraRows() {
+    return {
+        rows::other("camera", "--camera", "NAME", setCamera, cameraText,
+                    "Name of a camera of the file, or 'auto' for a camera that frames the scene. Default: the first")
+            .clears(MEMBER(camera))
+            .everyday()
+            .example("Camera")
+            .inShot("/camera/name"),
+        pointRow("cameraPosition", "--camera-position", MEMBER(cameraPosition),
+                 "Position of the camera; lights stay as for the camera of the file")
+            .unit("m"),
+        pointRow("cameraTarget", "--camera-target", MEMBER(cameraTarget),
+                 "Point that the camera looks at, with its image upright")
+            .unit("m"),
+        pointRow("cameraUp", "--camera-up", MEMBER(cameraUp), "Direction that is up in the image"),
+        rows::other("size", "--size", "WxH", setSize, sizeText, "Image size in pixels")
+            .clears(MEMBER(size))
+            .unit("px")
+            .everyday()
+            .inShot("/size")
+            .json(fmt::format(R"({{"type": "array", "minItems": 2, "maxItems": 2,
+                                   "items": {{"type": "integer", "minimum": 1, "maximum": {}}}}})",
+                              maxImageSide),
+                  'x'),
+    };
+}
+
+// ---- lens -----------------------------------------------------------------------------------------------------------
+
+std::string unitOf(std::string_view metavar) {
+    if (metavar == "MM") return "mm";
+    if (metavar == "M") return "m";
+    if (metavar == "DEG") return "degrees";
+    if (metavar == "PX") return "px";
+    if (metavar == "D") return "dioptres";
+    if (metavar == "S") return "s";
+    return "";
+}
+
+// Why a field of the lens has no effect.
+Setting::Unused unusedLensField(LensFeature feature) {
+    switch (feature) {
+        case LensFeature::camera:
+            return {};
+        case LensFeature::fStop:
+            return withoutBlurOrExposure;
+        case LensFeature::blur:
+            return withoutBlur;
+        case LensFeature::shape:
+            return [](const SettingContext& context) { return firstOf(context, {methodWithoutShapes, withoutBlur}); };
+        case LensFeature::lensPoint:
+            return [](const SettingContext& context) {
+                return firstOf(context, {methodWithoutLensPoints, withoutBlur});
+            };
+    }
+    return {};
+}
+
+Row lensRow(const LensField& field) {
+    const SettingKind kind = std::holds_alternative<bool Lens::*>(field.member)  ? SettingKind::boolean
+                             : std::holds_alternative<int Lens::*>(field.member) ? SettingKind::integer
+                                                                                 : SettingKind::number;
+    Row row = Row(kind, field.name, field.option, field.unit, field.description)
+                  .unit(unitOf(field.unit))
+                  .range(field.least, field.most)
+                  .everyday(field.everyday)
+                  .example(field.example)
+                  .inShot(fmt::format("/lens/{}", field.name))
+                  .keyed()
+                  .lensField()
+                  .json(field.schema)
+                  .unused(unusedLensField(field.feature));
+    if (field.name == std::string_view("focusDistance"))
+        return std::move(row).values(setFocusDistance, focusDistanceText, clearFocus<FocusDistance>);
+    return std::move(row).values(
+        [&field](Request& request, const std::string& text) {
+            giveLensValue(request.lens, field, parseLensValue(field, text));
+        },
+        [&field](const Request& request) { return lensText(request.lens, field); },
+        [&field](Request& request) { giveLensValue(request.lens, field, std::nullopt); });
+}
+
+Rows focusRows() {
+    return {
+        rows::other("focusNode", "--focus-node", "NAME", setFocusNode, focusNodeText,
+                    "Focus on the centre of this node: that of its mesh's bounding box, or its origin")
+            .clears(clearFocus<FocusNode>)
+            .everyday()
+            .excludes({"focusDistance"})
+            .unused(withoutBlur),
+        rows::other("focusPixel", "--focus-pixel", "X,Y", setFocusPixel, focusPixelText,
+                    "Focus on the surface seen at this pixel; 0,0 is the top left one")
+            .clears(clearFocus<FocusPixel>)
+            .excludes({"focusDistance", "focusNode"})
+            .unused(withoutBlur),
+        rows::other("focusPoints", "--focus-points", "X,Y,X,Y,X,Y", setFocusPoints, focusPointsText,
+                    "Tilt the focus plane through the surfaces seen at three pixels; with 4 to 16 pixels, curve it so "
+                    "that the sum of their squared blurs is smallest")
+            .clears(clearFocus<FocusPoints>)
+            .excludes({"focusDistance", "focusNode", "focusPixel"})
+            .unused(withoutBlur),
+        rows::other("focusAuto", "--focus-auto", "", setFocusAuto, focusAutoText,
+                    "Focus on the median depth of the surfaces in the image's middle")
+            .kind(SettingKind::boolean)
+            .clears(clearFocus<FocusAuto>)
+            .excludes({"focusDistance", "focusNode", "focusPixel", "focusPoints"})
+            .unused(withoutBlur),
+    };
+}
+
+Rows lensRows() {
+    Rows rows;
+    for (const LensField& field : lensFields()) {
+        rows.push_back(lensRow(field));
+        if (rows.back().name == "focusDistance") std::ranges::move(focusRows(), std::back_inserter(rows));
+    }
+    rows.push_back(rows::words(SettingKind::path, "apertureImage", "--aperture-image", "FILE",
+                               MEMBER(lens.apertureImage),
+                               "Image of the aperture, which replaces blades and rings: light passes where it is "
+                               "bright, and its longer side spans the lens")
+                       .unused(unusedLensField(LensFeature::shape)));
+    rows.push_back(rows::other("nodeBlur", "--node-blur", "NAME=SCALE", addNodeBlur, nodeBlurText,
+                               "Scale the blur of a node and its children; 0 keeps them sharp. Can be given several "
+                               "times")
+                       .clears(MEMBER(nodeBlur))
+                       .repeats(nodeBlurTexts)
+                       .unused(withoutBlur));
+    return rows;
+}
+
+// ---- samples --------------------------------------------------------------------------------------------------------
+
+// A preset has no value of its own, see presets.h. It precedes all settings that it sets, so that options beside it
+// win.
+Row presetRow() {
+    std::vector<std::string> names;
+    std::vector<std::string> lines;
+    for (const Preset& preset : presets()) {
+        names.push_back(preset.name);
+        lines.push_back(fmt::format("{}: {}", preset.name, preset.description));
+    }
+    Row row = Row(SettingKind::choice, "preset", "--preset", fmt::format("{}", fmt::join(names, "|")),
+                  fmt::format("A set of settings; options beside it win. {}", fmt::join(lines, "; ")))
+                  .choices(names)
+                  .effect(SettingEffect::run)
+                  .recorded();
+    return std::move(row).values(
+        [names](Request& request, const std::string& text) {
+            applyPreset(presets()[parseChoice(text, names)], request);
+        },
+        [](const Request& request) {
+            const Preset* const preset = presetOf(request);
+            return preset == nullptr ? std::nullopt : std::optional(preset->name);
+        },
+        [](Request& request) {
+            if (const Preset* const preset = presetOf(request)) clearPreset(*preset, request);
+        });
+}
+
+Row samplesRow() {
+    return rows::integer("samples", "--samples", 1, maxSamples, MEMBER(samples),
+                         fmt::format("Lens samples. auto: 32 to 1024, by the largest blur and, for wide blurs, the "
+                                     "estimated error. With --target-error or --time-limit the maximum, default {}",
+                                     maxSamples))
+        .metavar("N|auto")
+        .choices({"auto"})
+        .values(
+            [](Request& request, const std::string& text) {
+                request.samples = text == "auto"
+                                      ? std::nullopt
+                                      : std::optional(static_cast<std::uint32_t>(parseInteger(text, 1, maxSamples)));
+            },
+            [](const Request& request) -> std::optional<std::string> {
+                return request.samples ? fmt::format("{}", *request.samples) : "auto";
+            });
+}
+
+Rows sampleRows() {
+    std::vector<std::pair<std::string, Sequence>> sequences;
+    for (const Sequence sequence : allSequences) sequences.emplace_back(sequenceName(sequence), sequence);
+    std::vector<std::pair<std::string, LodMode>> modes;
+    for (const LodMode mode : {LodMode::fractional, LodMode::continuous, LodMode::nearest, LodMode::off})
+        modes.emplace_back(lodModeName(mode), mode);
+    return {
+        presetRow().inShot("/preset"),
+        samplesRow().everyday().example("64").inShot("/samples").unused(methodWithoutSamples),
+        rows::number("targetError", "--target-error", "R", 1e-6, 1, MEMBER(targetError),
+                     "Add blocks of 64 samples until the RMSE of the display-encoded image (0 to 1) at EV 0 is "
+                     "estimated to be below R")
+            .example("0.003")
+            .inShot("/targetError"),
+        rows::number("timeLimit", "--time-limit", "S", 1e-3, 1e6, MEMBER(timeLimit),
+                     "Add blocks of 64 samples for S seconds without loading; with --target-error, at most so long. "
+                     "In a film: begin no frame after S seconds")
+            .unit("s")
+            .effect(SettingEffect::run)
+            .recorded(),
+        rows::choice<Sequence>("sequence", "--sequence", sequences, MEMBER(sequence),
+                               "Low-discrepancy sequence of points on the lens and in the pixel; Jeong et al. 2011 "
+                               "use halton")
+            .inShot("/sequence")
+            .unused(methodWithoutSamples),
+        rows::integer("seed", "--seed", 0, std::numeric_limits<std::uint32_t>::max(), MEMBER(seed),
+                      "Selects another set of sample points")
+            .inShot("/seed")
+            .unused(methodWithoutSamples),
+        rows::choice<LodMode>("lod", "--lod", modes, MEMBER(lod),
+                              "Simplified meshes for blurred objects: fractional splits the samples between two "
+                              "levels, continuous also splits one sample over its pixels, nearest draws one level, off "
+                              "draws full detail")
+            .inShot("/lod"),
+        rows::number("blurThreshold", "--blur-threshold", "K", 0, 1e3, MEMBER(blurThreshold),
+                     "Levels by size: target edge length in pixels per pixel of blur. Default: by the number of "
+                     "samples")
+            .example("0.2")
+            .inShot("/blurThreshold")
+            .unused(withoutLevels),
+        rows::number("sizeThreshold", "--size-threshold", "K", 0, 1e6, MEMBER(sizeThreshold),
+                     "Levels by size: minimum target edge length. Default: by the number of samples")
+            .unit("px")
+            .example("1")
+            .inShot("/sizeThreshold")
+            .unused(withoutLevels),
+        rows::number("lightThreshold", "--light-threshold", "K", 0, 1e3, MEMBER(lightThreshold),
+                     "Measured levels: error for edges of 1 px, in standard deviations of the light within the blur. "
+                     "Default: by the number of samples")
+            .unit("px")
+            .example("0.1")
+            .inShot("/lightThreshold")
+            .unused(withoutLevels),
+        rows::words(SettingKind::path, "cacheFolder", "--cache-dir", "FOLDER", MEMBER(cacheFolder),
+                    "Folder for simplified meshes. Default: $XDG_CACHE_HOME/defocus or ~/.cache/defocus")
+            .effect(SettingEffect::run),
+        rows::boolean("noCache", "--no-cache", MEMBER(noCache), "Build simplified meshes without the cache")
+            .excludes({"cacheFolder"})
+            .effect(SettingEffect::run),
+    };
+}
+
+// ---- method, display, developers ------------------------------------------------------------------------------------
+
+Rows methodRows() {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) names.push_back(method.name);
+    return {
+        rows::other("method", "--method", "NAME", setMethod, methodText,
+                    fmt::format("Rendering method: {}; or NAME:SETTING=VALUE,… with the method's settings",
+                                fmt::join(names, ", ")))
+            .clears(clearMethod)
+            .everyday()
+            .inShot("/method"),
+        rows::choice<LayerFormat>("layerFormat", "--layer-format",
+                                  {{"automatic", LayerFormat::automatic},
+                                   {"rgb9e5", LayerFormat::rgb9e5},
+                                   {"rgba16f", LayerFormat::rgba16f},
+                                   {"rgba32f", LayerFormat::rgba32f},
+                                   {"rgba8", LayerFormat::rgba8}},
+                                  MEMBER(layerFormat), "Pixel format of a sample's layer; rgba32f for references")
+            .inShot("/layerFormat"),
+    };
+}
+
+Rows displayRows() {
+    return {
+        rows::choice<ToneMap>(
+            "toneMap", "--tonemap",
+            {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},
+            MEMBER(toneMap),
+            "Tone curve of PNG, JPEG and video. neutral keeps colours and rolls off highlights; none "
+            "clips at white")
+            .effect(SettingEffect::display)
+            .inShot("/toneMap"),
+        Row(SettingKind::number, "exposure", "--exposure", "EV|auto",
+            "Exposure in EV for PNG, JPEG and video; auto meters the scene once. Default: from --exposure-time and "
+            "--iso if given, else auto for scenes with lights, else 0")
+            .range(-60, 60)
+            .choices({"auto"})
+            .clears(MEMBER(exposure))
+            .values(setExposure, exposureText)
+            .unit("EV")
+            .everyday()
+            .example("auto")
+            .excludes({"exposureTime", "iso"})
+            .effect(SettingEffect::display)
+            .inShot("/exposure"),
+    };
+}
+
+// Settings for measuring and debugging.
+Rows developerRows() {
+    return {
+        rows::choice<LodMetric>("lodMetric", "--lod-metric",
+                                {{"automatic", LodMetric::automatic},
+                                 {"size", LodMetric::size},
+                                 {"error", LodMetric::error},
+                                 {"halving", LodMetric::halving},
+                                 {"measured", LodMetric::measured},
+                                 {"score", LodMetric::score}},
+                                MEMBER(lodMetric),
+                                "Measure by which levels are chosen: measured (error of the light after the blur), "
+                                "size (projected edges), error (projected deviation), halving (edges if each level "
+                                "had half the triangles) or score (edges at the object's centre against the blur). "
+                                "automatic: size if one of its thresholds is given, else measured")
+            .inShot("/lodMetric")
+            .unused(withoutLevels),
+        rows::choice<LevelVertices>("levelVertices", "--level-vertices",
+                                    {{"fitted", LevelVertices::fitted},
+                                     {"surviving", LevelVertices::surviving},
+                                     {"quarters", LevelVertices::quarters}},
+                                    MEMBER(levelVertices),
+                                    "Vertices of coarser levels: fitted to full detail, surviving (unchanged vertices "
+                                    "of full detail), or quarters (surviving, in levels of 75 and 50 % of the "
+                                    "vertices)")
+            .inShot("/levelVertices")
+            .unused(withoutLevels),
+        rows::choice<LodCoc>("lodCoc", "--lod-coc", {{"smallest", LodCoc::smallest}, {"centre", LodCoc::centre}},
+                             MEMBER(lodCoc),
+                             "Blur that an object's level counts on: the smallest over its bounding "
+                             "box, or the blur at the box's centre")
+            .unused([](const SettingContext& context) {
+                return firstOf(context, {methodWithoutSamples, withoutLevels, withMeasuredLevels});
+            }),
+        rows::number("cocTolerance", "--coc-tolerance", "PX", 1e-3, 1e3, MEMBER(cocTolerance),
+                     "Maximum deviation of the blur inside a triangle from its interpolation; larger triangles are "
+                     "divided")
+            .unit("px")
+            .unused(methodWithoutSamples),
+        rows::boolean("keepAll", "--keep-all", MEMBER(keepAll), "Draw also what cannot be seen (same image, slower)")
+            .effect(SettingEffect::run),
+        rows::other(
+            "memory", "--memory", "SIZE",
+            [](Request& request, const std::string& text) { request.memory = parseBytes(text); },
+            [](const Request& request) -> std::optional<std::string> {
+                if (!request.memory) return std::nullopt;
+                return fmt::format("{}B", *request.memory);
+            },
+            "Maximum memory of the program, such as 2GiB; decides how many samples are drawn at once and whether the "
+            "image is drawn in tiles (same image). Default: three quarters of the free memory")
+            .clears(MEMBER(memory))
+            .effect(SettingEffect::run),
+        rows::integer("wave", "--wave", 1, 64, MEMBER(wave),
+                      "Samples drawn at once (same image). Default: as memory allows")
+            .effect(SettingEffect::run),
+    };
+}
+
+#undef MEMBER
+
+std::vector<Setting>& table() {
+    static std::vector<Setting> all = [] {
+        Rows rows;
+        const auto add = [&](SettingGroup group, Rows more) {
+            for (Setting& setting : more) {
+                setting.group = group;
+                rows.push_back(std::move(setting));
+            }
+        };
+        add(SettingGroup::scene, sceneRows());
+        add(SettingGroup::camera, cameraRows());
+        add(SettingGroup::lens, lensRows());
+        add(SettingGroup::samples, sampleRows());
+        add(SettingGroup::method, methodRows());
+        add(SettingGroup::display, displayRows());
+        add(SettingGroup::developer, developerRows());
+        rows.reserve(rows.size() + 16);  // addSetting leaves pointers to rows valid
+        return rows;
+    }();
+    return all;
+}
+
+}  // namespace
+
+std::span<const Setting> settings() {
+    return table();
+}
+
+void addSetting(Setting setting) {
+    table().push_back(std::move(setting));
+}
+
+}  // namespace defocus

@@ -1,0 +1,16 @@
+#include "plan/render_settings.h"
+
+namespace defocus {
+
+void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor) {
+    const LodThresholds standard = chosenThresholds(settings.thresholds, settings.metric, sampleCount);
+    settings.metric = chosenMetric(settings.metric, settings.thresholds);
+    if (settings.metric == LodMetric::measured)
+        settings.thresholds.light = factor * standard.light;
+    else if (settings.metric == LodMetric::score)
+        settings.thresholds.blur = factor * standard.blur;
+    else
+        settings.thresholds = {.blur = factor * standard.blur, .size = factor * standard.size};
+}
+
+}  // namespace defocus
