@@ -2,7 +2,7 @@
 
 #include "embree/embree_renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -13,4 +13,4 @@ namespace {
 
 }  // namespace
 
-}  // namespace defocus
+}  // namespace defocus::engine

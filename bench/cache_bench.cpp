@@ -21,6 +21,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 namespace fs = std::filesystem;
 
 constexpr int loads = 10;

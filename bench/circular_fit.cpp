@@ -28,6 +28,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 using Kernel = std::vector<CircularComponent>;
 using Values = Eigen::VectorXd;
 
@@ -320,7 +321,7 @@ bool agreesWithCommitted(const std::vector<Kernel>& kernels) {
 }  // namespace
 
 int main() {
-    return defocus::runBench("defocus_circular_fit", [] {
+    return defocus::engine::runBench("defocus_circular_fit", [] {
         const auto kernels = fitKernels(circularKernelExtent, circularCornerGuard, circularKernelLimit);
         printConstants(kernels);
         printTables(kernels);

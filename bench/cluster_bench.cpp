@@ -27,6 +27,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 
 constexpr int turns = 3;
 
@@ -152,7 +153,7 @@ int run(const std::vector<std::filesystem::path>& scenes) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return defocus::runBench("defocus_cluster_bench", [&] {
+    return defocus::engine::runBench("defocus_cluster_bench", [&] {
         std::vector<std::filesystem::path> scenes(argv + 1, argv + argc);
         if (scenes.empty()) scenes.emplace_back();
         return run(scenes);

@@ -22,6 +22,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 
 constexpr int runs = 3;
 
@@ -102,5 +103,5 @@ int run() {
 }  // namespace
 
 int main() {
-    return defocus::runBench("defocus_elision_bench", run);
+    return defocus::engine::runBench("defocus_elision_bench", run);
 }

@@ -30,6 +30,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 
 constexpr int runs = 5;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -111,5 +112,5 @@ int run() {
 }  // namespace
 
 int main() {
-    return defocus::runBench("defocus_foreground_bench", run);
+    return defocus::engine::runBench("defocus_foreground_bench", run);
 }

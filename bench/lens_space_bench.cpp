@@ -35,6 +35,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 
 constexpr int timedFrames = 3;
 constexpr std::uint32_t truthSamples = 1600;
@@ -253,6 +254,6 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return defocus::runBench("defocus_lens_space_bench",
-                             [&] { return run(std::vector<std::string>(argv + 1, argv + argc)); });
+    return defocus::engine::runBench("defocus_lens_space_bench",
+                                     [&] { return run(std::vector<std::string>(argv + 1, argv + argc)); });
 }

@@ -13,7 +13,7 @@
 #include "plan/frame_plan.h"
 #include "school/fish_school.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Scene smallSchool(int fish) {
@@ -111,6 +111,6 @@ void differenceOfImages(benchmark::State& state) {
 BENCHMARK(differenceOfImages)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine
 
 BENCHMARK_MAIN();

@@ -29,6 +29,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 
 constexpr int runs = 5;
 
@@ -236,5 +237,5 @@ int run() {
 }  // namespace
 
 int main() {
-    return defocus::runBench("defocus_post_process_bench", run);
+    return defocus::engine::runBench("defocus_post_process_bench", run);
 }

@@ -60,6 +60,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 using DecimatedMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
 constexpr std::size_t leastTriangles = 64;
@@ -579,5 +580,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return defocus::runBench("defocus_pyramid_bench", [&] { return run(argc, argv); });
+    return defocus::engine::runBench("defocus_pyramid_bench", [&] { return run(argc, argv); });
 }

@@ -26,6 +26,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 
 struct Options {
     std::uint32_t samples = 32;

@@ -9,7 +9,7 @@
 
 #include "core/memory.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // `run` takes nothing and returns the exit code.
 template <typename Run>
@@ -23,4 +23,4 @@ int runBench(const char* program, const Run& run) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

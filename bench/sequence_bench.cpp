@@ -30,7 +30,7 @@
 #include "render/methods.h"
 #include "run_bench.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t referenceSamples = 4096;
@@ -321,11 +321,11 @@ void run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine
 
 int main(int argc, char** argv) {
-    return defocus::runBench("defocus_sequence_bench", [&] {
-        defocus::run(argc, argv);
+    return defocus::engine::runBench("defocus_sequence_bench", [&] {
+        defocus::engine::run(argc, argv);
         return 0;
     });
 }

@@ -29,7 +29,7 @@
 #include "run_bench.h"
 #include "truth_scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 struct Options {
@@ -166,16 +166,17 @@ bool compareAll(const Options& options) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine
 
 int main(int argc, char** argv) {
-    defocus::Options options;
+    defocus::engine::Options options;
     CLI::App app("The accumulation method against an independent thin-lens ray tracer");
     app.add_option("--samples", options.samples, "samples a pixel, of both")
         ->check(CLI::Range(1u, defocus::maxSamples));
     using defocus::Sequence;
     std::map<std::string, Sequence> sequences;
-    for (const Sequence sequence : defocus::allSequences) sequences.emplace(sequenceName(sequence), sequence);
+    for (const Sequence sequence : defocus::engine::allSequences)
+        sequences.emplace(defocus::engine::sequenceName(sequence), sequence);
     app.add_option("--sequence", options.sequence, "the rasteriser's lens samples: sobol, halton, scrambled-halton, r2")
         ->transform(CLI::CheckedTransformer(sequences));
     app.add_option("--size", options.size, "WxH in px");
@@ -193,5 +194,6 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "--size %s: expected WxH, up to 16384x16384\n", options.size.c_str());
         return 2;
     }
-    return defocus::runBench("defocus_truth_bench", [&] { return defocus::compareAll(options) ? 0 : 1; });
+    return defocus::engine::runBench("defocus_truth_bench",
+                                     [&] { return defocus::engine::compareAll(options) ? 0 : 1; });
 }

@@ -19,6 +19,7 @@
 namespace {
 
 using namespace defocus;
+using namespace defocus::engine;
 
 constexpr int runs = 5;
 
@@ -77,5 +78,5 @@ int run() {
 }  // namespace
 
 int main() {
-    return defocus::runBench("defocus_wave_bench", run);
+    return defocus::engine::runBench("defocus_wave_bench", run);
 }

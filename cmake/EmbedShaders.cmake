@@ -1,10 +1,10 @@
 # Script: writes OUTPUT, a C++ file with the text of each of SHADERS (names relative to DIR).
-set(TEXT "// Generated from the shaders folder.\n#include \"gl/shader_source.h\"\n\nnamespace defocus {\n\n")
+set(TEXT "// Generated from the shaders folder.\n#include \"gl/shader_source.h\"\n\nnamespace defocus::engine {\n\n")
 string(APPEND TEXT "const std::map<std::string_view, std::string_view>& embeddedShaders() {\n")
 string(APPEND TEXT "    static const std::map<std::string_view, std::string_view> shaders = {\n")
 foreach(SHADER IN LISTS SHADERS)
     file(READ "${DIR}/${SHADER}" SOURCE)
     string(APPEND TEXT "        {\"${SHADER}\", R\"glsl(${SOURCE})glsl\"},\n")
 endforeach()
-string(APPEND TEXT "    };\n    return shaders;\n}\n\n}  // namespace defocus\n")
+string(APPEND TEXT "    };\n    return shaders;\n}\n\n}  // namespace defocus::engine\n")
 file(WRITE "${OUTPUT}" "${TEXT}")

@@ -72,15 +72,15 @@ defocus::ImageView viewOf(const Array& array) {
 
 // An open scene; what it holds is asked for once.
 struct OpenScene {
-    defocus::SceneHandle handle;
-    defocus::SceneInfo info = defocus::sceneInfo(*handle);
+    defocus::Scene scene;
+    defocus::SceneInfo info = scene.info();
 };
 
 // A SceneRenderer for Python's threads: they take turns.
 class SharedRenderer {
 public:
     SharedRenderer(const OpenScene* scene, const defocus::Request& request, const Listener& listener)
-        : renderer_(scene != nullptr ? defocus::SceneRenderer(scene->handle, request, listening(listener))
+        : renderer_(scene != nullptr ? defocus::SceneRenderer(scene->scene, request, listening(listener))
                                      : defocus::SceneRenderer(request, listening(listener))) {}
 
     // Calls `use` with the renderer, without Python's lock.
@@ -214,14 +214,14 @@ void defineScenes(py::module_& package) {
     py::class_<OpenScene>(package, "Scene", "A glTF scene, opened once and rendered often; takes the place of a path.")
         .def(py::init([](const std::filesystem::path& path, const Listener& progress) {
                  const py::gil_scoped_release unlocked;
-                 return OpenScene{defocus::loadScene(path, listening(progress))};
+                 return OpenScene{defocus::Scene::load(path, listening(progress))};
              }),
              "path"_a, py::kw_only(), "progress"_a = py::none(), "Reads a .gltf or .glb file.")
         .def_static(
             "school_of_fish",
             [](int fishCount, int trianglesPerFish, const Listener& progress) {
                 const py::gil_scoped_release unlocked;
-                return OpenScene{defocus::schoolOfFish(fishCount, trianglesPerFish, listening(progress))};
+                return OpenScene{defocus::Scene::schoolOfFish(fishCount, trianglesPerFish, listening(progress))};
             },
             "fish_count"_a = 20, "triangles_per_fish"_a = 90'000, py::kw_only(), "progress"_a = py::none(),
             "The built-in school of fish, of 1 to 10,000.")

@@ -11,7 +11,7 @@
 
 #include "lens/lens.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The polygon's edge in the direction of `p`, as the blades' curvature has it; the first corner lies at the rotation.
 inline double edgeTowards(const Lens& lens, const glm::dvec2& p) {
@@ -97,4 +97,4 @@ inline Image lopsidedImage() {
     return image;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A textured material takes a colour of its own, so that its parts can still be told apart.
 inline glm::vec4 bakedColor(const Material& material, std::size_t index) {
@@ -63,4 +63,4 @@ inline Scene bakedUnlit(Scene scene) {
     return scene;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

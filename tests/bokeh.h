@@ -12,7 +12,7 @@
 #include "plan/frame_plan.h"
 #include "render/renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A camera at the origin, 50 mm on a 36 mm sensor, with a lens half a metre wide, so that small images show large
 // blurs: c = 0.694·W·|1/2 − 1/z| px, which is 0.231·W at 1.2 m and at 6 m.
@@ -151,4 +151,4 @@ inline Image renderedImage(Renderer& renderer, const FramePlan& plan) {
     return renderer.image();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

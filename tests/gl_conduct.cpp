@@ -32,7 +32,7 @@
 #include "gl/context.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::mutex mutex;
@@ -207,4 +207,4 @@ ExpectedGlMessages::~ExpectedGlMessages() {
     --expected;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,7 +1,7 @@
 #pragma once
 // See gl_conduct.cpp, which watches what the tests with "_gl" in their names ask of OpenGL.
 
-namespace defocus {
+namespace defocus::engine {
 
 // While it lives, messages of the driver are expected, and shaders may be wrong.
 class ExpectedGlMessages {
@@ -12,4 +12,4 @@ public:
     ExpectedGlMessages& operator=(const ExpectedGlMessages&) = delete;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 template <typename T>
 bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
@@ -30,4 +30,4 @@ inline double largestDifference(const Image& a, const Image& b) {
     return largest;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

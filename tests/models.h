@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Public models in the repository, and all of them.
 inline std::filesystem::path keptModelsDirectory() {
@@ -37,8 +37,8 @@ inline std::string testNameOf(std::string text) {
     return text;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine
 
-#define DEFOCUS_MODEL_OR_SKIP(variable, name)                           \
-    const std::filesystem::path variable(::defocus::modelPath((name))); \
+#define DEFOCUS_MODEL_OR_SKIP(variable, name)                                   \
+    const std::filesystem::path variable(::defocus::engine::modelPath((name))); \
     if (!std::filesystem::exists((variable))) GTEST_SKIP() << "no model " << variable << "; set DEFOCUS_MODELS_DIR"

@@ -15,7 +15,7 @@
 #include "scene/posed_mesh.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The models whose skins and morph targets move, with the clip that moves them.
 struct PosedModel {
@@ -113,4 +113,4 @@ inline std::unique_ptr<SmallWorld> bakedWorld(const SmallWorld& small, std::uint
     return baked;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

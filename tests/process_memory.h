@@ -9,7 +9,7 @@
 #include <iterator>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Held {
     double megabytes = 0;  // resident, without pages of files, which the system drops and loads as it likes
@@ -35,4 +35,4 @@ inline int roundsOr(const char* variable, int standard) {
     return text != nullptr ? std::atoi(text) : standard;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

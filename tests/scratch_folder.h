@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 class ScratchFolder {
 public:
@@ -39,4 +39,4 @@ std::string messageOf(const Body& body) {
     return {};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

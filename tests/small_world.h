@@ -10,7 +10,7 @@
 #include "lod/pyramid/pyramid.h"
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct SmallWorld {
     SmallWorld() : SmallWorld(std::make_shared<Scene>()) {}
@@ -118,4 +118,4 @@ inline std::unique_ptr<SmallWorld> fiveSpheres() {
     return small;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,9 +3,9 @@
 
 #include <limits>
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 inline constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
-}  // namespace defocus
+}  // namespace defocus::engine

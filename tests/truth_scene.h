@@ -17,7 +17,7 @@
 #include "scene/gltf/gltf.h"
 #include "school/fish_school.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct TruthScene {
     explicit TruthScene(const std::shared_ptr<Scene>& owned) : scene(*owned) { world.scene = owned; }
@@ -160,4 +160,4 @@ inline Image differenceImage(const Image& a, const Image& b, float gain) {
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "embree/lens_rays.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -84,4 +84,4 @@ glm::dvec2 ApertureMask::lensPoint(std::uint32_t index, std::uint32_t stream, st
     return {point.x / std::max(lens_.anamorphicRatio, 1.0), point.y * std::min(lens_.anamorphicRatio, 1.0)};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

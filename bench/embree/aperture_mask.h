@@ -7,7 +7,7 @@
 
 #include "lens/lens.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class ApertureMask {
 public:
@@ -31,4 +31,4 @@ private:
     double brightest_ = 1;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -19,7 +19,7 @@
 #include "lens/circle_of_confusion.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -398,4 +398,4 @@ void registerEmbree() {
     static_cast<void>(registered);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

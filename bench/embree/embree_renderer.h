@@ -14,7 +14,7 @@
 
 #include "render/renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class EmbreeSampling {
     perPixel,  // every pixel has its own scrambled lens and pixel samples: error is noise
@@ -30,4 +30,4 @@ std::unique_ptr<Renderer> makeEmbreeRenderer(const World& world, EmbreeSampling 
 // Adds "embree", "embree-shared" and "embree-planned" to the table of methods, once however often it is called.
 void registerEmbree();
 
-}  // namespace defocus
+}  // namespace defocus::engine

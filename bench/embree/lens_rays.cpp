@@ -5,7 +5,7 @@
 
 #include "embree/sample_scramble.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -107,4 +107,4 @@ glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square) {
     return point;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

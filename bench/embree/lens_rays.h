@@ -27,7 +27,7 @@
 
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LensCamera {
     double tanHalfHorizontal = 0;
@@ -65,4 +65,4 @@ glm::dvec2 scrambledPoint(std::uint32_t index, std::uint32_t stream, SamplePair 
 // aberration and images are for ApertureMask.
 glm::dvec2 aperturePoint(const Lens& lens, const glm::dvec2& square);
 
-}  // namespace defocus
+}  // namespace defocus::engine

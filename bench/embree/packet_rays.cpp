@@ -1,6 +1,6 @@
 #include "embree/packet_rays.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -59,4 +59,4 @@ void makeRays(const TileRays& tile, int place, const LensCamera& camera, const V
     addSamples(steps, points, packet);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "embree/lens_rays.h"
 #include "embree/ray_packet.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr int tileSide = 16;  // px
 inline constexpr int packetsPerTileRow = tileSide / packetSide;
@@ -33,4 +33,4 @@ void makeRays(const TileRays& tile, int place, RTCRayHit16& packet);
 void makeRays(const TileRays& tile, int place, const LensCamera& camera, const View& view, const PacketPoints& points,
               RTCRayHit16& packet);
 
-}  // namespace defocus
+}  // namespace defocus::engine

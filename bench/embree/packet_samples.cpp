@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -98,4 +98,4 @@ void mapToAperture(const ApertureMap& map, FloatLanes& x, FloatLanes& y) {
         mapToPolygon(map, x, y);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "embree/ray_packet.h"
 #include "embree/sample_scramble.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A ReversedPoint a lane.
 struct ReversedLanes {
@@ -39,4 +39,4 @@ struct ApertureMap {
 // (r, s) ∈ [0, 1)² → the aperture, in place.
 void mapToAperture(const ApertureMap& map, FloatLanes& x, FloatLanes& y);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "embree/traced_shading.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -142,4 +142,4 @@ void addTo(PacketSum& sum, const PacketColors& colors) {
     addLanes(sum.channels[3], colors.alpha);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "embree/ray_packet.h"
 #include "embree/traced_scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class PacketShading {
 public:
@@ -58,4 +58,4 @@ struct alignas(64) PacketSum {
 
 void addTo(PacketSum& sum, const PacketColors& colors);
 
-}  // namespace defocus
+}  // namespace defocus::engine

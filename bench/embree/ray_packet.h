@@ -17,7 +17,7 @@
 #endif
 #define DEFOCUS_ALWAYS_INLINE __attribute__((always_inline)) inline
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr int packetSide = 4;  // px
 inline constexpr int packetSize = packetSide * packetSide;
@@ -45,4 +45,4 @@ struct PacketColors {
     FloatLanes red, green, blue, alpha;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "embree/lens_rays.h"
 #include "embree/ray_packet.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A two-dimensional point as fractions of 32 bits, the bits in reverse order.
 struct ReversedPoint {
@@ -45,4 +45,4 @@ inline constexpr std::uint32_t orderCount = packetSize;
 // What a stream scrambles the two dimensions of a pair with.
 ReversedPoint scrambleSeeds(std::uint32_t stream, SamplePair pair, std::uint32_t seed);
 
-}  // namespace defocus
+}  // namespace defocus::engine

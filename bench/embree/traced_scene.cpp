@@ -8,7 +8,7 @@
 #include "plan/object_pose.h"
 #include "scene/posed_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -171,4 +171,4 @@ bool TracedScene::occluded(const glm::vec3& origin, const glm::vec3& direction, 
     return ray.tfar < 0;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

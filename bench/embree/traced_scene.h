@@ -18,7 +18,7 @@
 #include "embree/ray_packet.h"
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A primitive of an object.
 struct TracedGeometry {
@@ -75,4 +75,4 @@ private:
     std::atomic<std::int64_t> peakBytes_ = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

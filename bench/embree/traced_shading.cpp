@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -197,4 +197,4 @@ glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, co
     return radiance;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "embree/traced_scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // As Embree gives it; camera space.
 struct SurfaceHit {
@@ -29,4 +29,4 @@ struct ShadowRays {
 glm::vec3 surfaceRadiance(const World& world, const TracedGeometry& geometry, const SurfaceHit& hit,
                           const ShadowRays& shadows);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -50,7 +50,7 @@ public:
     // mean nothing). Throws Error for files, names and values that can't be rendered, and where there is no OpenGL 4.5;
     // what `progress` throws passes through.
     explicit SceneRenderer(const Request& request, const Progress& progress = {});
-    SceneRenderer(SceneHandle scene, const Request& request, const Progress& progress = {});
+    SceneRenderer(const Scene& scene, const Request& request, const Progress& progress = {});
     ~SceneRenderer();
     SceneRenderer(SceneRenderer&&) noexcept;
     SceneRenderer& operator=(SceneRenderer&&) noexcept;
@@ -88,7 +88,7 @@ public:
     // drawn, values that aren't used, a lens that blurs nothing, samples too few for the blur, and that most of the PNG
     // or JPEG that was written last is white or black.
     [[nodiscard]] std::vector<std::string> warnings() const;
-    [[nodiscard]] SceneHandle scene() const;
+    [[nodiscard]] Scene scene() const;
 
 private:
     class DEFOCUS_HIDDEN State;

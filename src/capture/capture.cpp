@@ -18,7 +18,7 @@
 #include "frame/exposure.h"
 #include "image/image_rows.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -316,4 +316,4 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
     return figures;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -17,7 +17,7 @@
 #include "frame/settings_hash.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // One frame of a shot and its files.
 struct FilmFrame {
@@ -73,4 +73,4 @@ FilmFigures renderFilm(const Shot& shot, const SequenceBase& base, World& world,
                        const std::vector<FilmFrame>& frames, const FilmOptions& options, const FilmMetadata& metadata,
                        const std::function<bool()>& stop, const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "core/file.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace fs = std::filesystem;
 
@@ -68,4 +68,4 @@ void removeUnfinished(const std::vector<fs::path>& paths) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

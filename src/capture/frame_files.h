@@ -7,7 +7,7 @@
 
 #include "render/tiles/part_header.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // "frames/####.exr": the frame's number, with zeros in front, stands for the #. Throws Error for a pattern without #,
 // with # in two places or in its folder, and for an ending that writeImage doesn't know.
@@ -26,4 +26,4 @@ FrameState frameState(const std::filesystem::path& path, int width, int height, 
 // is writing just now stays.
 void removeUnfinished(const std::vector<std::filesystem::path>& paths);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "scene/animation.h"
 #include "scene/hidden_nodes.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -215,4 +215,4 @@ std::vector<int> shardFrames(const FrameRange& range, int shard, int shards) {
     return frames;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

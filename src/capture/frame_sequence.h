@@ -10,7 +10,7 @@
 #include "frame/frame_moment.h"
 #include "plan/shutter.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What a shot starts from: the scene with the camera and the settings that the shot's fixed values give.
 struct SequenceBase {
@@ -34,4 +34,4 @@ FrameMoment frameAt(const Shot& shot, const SequenceBase& base, int frame);
 // takes long.
 std::vector<int> shardFrames(const FrameRange& range, int shard, int shards);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 FrameWriter::FrameWriter(std::size_t waiting) : most_(waiting), thread_([this] { run(); }) {}
 
@@ -53,4 +53,4 @@ void FrameWriter::run() {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

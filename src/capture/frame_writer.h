@@ -10,7 +10,7 @@
 #include <mutex>
 #include <thread>
 
-namespace defocus {
+namespace defocus::engine {
 
 class FrameWriter {
 public:
@@ -40,4 +40,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/suggestion.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -125,4 +125,4 @@ std::optional<std::vector<double>> JsonReader::threeNumbers() const {
     return value_->get<std::vector<double>>();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

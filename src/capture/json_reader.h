@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 class JsonReader {
 public:
@@ -49,4 +49,4 @@ private:
     std::string pointer_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

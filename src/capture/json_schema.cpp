@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::string schemaInWords(const Schema& schema) {
     return alternatives(words);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

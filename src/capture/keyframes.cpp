@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -54,4 +54,4 @@ glm::dvec3 valueAt(const std::vector<Key<glm::dvec3>>& keys, Easing easing, doub
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class Easing { linear, smooth };
 
@@ -22,4 +22,4 @@ struct Key {
 double valueAt(const std::vector<Key<double>>& keys, Easing easing, double frame);
 glm::dvec3 valueAt(const std::vector<Key<glm::dvec3>>& keys, Easing easing, double frame);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -91,4 +91,4 @@ Json settingJson(const Setting& setting, const std::string& text) {
     return array;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "capture/json_reader.h"
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the JSON schema of the setting's value.
 nlohmann::ordered_json valueSchema(const Setting& setting);
@@ -19,4 +19,4 @@ std::string settingText(const Setting& setting, const JsonReader& reader);
 // Returns the JSON value of a setting's text: the inverse of settingText.
 nlohmann::ordered_json settingJson(const Setting& setting, const std::string& text);
 
-}  // namespace defocus
+}  // namespace defocus::engine

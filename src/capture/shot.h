@@ -15,7 +15,7 @@
 #include "capture/keyframes.h"
 #include "frame/request.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FrameRange {
     int first = 0;
@@ -95,4 +95,4 @@ struct Shot {
     std::filesystem::path video;  // none: empty
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

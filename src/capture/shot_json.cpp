@@ -18,7 +18,7 @@
 #include "render/methods.h"
 #include "scene/built_in_environment.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -434,4 +434,4 @@ FrameRange parseFrameRange(std::string_view text) {
     return {first, last};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

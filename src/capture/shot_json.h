@@ -10,7 +10,7 @@
 #include "capture/shot.h"
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A value that replaces one of the file: "/lens/fStop=1.4", "/focus={\"node\": \"Fish 3\"}". The place is a JSON
 // pointer (RFC 6901), the value JSON, or text where it is none.
@@ -35,4 +35,4 @@ FrameRange parseFrameRange(std::string_view text);
 // node …", where it stands there; as it is, where an option gave it.
 [[noreturn]] void failForName(const Shot& shot, const MissingName& missing);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -110,4 +110,4 @@ SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request) {
     return base;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "frame/prepared_frame.h"
 #include "frame/request.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The shot's fixed values as if they had been given as options, except its lens, whose fields may have keys.
 void applyShot(const Shot& shot, Request& request);
@@ -27,4 +27,4 @@ void settleShot(Shot& shot, Request& request, const GivenOptions& given);
 
 SequenceBase sequenceBase(const PreparedFrame& frame, const Request& request);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "capture/setting_json.h"
 #include "capture/shot.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -77,4 +77,4 @@ nlohmann::ordered_json withSettings(Json schema) {
     return schema;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 // `schema` with everything that stands for a setting made anew; the rest (cameras, focus, frames, outputs) stays.
 nlohmann::ordered_json withSettings(nlohmann::ordered_json schema);
 
-}  // namespace defocus
+}  // namespace defocus::engine

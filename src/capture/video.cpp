@@ -25,7 +25,7 @@
 
 extern char** environ;  // NOLINT: POSIX asks for this declaration
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -241,4 +241,4 @@ void writeVideo(const fs::path& path, const std::vector<VideoFrame>& frames, dou
     film.commit();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Throws Error unless `path` is an .mp4, .mov, .mkv, .webm or .gif that can be written and ffmpeg is installed.
 void checkVideo(const std::filesystem::path& path);
@@ -22,4 +22,4 @@ struct VideoFrame {
 void writeVideo(const std::filesystem::path& path, const std::vector<VideoFrame>& frames, double frameRate,
                 const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -21,7 +21,7 @@
 #include "frame/settings/presets.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -199,4 +199,4 @@ void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
     addPredictionCommand(*bench, global);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "frame/program_facts.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Makes `folder` and checks that these files can be written there, before the long work; nothing for an empty path.
 // Throws Error.
@@ -40,4 +40,4 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global);
 void addPredictionCommand(CLI::App& bench, const GlobalOptions& global);
 void addStabilityCommand(CLI::App& bench, const GlobalOptions& global);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -31,7 +31,7 @@
 #include "image/colour_map.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -358,4 +358,4 @@ void addConvergenceCommand(CLI::App& bench, const GlobalOptions& global) {
     command->callback([arguments, &global] { runConvergence(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

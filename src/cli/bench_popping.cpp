@@ -19,7 +19,7 @@
 #include "gl/context.h"
 #include "scene/animation.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -124,4 +124,4 @@ void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
     command->callback([arguments, &global] { runPopping(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

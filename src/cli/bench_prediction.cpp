@@ -13,7 +13,7 @@
 #include "eval/prediction/text.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -77,4 +77,4 @@ void addPredictionCommand(CLI::App& bench, const GlobalOptions& global) {
     command->callback([arguments, &global] { runPrediction(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/message.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -74,4 +74,4 @@ void drawReport(const std::filesystem::path& results, const std::filesystem::pat
             report.string());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

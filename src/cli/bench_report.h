@@ -6,7 +6,7 @@
 
 #include "cli/command.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the text of the script that draws the report.
 const char* reportScript();
@@ -18,4 +18,4 @@ void addReport(CLI::App& command, CLI::Option* output, std::filesystem::path& re
 // path or that matplotlib is missing. Does nothing for an empty path. Throws Error if the script fails.
 void drawReport(const std::filesystem::path& results, const std::filesystem::path& report);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -19,7 +19,7 @@
 #include "gl/context.h"
 #include "lod/pyramid/cache.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -122,4 +122,4 @@ void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
     command->callback([arguments, &global] { runScaling(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

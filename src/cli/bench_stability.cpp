@@ -14,7 +14,7 @@
 #include "eval/stability/text.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -96,4 +96,4 @@ void addStabilityCommand(CLI::App& bench, const GlobalOptions& global) {
     command->callback([arguments, &global] { runStability(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -15,7 +15,7 @@
 #include "cli/request_options.h"
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -84,4 +84,4 @@ void addCacheCommand(CLI::App& program) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

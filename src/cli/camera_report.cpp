@@ -13,7 +13,7 @@
 #include "lens/depth_of_field.h"
 #include "lens/photographic_exposure.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -177,4 +177,4 @@ std::string cameraJson(const PreparedFrame& frame, const CameraQuestion& questio
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "frame/prepared_frame.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct CameraQuestion {
     std::optional<double> acceptableCoc;  // mm on the sensor; none: the customary one
@@ -23,4 +23,4 @@ std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& questi
 // An infinite distance is null.
 std::string cameraJson(const PreparedFrame& frame, const CameraQuestion& question);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -34,7 +34,7 @@
 #include "gl/context.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -386,4 +386,4 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
     });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "core/progress.h"
 #include "frame/prepared_frame.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct GlobalOptions {
     bool quiet = false;               // no progress, no summary
@@ -57,4 +57,4 @@ void addCaptureCommand(CLI::App& program, const GlobalOptions& global);
 void addNewShotCommand(CLI::App& program, const GlobalOptions& global);
 void addMergeCommand(CLI::App& program, const GlobalOptions& global);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -19,7 +19,7 @@
 #include "image/image_io.h"
 #include "image/metrics.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -181,4 +181,4 @@ void addCompareCommand(CLI::App& program, const GlobalOptions&) {
     command->callback([arguments] { runCompare(*arguments); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -295,4 +295,4 @@ std::string fishCompletions(const CommandOutline& program) {
     return text;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,11 +5,11 @@
 
 #include "cli/program_outline.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // For bash 4 and later, zsh 5 and fish 3; each is a file for the folder from which the shell loads such scripts.
 std::string bashCompletions(const CommandOutline& program);
 std::string zshCompletions(const CommandOutline& program);
 std::string fishCompletions(const CommandOutline& program);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 
 #include "cli/program_outline.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::string HelpFormat::make_subcommand(const CLI::App* command) const {
     return inColumns(command->get_name(), command->get_description(), get_column_width());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

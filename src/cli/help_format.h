@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 class HelpFormat : public CLI::Formatter {
 public:
@@ -21,4 +21,4 @@ public:
     std::string make_subcommand(const CLI::App* command) const override;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/file.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -109,4 +109,4 @@ void writeOutput(const fs::path& output, const std::string& text) {
     writeToStandardOutput(std::as_bytes(std::span(text)));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What --help says of it, after the formats.
 inline constexpr const char* standardOutputHelp = "- is standard output, as PNG or as in exr:- and jpg:-";
@@ -31,4 +31,4 @@ void writeOutput(const std::filesystem::path& output, const Image& image, const 
 // The same for text.
 void writeOutput(const std::filesystem::path& output, const std::string& text);
 
-}  // namespace defocus
+}  // namespace defocus::engine

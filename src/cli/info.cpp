@@ -21,7 +21,7 @@
 #include "scene/gltf/gltf.h"
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -370,4 +370,4 @@ void addInfoCommand(CLI::App& program, const GlobalOptions& global) {
     command->callback([options, &global] { runInfo(*options, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

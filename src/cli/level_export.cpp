@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -76,4 +76,4 @@ Mesh levelMesh(const Pyramid& pyramid, std::size_t l, const std::string& name) {
     return mesh;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "lod/pyramid/pyramid.h"
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A file's name without folder and extension for each mesh of the scene, whatever is exported of it; they differ in
 // more than case, which some file systems ignore.
@@ -22,4 +22,4 @@ void prepareFolder(const std::filesystem::path& folder, const std::filesystem::p
 // A level as a mesh, without materials, skin and morph targets.
 Mesh levelMesh(const Pyramid& pyramid, std::size_t level, const std::string& name);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,6 +4,6 @@
 #include "core/memory.h"
 
 int main(int argc, char** argv) {
-    defocus::keepFreedMemory();
-    return defocus::runProgram(argc, argv);
+    defocus::engine::keepFreedMemory();
+    return defocus::engine::runProgram(argc, argv);
 }

@@ -10,7 +10,7 @@
 
 #include "frame/program_facts.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::string manPage(const CommandOutline& program) {
     return text;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

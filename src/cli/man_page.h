@@ -5,9 +5,9 @@
 
 #include "cli/program_outline.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // In the language of groff's man macros. A setting that several commands take is explained once.
 std::string manPage(const CommandOutline& program);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "render/tiles/row_file.h"
 #include "render/tiles/sum_file.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -103,4 +103,4 @@ void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
     command->callback([arguments, &global] { runMerge(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include "cli/option_text.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::vector<MethodUse> parseMethods(const std::string& text) {
     std::vector<std::string> names;
@@ -20,4 +20,4 @@ std::vector<MethodUse> parseMethods(const std::string& text) {
     return uses;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "core/message.h"
 #include "frame/prepared_frame.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -103,4 +103,4 @@ void addNewShotCommand(CLI::App& program, const GlobalOptions& global) {
     command->callback([arguments, &global] { runNewShot(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

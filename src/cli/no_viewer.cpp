@@ -3,7 +3,7 @@
 #include "cli/command.h"
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void addViewCommand(CLI::App& program, const GlobalOptions&) {
     CLI::App* command = program.add_subcommand("view", "A window: not in this build");
@@ -16,4 +16,4 @@ void addViewCommand(CLI::App& program, const GlobalOptions&) {
     });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

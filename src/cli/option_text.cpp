@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
                        const std::string& description, std::function<void(const std::string&)> parse) {
@@ -53,4 +53,4 @@ CLI::Option* addNumbers(CLI::App& command, const std::string& names, std::vector
         ->default_str(fmt::format("{:g}", fmt::join(target, ",")));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -15,7 +15,7 @@
 
 #include "core/parse.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Adds an option whose text goes to `parse`; an Error that it throws becomes a fault of the command line.
 CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
@@ -92,4 +92,4 @@ CLI::Option* addChoice(CLI::App& command, const std::string& name, Value& target
         ->default_str(current);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "cli/option_text.h"
 #include "cli/program_outline.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -45,4 +45,4 @@ void addManCommand(CLI::App& program) {
     command->callback([&program] { print(manPage(outlineOf(program))); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

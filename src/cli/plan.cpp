@@ -13,7 +13,7 @@
 #include "plan/plan_text.h"
 #include "render/automatic_samples.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -53,4 +53,4 @@ void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
     command->callback([arguments, &global] { runPlan(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "frame/settings/settings.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -108,4 +108,4 @@ std::vector<const CommandOutline*> allCommands(const CommandOutline& command) {
     return all;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct OptionOutline {
     std::vector<std::string> names;  // "-o", "--output"; the word in --help where it has none: "SCENE"
@@ -40,4 +40,4 @@ std::string joinedNames(const CommandOutline& command);
 // A command and all below it, itself first.
 std::vector<const CommandOutline*> allCommands(const CommandOutline& command);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "core/number_text.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::optional<double> TimeLeft::after(std::string_view stage, double share, doub
     return taken * (1 - share) / done;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace defocus {
+namespace defocus::engine {
 
 // "samples [####----]  42 %, 12 s left" in fewer than `columns` columns, so that no terminal breaks the line. Where
 // they are few, the bar goes first, then what follows the stage's name, then the time, then the name. `share` is from 0
@@ -26,4 +26,4 @@ private:
     double lastShare_ = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

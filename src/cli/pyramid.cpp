@@ -36,7 +36,7 @@
 #include "scene/gltf/gltf.h"
 #include "scene/gltf/write.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -408,4 +408,4 @@ void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
     command->callback([arguments, &global] { runPyramid(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -25,7 +25,7 @@
 #include "plan/swept_work.h"
 #include "render/aov/work.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -254,4 +254,4 @@ void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
     command->callback([arguments, &global] { runRender(*arguments, global); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

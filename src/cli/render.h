@@ -8,7 +8,7 @@
 #include "cli/request_options.h"
 #include "render/tiles/part_header.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct AovRequest {
     bool depth = false;
@@ -34,4 +34,4 @@ struct RenderArguments {
 // All options of the command. `arguments` must outlive the parse.
 void addRenderOptions(CLI::App& command, RenderArguments& arguments);
 
-}  // namespace defocus
+}  // namespace defocus::engine

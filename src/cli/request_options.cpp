@@ -6,7 +6,7 @@
 #include "cli/option_text.h"
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -98,4 +98,4 @@ void addMethodSettings(CLI::App& command, Request& request) {
         }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Adds an option for each of the settings named: a command offers none that it doesn't follow. Options that say the
 // same thing in different ways exclude each other. `request` holds the defaults that --help shows and must outlive the
@@ -34,4 +34,4 @@ inline const std::vector<SettingGroup> pictureGroups = {SettingGroup::display, S
 // What picks a scene.
 inline const std::vector<std::string> sceneSettings = {"scene", "fishCount", "trianglesPerFish"};
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -22,7 +22,7 @@
 #include "core/suggestion.h"
 #include "frame/program_facts.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -198,4 +198,4 @@ int runProgram(int argc, char** argv) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

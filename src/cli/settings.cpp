@@ -18,7 +18,7 @@
 #include "core/file.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -174,4 +174,4 @@ void addSettingsCommand(CLI::App& program) {
     });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

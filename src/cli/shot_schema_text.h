@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-namespace defocus {
+namespace defocus::engine {
 
 // docs/shot.schema.json, as it was when the program was built.
 std::string_view shotSchemaText();
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -22,4 +22,4 @@ bool stopAsked() {
     return asked != 0;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

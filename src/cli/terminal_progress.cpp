@@ -17,7 +17,7 @@
 #include "core/message.h"
 #include "core/number_text.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -82,4 +82,4 @@ Progress terminalProgress(const GlobalOptions& global) {
     };
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

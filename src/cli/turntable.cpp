@@ -18,7 +18,7 @@
 #include "scene/defaults.h"
 #include "scene/posed_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -212,4 +212,4 @@ TurntableSheet turntableSheet(World& world, const Object& object, const std::str
     return sheet;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

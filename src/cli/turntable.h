@@ -11,7 +11,7 @@
 #include "image/image.h"
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr int turntableViews = 6;  // evenly around, the first from the front (+z)
 
@@ -45,4 +45,4 @@ RenderSettings settingsForLevel(const World& world, const View& view, std::uint3
 TurntableSheet turntableSheet(World& world, const Object& object, const std::string& title,
                               const std::filesystem::path& shaderFolder = {}, const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "core/file.h"
 #include "view/window/session.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -62,4 +62,4 @@ void addViewCommand(CLI::App& program, const GlobalOptions& global) {
     });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

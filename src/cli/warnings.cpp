@@ -3,7 +3,7 @@
 #include "cli/command.h"
 #include "core/message.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void WarningPrinter::print(const std::vector<std::string>& lines) {
     if (quiet_) return;
@@ -17,4 +17,4 @@ void printCacheUse(const PreparedFrame& frame, const GlobalOptions& global) {
                  frame.cacheFolder.string());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

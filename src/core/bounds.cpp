@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 void Bounds::extend(const glm::dvec3& point) {
     minimum = glm::min(minimum, point);
@@ -37,4 +37,4 @@ Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix) {
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Bounds {
     glm::dvec3 minimum{std::numeric_limits<double>::infinity()};
@@ -29,4 +29,4 @@ struct Bounds {
 // The box around the eight transformed corners of `bounds`; empty stays empty.
 Bounds transformed(const Bounds& bounds, const glm::dmat4& matrix);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "defocus/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Throws Error with a formatted one-line message, e.g. fail("{}: not a glTF file", path).
 template <typename... Args>
@@ -28,4 +28,4 @@ private:
     std::string name_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

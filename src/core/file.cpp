@@ -16,7 +16,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace fs = std::filesystem;
 
@@ -175,4 +175,4 @@ void checkWritable(const fs::path& path) {
     const PendingFile probe(path);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

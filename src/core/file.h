@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // The bytes of `path`: of a file, or of a descriptor of this process (/dev/stdin). Throws Error naming the path and the
 // reason (missing, a directory, a device, a pipe, unreadable).
@@ -55,4 +55,4 @@ void removeAbandoned(const std::filesystem::path& temporary);
 // doesn't end in a write failure.
 void checkWritable(const std::filesystem::path& path);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,10 +5,10 @@
 
 #include <xxhash.h>
 
-namespace defocus {
+namespace defocus::engine {
 
 std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed) {
     return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Mixes the bits of an integer: the finaliser of MurmurHash3 (Appleby).
 constexpr std::uint32_t fmix32(std::uint32_t bits) {
@@ -27,4 +27,4 @@ inline constexpr std::uint64_t hashSeed = 0xcbf29ce484222325ull;
 // can be chained.
 std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t seed = hashSeed);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace defocus {
+namespace defocus::engine {
 
 // (A parser's own callback could count too, but makes long arrays quadratic in nlohmann's.)
 int jsonNesting(std::string_view text) {
@@ -21,4 +21,4 @@ int jsonNesting(std::string_view text) {
     return deepest;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace defocus {
+namespace defocus::engine {
 
 // glTF and shots need ten levels. What works on parsed JSON may recurse: deeper, it would only cost stack.
 inline constexpr int deepestJson = 64;
@@ -11,4 +11,4 @@ inline constexpr int deepestJson = 64;
 // How deep the text's arrays and objects nest, whether or not it is valid.
 int jsonNesting(std::string_view text);
 
-}  // namespace defocus
+}  // namespace defocus::engine

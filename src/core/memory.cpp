@@ -10,7 +10,7 @@
 #include <malloc.h>
 #endif
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -64,4 +64,4 @@ void freePages(void* pages, std::size_t bytes) noexcept {
     munmap(pages, bytes);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,15 +6,15 @@
 #include <new>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Gives back what malloc keeps, where the C library can (glibc; elsewhere nothing happens). Worth its time (a few
 // milliseconds) after freeing tens of megabytes.
 void giveBackFreedMemory();
 
-// For programs, as it holds for the whole process: up to 128 MiB that were freed stay, for what is allocated next (glibc;
-// elsewhere nothing happens). Software rasterisers free the vertices of a draw after it, and getting the same pages
-// back from the system for the next one can take longer than drawing.
+// For programs, as it holds for the whole process: up to 128 MiB that were freed stay, for what is allocated next
+// (glibc; elsewhere nothing happens). Software rasterisers free the vertices of a draw after it, and getting the same
+// pages back from the system for the next one can take longer than drawing.
 void keepFreedMemory();
 
 inline constexpr std::size_t hugePage = std::size_t{2} << 20;  // of most processors; nothing hangs on it elsewhere
@@ -64,4 +64,4 @@ void giveBackRoom(LargeVector<T>& values) {
         giveBackPages(values.data() + values.size(), room * sizeof(T));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

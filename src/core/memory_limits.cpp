@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::string bytesText(std::uint64_t bytes) {
     return fmt::format("{:.3g} {}", static_cast<double>(bytes) / size, unit);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Bytes that the machine, and the control group that the process is in, would still give. 0 where nobody says.
 std::uint64_t freeMemory();
@@ -25,4 +25,4 @@ std::uint64_t parseBytes(std::string_view text);
 // "2 GiB", "1.5 MiB"
 std::string bytesText(std::uint64_t bytes);
 
-}  // namespace defocus
+}  // namespace defocus::engine

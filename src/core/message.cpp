@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-namespace defocus {
+namespace defocus::engine {
 
 void writeMessage(std::string_view text) noexcept {
     std::fwrite(text.data(), 1, text.size(), stderr);
@@ -32,4 +32,4 @@ void claimClosedOutputs() {
             static_cast<void>(::open("/dev/null", O_RDONLY));  // the lowest that is free
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 void writeMessage(std::string_view text) noexcept;
 
@@ -24,4 +24,4 @@ void printMessage(fmt::format_string<Args...> format, Args&&... args) {
 // the next file that is opened would take its number and get what is printed.
 void claimClosedOutputs();
 
-}  // namespace defocus
+}  // namespace defocus::engine

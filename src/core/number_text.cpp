@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace defocus {
+namespace defocus::engine {
 
 std::string grouped(std::uint64_t number) {
     return fmt::to_string(fmt::group_digits(number));
@@ -15,4 +15,4 @@ std::string durationText(double seconds) {
     return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Runs body(0) … body(count - 1) on all cores, each index once; returns when all are done. Indices are begun in their
 // order: what costs most is best put first. The first exception of a body is thrown again in the caller. Bodies may
@@ -30,4 +30,4 @@ private:
     std::unique_ptr<Arena> arena_;  // none without workers
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/suggestion.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::size_t parseChoice(const std::string& text, const std::vector<std::string>&
          nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Range {
     double least = 0;
@@ -27,4 +27,4 @@ std::size_t parseChoice(const std::string& text, const std::vector<std::string>&
 // Returns what lies between the separators, one part more than there are of them; parts may be empty.
 std::vector<std::string> splitAt(std::string_view text, char separator);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace defocus {
+namespace defocus::engine {
 
 using Clock = std::chrono::steady_clock;
 
@@ -11,4 +11,4 @@ inline double millisecondsSince(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

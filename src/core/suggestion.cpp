@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -64,4 +64,4 @@ std::optional<std::size_t> placeOfName(std::string_view name, const std::vector<
     return placeOf(first);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

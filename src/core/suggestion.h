@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Empty when nothing is near: more edits than a third of the word, and than one. Edits are insertions, deletions,
 // substitutions and swaps of neighbours (optimal string alignment; Damerau 1964). Capitals of ASCII count as their
@@ -18,4 +18,4 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& k
 // in capitals of ASCII alone.
 std::optional<std::size_t> placeOfName(std::string_view name, const std::vector<std::string>& known);
 
-}  // namespace defocus
+}  // namespace defocus::engine

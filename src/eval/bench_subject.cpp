@@ -4,7 +4,7 @@
 
 #include "eval/json_number.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -46,4 +46,4 @@ nlohmann::ordered_json subjectJson(const std::string& bench, const BenchSubject&
     return json;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "eval/machine.h"
 #include "lens/lens.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct BenchSubject {
     std::string program;                // name and version
@@ -31,4 +31,4 @@ struct BenchSubject {
 // Returns the head of a bench's JSON file: all of the above that is set. `bench` is the name of the command.
 nlohmann::ordered_json subjectJson(const std::string& bench, const BenchSubject& subject);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns null for a value that isn't finite.
 inline nlohmann::json jsonNumber(double value) {
     return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <thread>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -40,4 +40,4 @@ Machine thisMachine() {
     return machine;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

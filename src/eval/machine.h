@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Machine {
     std::string processor;  // "AMD EPYC …"; empty if it isn't known
@@ -15,4 +15,4 @@ struct Machine {
 
 Machine thisMachine();
 
-}  // namespace defocus
+}  // namespace defocus::engine

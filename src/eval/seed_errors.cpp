@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -38,4 +38,4 @@ std::string seedErrorsCsv(std::span<const SeedError> errors) {
     return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g}", errors.size(), rmse.low, rmse.high, flip.low, flip.high);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

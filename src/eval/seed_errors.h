@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Against the same reference, on display-encoded values.
 struct SeedError {
@@ -21,4 +21,4 @@ nlohmann::ordered_json seedErrorsJson(std::span<const SeedError> errors);
 inline constexpr const char* seedErrorsColumns = "seeds,rmseLow,rmseHigh,flipLow,flipHigh";
 std::string seedErrorsCsv(std::span<const SeedError> errors);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 double percentile(std::vector<double> values, double share) {
     std::sort(values.begin(), values.end());
@@ -23,4 +23,4 @@ nlohmann::ordered_json spreadJson(const Spread& spread) {
     return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Spread {
     double median = 0;
@@ -21,4 +21,4 @@ Spread spreadOf(const std::vector<double>& values);
 
 nlohmann::ordered_json spreadJson(const Spread& spread);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "lens/photographic_exposure.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -94,4 +94,4 @@ double chosenExposure(const Request& request, World& world, const View& view, co
                                                             : unmeteredExposure(request, view.lens);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns whether the exposure comes from a meter: where the request asks for that, or where it says nothing, the lens
 // has no exposure time, and the lights are the file's own, which may be as bright as the sun.
@@ -35,4 +35,4 @@ double unmeteredExposure(const Request& request, const Lens& lens);
 double chosenExposure(const Request& request, World& world, const View& view, const RenderSettings& settings,
                       const std::filesystem::path& shaderFolder = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

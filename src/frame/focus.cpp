@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "plan/focus_depth.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -104,4 +104,4 @@ void chooseFocus(const Request& request, const Camera& camera, const Scene& scen
         lens.focusDistance = own && *own > 0 ? *own : depthOfSubject(scene, pose, view);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "plan/view.h"
 #include "scene/camera.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Sets the focus distance of `view`'s lens, for three points its tilt and swing too, and for more its field curvature.
 // Everything else of the view must be set. It takes the first of these that there is: what the request asks for, the
@@ -27,4 +27,4 @@ void chooseFocus(const Request& request, const Camera& camera, const Scene& scen
 // and where the focus would meet the view axis behind the camera.
 void focusThrough(std::span<const glm::dvec3> points, Lens& lens, const std::string& what);
 
-}  // namespace defocus
+}  // namespace defocus::engine

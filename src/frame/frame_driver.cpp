@@ -12,7 +12,7 @@
 #include "render/tiles/tile_walk.h"
 #include "scene/ground.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // ---- three ways of drawing a frame ----------------------------------------------------------------------------------
 
@@ -199,7 +199,7 @@ void FrameDriver::fit(const FrameOrder& order) {
     const DrawLimits& limits = options_.limits;
     bands_.reset();
     crowded_ = false;
-    limit_ = defocus::memoryLimit(limits);
+    limit_ = engine::memoryLimit(limits);
     if (!method.needsGl) {
         if (!renderer_) makeRenderer();
         return;
@@ -315,4 +315,4 @@ FramePlan planOfTiles(const World& world, const View& view, RenderSettings setti
     return planFrame(world, view, settings);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -21,7 +21,7 @@
 #include "render/tiles/memory_needs.h"
 #include "render/tiles/sum_file.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct DriverOptions {
     MethodUse method;
@@ -117,4 +117,4 @@ private:
 // for: the error of an image, which may end a frame in one piece earlier, is known only once all of it is drawn.
 FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings, bool automaticSamples);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #include "frame/frame_moment.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 FrameMoment momentOf(const PreparedFrame& frame, const Request& request) {
     FrameMoment moment;
@@ -19,4 +19,4 @@ void applyMoment(const FrameMoment& moment, World& world) {
     world.lights = moment.lights;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "frame/request.h"
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FrameMoment {
     int frame = 0;    // number in its film
@@ -25,4 +25,4 @@ FrameMoment momentOf(const PreparedFrame& frame, const Request& request);
 // Moves the world to the moment.
 void applyMoment(const FrameMoment& moment, World& world);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "core/file.h"
 #include "frame/settings_hash.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -216,4 +216,4 @@ std::optional<Image> FrameOutput::finish() {
     return {};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

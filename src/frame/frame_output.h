@@ -16,7 +16,7 @@
 #include "image/image_rows.h"
 #include "render/tiles/row_file.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FrameFiles {
     std::vector<std::filesystem::path> outputs;  // at least one; a part of a frame goes to the first
@@ -66,4 +66,4 @@ private:
     std::optional<ImageRowWriter> writer_;  // of the share
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

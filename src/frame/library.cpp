@@ -29,9 +29,9 @@ std::vector<std::string> namesOf(const Things& things) {
     return names;
 }
 
-Json levelsJson(const Pyramid& pyramid) {
+Json levelsJson(const engine::Pyramid& pyramid) {
     Json levels = Json::array();
-    for (const PyramidLevel& level : pyramid.levels)
+    for (const engine::PyramidLevel& level : pyramid.levels)
         levels.push_back({{"triangles", level.triangleCount},
                           {"vertices", level.vertexCount},
                           {"meanEdge", level.meanEdge},
@@ -41,31 +41,32 @@ Json levelsJson(const Pyramid& pyramid) {
 
 }  // namespace
 
-SceneHandle loadScene(const std::filesystem::path& path, const Progress& progress) {
+Scene Scene::load(const std::filesystem::path& path, const Progress& progress) {
     if (path.empty()) throw UsageError("no scene is named; give the path of a .gltf or .glb file");
-    const auto scene = std::make_shared<Scene>(loadGltf(path, progress));
-    setScale({}, *scene);
-    return scene;
+    const auto scene = std::make_shared<engine::Scene>(engine::loadGltf(path, progress));
+    engine::setScale({}, *scene);
+    return Scene(scene);
 }
 
-SceneHandle schoolOfFish(int fishCount, int trianglesPerFish, const Progress& progress) {
+Scene Scene::schoolOfFish(int fishCount, int trianglesPerFish, const Progress& progress) {
     Request request;
     request.fishCount = fishCount;
     request.trianglesPerFish = trianglesPerFish;
-    checkRequest(request);
-    return std::make_shared<Scene>(loadScene(request, progress));
+    engine::checkRequest(request);
+    return Scene(std::make_shared<engine::Scene>(engine::loadScene(request, progress)));
 }
 
-SceneInfo sceneInfo(const Scene& scene) {
+SceneInfo Scene::info() const {
+    const engine::Scene& scene = *scene_;
     SceneInfo info;
     info.name = scene.name;
     info.cameras = namesOf(scene.cameras);
     info.nodes = namesOf(scene.nodes);
     info.clips = namesOf(scene.clips);
-    for (const Mesh& mesh : scene.meshes) info.triangles += mesh.triangleCount();
-    for (const Ignored& entry : scene.ignored)
+    for (const engine::Mesh& mesh : scene.meshes) info.triangles += mesh.triangleCount();
+    for (const engine::Ignored& entry : scene.ignored)
         info.ignored.push_back(entry.count > 1
-                                   ? fmt::format("{} × {}: {}", grouped(entry.count), entry.what, entry.reason)
+                                   ? fmt::format("{} × {}: {}", engine::grouped(entry.count), entry.what, entry.reason)
                                    : fmt::format("{}: {}", entry.what, entry.reason));
     return info;
 }
@@ -75,20 +76,20 @@ Image render(const Request& request, const Progress& progress) {
 }
 
 std::string planJson(const Request& request, const Progress& progress) {
-    checkRequest(request);
-    const PreparedFrame frame = prepareFrame(request, progress);
-    return planJson(planFrame(frame.world, frame.view, frame.settings));
+    engine::checkRequest(request);
+    const engine::PreparedFrame frame = engine::prepareFrame(request, progress);
+    return engine::planJson(engine::planFrame(frame.world, frame.view, frame.settings));
 }
 
 std::string pyramidJson(const Request& request, const Progress& progress) {
-    checkRequest(request);
-    const Scene scene = loadScene(request, progress);
-    PyramidOptions options;
+    engine::checkRequest(request);
+    const engine::Scene scene = engine::loadScene(request, progress);
+    engine::PyramidOptions options;
     options.vertices = request.levelVertices;
-    const Finishes finishes(scene);
+    const engine::Finishes finishes(scene);
     options.finishes = &finishes;
-    const std::vector<Pyramid> pyramids =
-        cachedPyramids(scene.meshes, pyramidFolder(request), options, progress).pyramids;
+    const std::vector<engine::Pyramid> pyramids =
+        engine::cachedPyramids(scene.meshes, engine::pyramidFolder(request), options, progress).pyramids;
     Json json = {{"meshes", Json::array()}};
     for (std::size_t i = 0; i < pyramids.size(); ++i)
         json["meshes"].push_back({{"name", scene.meshes[i].name}, {"index", i}, {"levels", levelsJson(pyramids[i])}});
@@ -96,7 +97,7 @@ std::string pyramidJson(const Request& request, const Progress& progress) {
 }
 
 void setSetting(Request& request, const std::string& name, const std::string& text) {
-    setByName(request, name, text);
+    engine::setByName(request, name, text);
 }
 
 }  // namespace defocus

@@ -5,7 +5,7 @@
 #include "scene/animation.h"
 #include "scene/hidden_nodes.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 int clipOf(const Request& request, const Scene& scene) {
     return request.clip.empty() ? 0 : clipNamed(scene, request.clip);
@@ -43,4 +43,4 @@ void exposeMotion(const Request& request, const PlacedCamera& camera, const Rend
     openShutter(shutterSettings(request), settings, momentAt, world.shutter, view);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include "frame/request.h"
 #include "plan/shutter.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the number of the animation that the request names. Throws Error for one that the scene doesn't have.
 int clipOf(const Request& request, const Scene& scene);
@@ -17,4 +17,4 @@ Pose exposedPose(const Request& request, const Scene& scene);
 void exposeMotion(const Request& request, const PlacedCamera& camera, const RenderSettings& settings, World& world,
                   View& view);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::vector<std::string> clippingWarnings(const ImageView& image, const WriteOpt
     return {};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

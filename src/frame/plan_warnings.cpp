@@ -14,7 +14,7 @@
 #include "plan/lens_cells.h"
 #include "render/automatic_samples.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -116,4 +116,4 @@ std::vector<std::string> requestWarnings(const Request& request, const PreparedF
     return lines;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "plan/frame_plan.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns a line, with what helps, for each of these:
 // - the lens is open, but nothing is blurred by half a pixel;
@@ -27,4 +27,4 @@ std::vector<std::string> ignoredWarnings(const Scene& scene);
 // Returns all warnings of a request that need no plan: of the frame's scene and camera, and of settings without effect.
 std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame);
 
-}  // namespace defocus
+}  // namespace defocus::engine

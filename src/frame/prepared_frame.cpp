@@ -29,7 +29,7 @@
 #include "scene/ground.h"
 #include "school/fish_school.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -297,4 +297,4 @@ std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
     return lines;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

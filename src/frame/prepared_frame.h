@@ -11,7 +11,7 @@
 #include "frame/request.h"
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct PreparedFrame {
     std::shared_ptr<Scene> scene;
@@ -86,4 +86,4 @@ std::vector<std::string> damageWarnings(const Scene& scene);
 // that isn't used, for a focus that no lens has, and for pyramids that couldn't be stored.
 std::vector<std::string> frameWarnings(const PreparedFrame& frame);
 
-}  // namespace defocus
+}  // namespace defocus::engine

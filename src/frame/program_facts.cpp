@@ -7,7 +7,7 @@
 
 #include "defocus/version.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -42,4 +42,4 @@ std::string commandLine(std::vector<std::string> words) {
     return line;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

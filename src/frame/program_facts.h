@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the version of the build, such as "0.1.0".
 std::string programVersion();
@@ -16,4 +16,4 @@ std::string programCommit();
 // Returns a program's arguments as a shell would take them. The program has its name alone, without folders.
 std::string commandLine(std::vector<std::string> words);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "frame/world_hash.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -214,4 +214,4 @@ ReferenceImage referenceImage(const World& world, const View& view, const Refere
     return reference;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

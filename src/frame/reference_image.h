@@ -16,7 +16,7 @@
 #include "plan/view.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Where references begin in the sequence of lens samples: far beyond what others use.
 inline constexpr std::uint32_t referenceOffset = 1u << 20;
@@ -58,4 +58,4 @@ bool holdsOtherReference(const std::filesystem::path& folder, std::uint64_t hash
 ReferenceImage referenceImage(const World& world, const View& view, const ReferenceOptions& options,
                               const std::filesystem::path& folder, const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

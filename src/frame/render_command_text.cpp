@@ -10,7 +10,7 @@
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::string renderCommand(const RenderCommandText& text) {
     return command;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "frame/prepared_frame.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct RenderCommandText {
     const Request& options;      // scene, method, levels, samples
@@ -26,4 +26,4 @@ std::string captureCommand(const std::filesystem::path& shot, const Request& opt
 // Returns a word so that a shell reads it back: as it is, or in single quotes.
 std::string shellWord(const std::string& word);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -20,7 +20,7 @@
 #include "lens/photographic_exposure.h"
 #include "render/block_schedule.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -201,4 +201,4 @@ std::string summary(const RenderReport& report) {
                        stats.renderMilliseconds / 1000, triangles, stats.device);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

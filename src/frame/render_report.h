@@ -9,7 +9,7 @@
 #include "plan/frame_plan.h"
 #include "render/renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct RenderReport {
     const Request& options;
@@ -39,4 +39,4 @@ std::string errorText(const RenderStats& stats);
 // "1024x768, 64 samples in 1.52 s: 2.1 M triangles (full detail: 115.2 M), llvmpipe …"
 std::string summary(const RenderReport& report);
 
-}  // namespace defocus
+}  // namespace defocus::engine

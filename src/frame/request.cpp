@@ -8,7 +8,7 @@
 #include "lens/lens_fields.h"
 #include "render/frame_run.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 MethodUse chosenMethod(const Request& request) try {
     const Method& method = methodNamed(request.method);
@@ -90,4 +90,4 @@ void checkRequest(const Request& request) {
     checkStop(request);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "render/methods.h"
 #include "render/stop_settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline glm::dvec3 asVector(const Vector3& v) {
     return {v[0], v[1], v[2]};
@@ -46,4 +46,4 @@ void checkStop(const Request& request);
 // Throws UsageError, which names the setting, for a value out of its range.
 void checkRequest(const Request& request);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "render/aov/work.h"
 #include "scene/ground.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -57,7 +57,7 @@ std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
 
 }  // namespace
 
-SceneDriver::SceneDriver(SceneHandle scene, const Request& request, std::filesystem::path shaderFolder,
+SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& request, std::filesystem::path shaderFolder,
                          const Progress& progress)
     : named_(scene == nullptr), shaderFolder_(std::move(shaderFolder)), first_(request), request_(request) {
     const Clock::time_point begin = Clock::now();
@@ -189,7 +189,7 @@ Image SceneDriver::work() {
 }
 
 Image SceneDriver::sweptWork() const {
-    return defocus::sweptWork(driver().plan(), frame_.world);
+    return engine::sweptWork(driver().plan(), frame_.world);
 }
 
 std::vector<std::string> SceneDriver::warnings() const {
@@ -207,7 +207,7 @@ std::vector<std::string> SceneDriver::warnings() const {
 }
 
 std::string SceneDriver::settingsHash() const {
-    return defocus::settingsHash(filmSettings(frame_, request_, shaderFolder_), momentOf(frame_, request_));
+    return engine::settingsHash(filmSettings(frame_, request_, shaderFolder_), momentOf(frame_, request_));
 }
 
 WriteOptions SceneDriver::writeOptions() {
@@ -267,4 +267,4 @@ void SceneDriver::write(const std::filesystem::path& path, const ImageView& imag
     if (ending != ".exr" && ending != ".EXR") clipped_ = clippingWarnings(image, options);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,6 @@
 
 #include "core/progress.h"
 #include "defocus/renderer.h"
-#include "defocus/scene.h"
 #include "frame/frame_driver.h"
 #include "frame/prepared_frame.h"
 #include "frame/render_report.h"
@@ -19,7 +18,7 @@
 #include "image/image_io.h"
 #include "render/aov/aov.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Which part of a frame is drawn; see FrameOrder.
 struct FrameParts {
@@ -33,7 +32,7 @@ class SceneDriver {
 public:
     // Opens the scene that the request names, or takes `scene` if it isn't null. Checks values, scene, lens and device
     // before it builds pyramids. Throws Error as SceneRenderer does.
-    SceneDriver(SceneHandle scene, const Request& request, std::filesystem::path shaderFolder,
+    SceneDriver(std::shared_ptr<const Scene> scene, const Request& request, std::filesystem::path shaderFolder,
                 const Progress& progress);
     ~SceneDriver();
     SceneDriver(const SceneDriver&) = delete;
@@ -47,7 +46,7 @@ public:
     [[nodiscard]] const Request& firstRequest() const { return first_; }
     [[nodiscard]] const Request& request() const { return request_; }  // of the frame that was started last
     [[nodiscard]] const PreparedFrame& frame() const { return frame_; }
-    [[nodiscard]] SceneHandle scene() const { return scene_; }
+    [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_; }
     [[nodiscard]] const GlContext& context() const { return *context_; }
 
     [[nodiscard]] bool started() const { return driver_.has_value(); }
@@ -100,4 +99,4 @@ private:
     std::optional<FrameDriver> driver_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,18 +10,16 @@
 
 namespace defocus {
 
-class SceneRenderer::State : public SceneDriver {
+class SceneRenderer::State : public engine::SceneDriver {
 public:
-    using SceneDriver::SceneDriver;
+    using engine::SceneDriver::SceneDriver;
 };
 
 SceneRenderer::SceneRenderer(const Request& request, const Progress& progress)
     : state_(std::make_unique<State>(nullptr, request, std::filesystem::path(), progress)) {}
 
-SceneRenderer::SceneRenderer(SceneHandle scene, const Request& request, const Progress& progress) {
-    if (!scene) throw UsageError("no scene is open; loadScene() or schoolOfFish() opens one");
-    state_ = std::make_unique<State>(std::move(scene), request, std::filesystem::path(), progress);
-}
+SceneRenderer::SceneRenderer(const Scene& scene, const Request& request, const Progress& progress)
+    : state_(std::make_unique<State>(scene.engineScene(), request, std::filesystem::path(), progress)) {}
 
 SceneRenderer::~SceneRenderer() = default;
 SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
@@ -62,22 +60,22 @@ Image SceneRenderer::render(const Progress& progress, std::stop_token stop) {
 // At least one sample is drawn, so that there is an image.
 Image SceneRenderer::render(const Request& request, const Progress& progress, std::stop_token stop) {
     state_->start(request, {}, progress);
-    report(progress, "samples", 0, sampleTotal());
+    engine::report(progress, "samples", 0, sampleTotal());
     bool more = true;
     do {
         more = advance();
-        report(progress, "samples", samples(), sampleTotal());
+        engine::report(progress, "samples", samples(), sampleTotal());
     } while (more && (!stop.stop_requested() || samples() == 0));
     return image();
 }
 
 Aovs SceneRenderer::aovs() {
-    AovImages images = state_->aovs();
+    engine::AovImages images = state_->aovs();
     return {std::move(images.depth), std::move(images.coc), std::move(images.level)};
 }
 
 std::string SceneRenderer::planJson() const {
-    return defocus::planJson(state_->driver().plan());
+    return engine::planJson(state_->driver().plan());
 }
 
 void SceneRenderer::write(const std::filesystem::path& path, const ImageView& image) const {
@@ -88,8 +86,8 @@ std::vector<std::string> SceneRenderer::warnings() const {
     return state_->warnings();
 }
 
-SceneHandle SceneRenderer::scene() const {
-    return state_->scene();
+Scene SceneRenderer::scene() const {
+    return Scene(state_->scene());
 }
 
 }  // namespace defocus

@@ -11,7 +11,7 @@
 #include "scene/defaults.h"
 #include "scene/units.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::optional<std::string> guessedScaleNote(const Request& request, const Scene&
         named ? "1 " + unit : unit, named ? "" : " m");
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

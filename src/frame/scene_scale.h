@@ -7,7 +7,7 @@
 #include "frame/request.h"
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Sets Scene::metresPerUnit to what the request says, else to what the file itself says. Without either, metres count
 // if the request or the camera gives a length of the lens (a focus distance, a focal length, a place of the camera),
@@ -18,4 +18,4 @@ void setScale(const Request& request, Scene& scene);
 // Says what a scene's unit was guessed to be; nothing where it is a metre or where somebody said what it is.
 std::optional<std::string> guessedScaleNote(const Request& request, const Scene& scene);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "frame/world_hash.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -87,4 +87,4 @@ std::string settingsHash(const FilmSettings& film, const FrameMoment& moment) {
     return hashed.hash();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "frame/frame_moment.h"
 #include "frame/prepared_frame.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What all frames of a film, and all parts of one frame, share.
 struct FilmSettings {
@@ -25,4 +25,4 @@ FilmSettings filmSettings(const PreparedFrame& frame, const Request& request,
 // Returns 16 hexadecimal digits.
 std::string settingsHash(const FilmSettings& film, const FrameMoment& moment);
 
-}  // namespace defocus
+}  // namespace defocus::engine

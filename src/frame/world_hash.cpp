@@ -14,7 +14,7 @@
 #include "lens/lens_fields.h"
 #include "lod/pyramid/file.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::uint64_t worldHash(const World& world, const View& view, const fs::path& sh
     return hasher.hash();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,10 +8,10 @@
 
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns that number. `shaderFolder`: shaders read from there replace the embedded ones; empty: none. Throws Error for
 // one that can't be read.
 std::uint64_t worldHash(const World& world, const View& view, const std::filesystem::path& shaderFolder = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 Buffer::Buffer(std::size_t bytes, const void* data) : bytes_(bytes) {
     GLuint name = 0;
@@ -54,4 +54,4 @@ void VertexArray::indices(const Buffer& buffer) {
     glVertexArrayElementBuffer(name(), buffer.name());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

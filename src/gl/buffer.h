@@ -6,7 +6,7 @@
 
 #include "gl/handle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class Buffer {
 public:
@@ -52,4 +52,4 @@ private:
     GlHandle<destroyVertexArray> handle_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

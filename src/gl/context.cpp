@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -227,4 +227,4 @@ std::unique_ptr<GlContext> createHeadlessContext() {
     fail("no OpenGL 4.5 context: {}; install a driver (Debian: libegl1 libgl1-mesa-dri)", reasons);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

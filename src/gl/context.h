@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 class GlContext {
 public:
@@ -46,4 +46,4 @@ std::string currentDriver();
 // Whether the current context draws on the CPU.
 bool currentIsSoftware();
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::optional<std::uint64_t> freeDeviceMemoryOf(const std::function<bool(const char*)>& has,
                                                 const std::function<int(unsigned)>& query) {
@@ -29,4 +29,4 @@ std::optional<std::uint64_t> freeDeviceMemory() {
                               });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

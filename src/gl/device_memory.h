@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Bytes, by GL_NVX_gpu_memory_info or GL_ATI_meminfo. None on a software driver, which draws in main memory.
 std::optional<std::uint64_t> freeDeviceMemory();
@@ -15,4 +15,4 @@ std::optional<std::uint64_t> freeDeviceMemory();
 std::optional<std::uint64_t> freeDeviceMemoryOf(const std::function<bool(const char* extension)>& has,
                                                 const std::function<int(unsigned name)>& query);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #include "gl/fullscreen.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void Fullscreen::draw(const Program& program) const {
     glDisable(GL_BLEND);
@@ -40,4 +40,4 @@ void Fullscreen::drawBlended(const Program& program, GLenum kept) const {
     glDisable(GL_BLEND);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The vertex shader of such programs.
 inline constexpr const char* fullscreenShader = "include/fullscreen.vert";
@@ -26,4 +26,4 @@ private:
     VertexArray noVertices_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 template <void (*destroy)(GLuint)>
 class GlHandle {
@@ -49,4 +49,4 @@ inline void destroyQuery(GLuint name) {
     glDeleteQueries(1, &name);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

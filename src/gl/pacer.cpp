@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -35,4 +35,4 @@ void SubmissionPacer::submitted(std::uint64_t triangles) {
     fences_.pop_front();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

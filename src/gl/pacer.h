@@ -8,7 +8,7 @@
 
 #include "gl/handle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class SubmissionPacer {
 public:
@@ -28,4 +28,4 @@ private:
     std::deque<GLsync> fences_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "core/file.h"
 #include "gl/shader_source.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -120,4 +120,4 @@ bool vertexShaderMayPickLayer() {
            epoxy_has_gl_extension("GL_AMD_vertex_shader_layer");
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 
 #include "gl/handle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
@@ -42,4 +42,4 @@ std::string shaderText(const std::string& path, const ShaderDefines& defines,
 // Whether the vertex shader may write gl_Layer (ARB_shader_viewport_layer_array or AMD_vertex_shader_layer).
 bool vertexShaderMayPickLayer();
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -30,4 +30,4 @@ void upload(GlTexture& texture, const Image& image) {
     texture.upload(0, rows.width, rows.height, rows.pixels.data());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include "gl/texture.h"
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Layer 0 of a float or normalised texture with `channels` (1, 3 or 4) channels as floats.
 Image readBack(const GlTexture& texture, int channels);
@@ -12,4 +12,4 @@ Image readBack(const GlTexture& texture, int channels);
 // An image of the texture's size and channels as its only level.
 void upload(GlTexture& texture, const Image& image);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 
 #include "gl/texture.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class Scissor {
 public:
@@ -24,4 +24,4 @@ private:
     bool on_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

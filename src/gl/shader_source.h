@@ -4,8 +4,8 @@
 #include <map>
 #include <string_view>
 
-namespace defocus {
+namespace defocus::engine {
 
 const std::map<std::string_view, std::string_view>& embeddedShaders();
 
-}  // namespace defocus
+}  // namespace defocus::engine

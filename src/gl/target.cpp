@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -99,4 +99,4 @@ void Target::bind() const {
     glViewport(0, 0, width_, height_);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "gl/texture.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class Target {
 public:
@@ -40,4 +40,4 @@ private:
     int height_ = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

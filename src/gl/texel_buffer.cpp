@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 TexelBuffer::TexelBuffer(std::span<const float> values, GLenum format, int components, const char* what) {
     GLint most = 0;
@@ -17,4 +17,4 @@ TexelBuffer::TexelBuffer(std::span<const float> values, GLenum format, int compo
     glTextureBuffer(name, format, buffer_.name());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

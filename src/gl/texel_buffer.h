@@ -5,7 +5,7 @@
 
 #include "gl/buffer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class TexelBuffer {
 public:
@@ -23,4 +23,4 @@ private:
     GlHandle<destroyTexture> texture_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::size_t pixelBytes(TextureFormat format) {
     return row(format).bytes;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

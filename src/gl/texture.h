@@ -6,7 +6,7 @@
 
 #include "gl/handle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class TextureFormat {
     r32f,
@@ -69,4 +69,4 @@ int mipmapLevels(int width, int height);
 // Bytes a pixel.
 std::size_t pixelBytes(TextureFormat format);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #include "gl/timer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -42,4 +42,4 @@ void GpuTimer::reset() {
     total_ = 0;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "gl/handle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class GpuTimer {
 public:
@@ -21,4 +21,4 @@ private:
     double total_ = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

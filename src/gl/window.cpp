@@ -12,7 +12,7 @@
 #include "gl/context.h"
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -253,4 +253,4 @@ void Window::setClipboard(const std::string& text) {
     glfwSetClipboardString(window_, text.c_str());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

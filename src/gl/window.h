@@ -13,7 +13,7 @@
 
 struct GLFWwindow;
 
-namespace defocus {
+namespace defocus::engine {
 
 // Letters, digits and marks are their ASCII codes on a US keyboard, capitals for letters; the others:
 namespace key {
@@ -109,4 +109,4 @@ private:
     bool software_ = false;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 double boxDifference(const ImageView& reference, const ImageView& test, int size) {
     const int channels = std::min({3, reference.channels, test.channels});
@@ -22,4 +22,4 @@ double boxDifference(const ImageView& reference, const ImageView& test, int size
     return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "core/parallel.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -56,4 +56,4 @@ Image colourMapped(const Image& values) {
     return coloured;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

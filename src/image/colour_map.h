@@ -7,7 +7,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // t in [0, 1] (clamped; NaN counts as 0) → LINEAR Rec.709 RGB.
 glm::vec3 magma(float t);    // black, purple, orange, pale yellow: errors
@@ -16,4 +16,4 @@ glm::vec3 viridis(float t);  // dark blue, green, yellow: levels and other quant
 // A 1-channel image of values in [0, 1] through magma, as linear RGB for writeImage.
 Image colourMapped(const Image& values);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -53,4 +53,4 @@ ComparablePair comparablePair(const ImageView& reference, const ImageView& test)
     return pair;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class PixelState : std::uint8_t { finite, nonFiniteInOne, nonFiniteInBoth };
 
@@ -21,4 +21,4 @@ struct ComparablePair {
 // Throws Error when the sizes differ, or an image is empty or has not as many values as its size says.
 ComparablePair comparablePair(const ImageView& reference, const ImageView& test);
 
-}  // namespace defocus
+}  // namespace defocus::engine

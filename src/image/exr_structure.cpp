@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -97,4 +97,4 @@ void checkExrHeader(Bytes head, std::uint64_t fileBytes, const std::string& name
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,11 +7,11 @@
 #include <span>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 // `head` is the beginning of a file of `fileBytes`, as far as it was read. Throws Error, naming `name`, where an
 // attribute claims more bytes than the file has, or others than its type takes, or rows have more than 2²⁰ px. Other
 // faults are left to who reads on.
 void checkExrHeader(std::span<const std::byte> head, std::uint64_t fileBytes, const std::string& name);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "image/comparable.h"
 #include "image/separable_filter.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -321,4 +321,4 @@ Image flipErrorMap(const ImageView& reference, const ImageView& test, const std:
     return map;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

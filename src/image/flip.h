@@ -11,7 +11,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct HdrFlipOptions {
     double startExposure = -4;  // EV
@@ -28,4 +28,4 @@ inline constexpr double defaultPixelsPerDegree = 67.0;
 Image flipErrorMap(const ImageView& reference, const ImageView& test, const std::optional<HdrFlipOptions>& hdr = {},
                    double pixelsPerDegree = defaultPixelsPerDegree);
 
-}  // namespace defocus
+}  // namespace defocus::engine

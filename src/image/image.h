@@ -6,7 +6,7 @@
 
 #include "defocus/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // An 8-bit RGBA texture as a file holds it (encoded values, straight alpha), row 0 at the top.
 struct TextureImage {
@@ -15,4 +15,4 @@ struct TextureImage {
     std::vector<std::uint8_t> rgba;  // width · height · 4
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "image/oiio_names.h"
 #include "image/quantise.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::vector<std::uint8_t> displayBytes(FileKind kind, const ImageView& image, co
     return display(kind == FileKind::png ? withStraightAlpha(image) : withoutAlpha(image));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

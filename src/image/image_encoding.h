@@ -10,7 +10,7 @@
 
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class FileKind { exr, png, jpeg };
 
@@ -26,4 +26,4 @@ OIIO::ImageSpec imageSpec(FileKind kind, int width, int height, int channels, co
 std::vector<std::uint8_t> displayBytes(FileKind kind, const ImageView& image, const WriteOptions& options,
                                        int firstRow);
 
-}  // namespace defocus
+}  // namespace defocus::engine

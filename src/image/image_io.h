@@ -16,7 +16,7 @@
 #include "image/image.h"
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Metadata by EXR attribute name. Standard names are used where EXR has them (OpenEXR "Standard Attributes"): isoSpeed,
 // aperture (f-number), focus (m), nominalFocalLength (mm), expTime, comments, worldToCamera …; others carry the prefix
@@ -25,6 +25,10 @@ namespace defocus {
 // for columns (M·v) is stored as it is; mind that EXR's camera space looks along +z and is left-handed.
 using MetadataValue = std::variant<int, double, std::string, glm::mat4>;
 using Metadata = std::map<std::string, MetadataValue>;
+
+using defocus::compareImages;
+using defocus::readImage;
+using defocus::writeImage;
 
 // readImage of the public API with the file's attributes, under EXR's names (a PNG holds numbers as text).
 Image readImage(const std::filesystem::path& path, Metadata& metadata);
@@ -52,4 +56,4 @@ void checkImageExtension(const std::filesystem::path& path);
 TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string& name,
                            const std::function<void(std::uint64_t pixels)>& take = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -22,7 +22,7 @@
 #include "image/oiio_names.h"
 #include "image/png_structure.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -226,11 +226,6 @@ Image readImage(const std::filesystem::path& path, Metadata& metadata) {
     return image;
 }
 
-Image readImage(const std::filesystem::path& path) {
-    Metadata unused;
-    return readImage(path, unused);
-}
-
 std::vector<ImageLayer> readLayers(const std::filesystem::path& path, Metadata* metadata) {
     const std::string name = path.string();
     const std::vector<std::byte> encoded = readFile(path);
@@ -280,4 +275,9 @@ TextureImage decodeTexture(std::span<const std::byte> encoded, const std::string
     return texture;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine
+
+defocus::Image defocus::readImage(const std::filesystem::path& path) {
+    engine::Metadata unused;
+    return engine::readImage(path, unused);
+}

@@ -5,9 +5,9 @@
 
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A file's attributes, under EXR's names.
 Metadata metadataOf(const OIIO::ImageSpec& spec);
 
-}  // namespace defocus
+}  // namespace defocus::engine

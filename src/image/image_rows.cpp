@@ -20,7 +20,7 @@
 #include "image/image_read.h"
 #include "image/oiio_names.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -225,4 +225,4 @@ Image ImageRowReader::read(int first, int count) {
     return rows;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Where the rows of a file lie in a larger image. In an EXR file it is the data window within the display window.
 struct RowPlace {
@@ -54,4 +54,4 @@ private:
     std::unique_ptr<State> state_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

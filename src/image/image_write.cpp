@@ -14,7 +14,7 @@
 #include "image/image_io.h"
 #include "image/oiio_names.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -57,10 +57,6 @@ void writeImage(const std::filesystem::path& path, const ImageView& image, const
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 
-void writeImage(const std::filesystem::path& path, const ImageView& image, const WriteOptions& options) {
-    writeImage(path, image, {}, options);
-}
-
 void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer>& layers, const Metadata& metadata) {
     const std::string name = path.string();
     if (layers.empty() || fileKind(path) != FileKind::exr) fail("{}: layers are written to .exr files", name);
@@ -90,4 +86,8 @@ void writeLayers(const std::filesystem::path& path, const std::vector<ImageLayer
     writeFile(path, std::as_bytes(std::span(bytes)));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine
+
+void defocus::writeImage(const std::filesystem::path& path, const ImageView& image, const WriteOptions& options) {
+    engine::writeImage(path, image, engine::Metadata(), options);
+}

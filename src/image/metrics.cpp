@@ -11,7 +11,7 @@
 #include "image/separable_filter.h"
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -173,10 +173,6 @@ double meanValue(const Image& map, const Image* mask) {
 
 }  // namespace
 
-Difference compareImages(const ImageView& reference, const ImageView& test) {
-    return compareImages(reference, test, CompareOptions{});
-}
-
 Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options) {
     // RGB over black, finite, then as a display shows it.
     const ComparablePair pair = comparablePair(reference, test);
@@ -199,4 +195,8 @@ Difference compareImages(const ImageView& reference, const ImageView& test, cons
     return difference;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine
+
+defocus::Difference defocus::compareImages(const ImageView& reference, const ImageView& test) {
+    return engine::compareImages(reference, test, engine::CompareOptions{});
+}

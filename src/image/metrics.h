@@ -16,7 +16,7 @@
 #include "image/flip.h"
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct CompareOptions {
     std::optional<HdrFlipOptions> hdrFlip;  // FLIP as HDR-FLIP (ACES) over these exposures instead of LDR-FLIP
@@ -28,4 +28,4 @@ struct CompareOptions {
 // pixelCount of 0.
 Difference compareImages(const ImageView& reference, const ImageView& test, const CompareOptions& options);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 
 Moments momentsOf(const Image& image) {
     Moments moments;
@@ -27,4 +27,4 @@ double radiusBySecondMoment(const Moments& moments, int bladeCount, double squar
     return std::sqrt(spread * 6 / (2 + corners));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Moments {             // of the first channel
     double energy = 0;       // sum over pixels
@@ -21,4 +21,4 @@ Moments momentsOf(const Image& image);
 // The (circum)radius in px of the blur that an image of a square of `square` px shows, by its second moment.
 double radiusBySecondMoment(const Moments& moments, int bladeCount, double square);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 // EXR attribute name and the one that OpenImageIO turns it into.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 7> oiioNames = {{
@@ -38,4 +38,4 @@ inline std::string firstLine(const std::string& message) {
     return line.empty() ? "no reason given" : line;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::vector<unsigned char> checkedPng(std::span<const std::byte> encoded, const 
     fail("{}: truncated PNG image", name);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

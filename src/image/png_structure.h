@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // A copy of the PNG file `encoded` with the chunks that its pixels and texts need (colour profiles, which libpng
 // comments on, are left out). Throws Error with `name` for a truncated file, a wrong checksum or a missing chunk.
 std::vector<unsigned char> checkedPng(std::span<const std::byte> encoded, const std::string& name);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -34,4 +34,4 @@ std::vector<std::uint8_t> quantised(const Image& display, int firstRow) {
     return bytes;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A byte for each value of [0, 1], row by row. What lies between two bytes becomes the one or the other, the nearer
 // more often, by a pattern that is the same in every image (interleaved gradient noise: Jimenez 2014, Next Generation
@@ -14,4 +14,4 @@ namespace defocus {
 // channel) is rounded. `firstRow`: the number of the first row in the picture that these rows are part of.
 std::vector<std::uint8_t> quantised(const Image& display, int firstRow = 0);
 
-}  // namespace defocus
+}  // namespace defocus::engine

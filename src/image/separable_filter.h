@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 template <typename T>
 struct Plane {
@@ -75,4 +75,4 @@ Plane<T> filteredAlongColumns(const Plane<T>& in, const Kernel<T>& kernel) {
     return out;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

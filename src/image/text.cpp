@@ -12,7 +12,7 @@
 
 #include "core/file.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -101,4 +101,4 @@ bool writeText(Image& image, int x, int y, std::string_view text, double size, f
     return true;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

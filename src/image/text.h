@@ -7,7 +7,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The TrueType file of a sans serif with Latin and Greek letters, if the system has one in the usual places.
 std::optional<std::filesystem::path> sansSerifFile();
@@ -17,4 +17,4 @@ std::optional<std::filesystem::path> sansSerifFile();
 // and nothing is drawn, without a typeface.
 bool writeText(Image& image, int x, int y, std::string_view text, double size, float value);
 
-}  // namespace defocus
+}  // namespace defocus::engine

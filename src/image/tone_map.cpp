@@ -20,7 +20,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -142,4 +142,4 @@ Image displayEncoded(const ImageView& linear, ToneMap toneMap, double exposure) 
     return display;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The enumerator of "none", "aces", "agx" or "neutral"; throws Error listing the names otherwise.
 ToneMap toneMapNamed(std::string_view name);
@@ -19,4 +19,4 @@ float srgbDecode(float encoded);  // [0, 1] → [0, 1]; the same for values outs
 // stands over black. NaN and −∞ give 0, +∞ what a very bright colour gives.
 Image displayEncoded(const ImageView& linear, ToneMap toneMap = ToneMap::none, double exposure = 0);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 double comaOfTail(double length) {
     return 2 * length / 3;
@@ -23,4 +23,4 @@ double aberrationReach(const ClipCircleOfConfusion& coc, double radius) {
     return std::abs(coc.astigmatism) * radius * radius + 3 * std::abs(coc.coma) * radius;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

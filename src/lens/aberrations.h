@@ -15,7 +15,7 @@
 
 #include "lens/circle_of_confusion.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // B of a comet whose tail is `length` long at the image's left and right edges, a share of the image's width.
 double comaOfTail(double length);
@@ -27,4 +27,4 @@ glm::dvec2 aberration(const ClipCircleOfConfusion& coc, const glm::dvec2& ndc, c
 // for places up to |m| = `radius`.
 double aberrationReach(const ClipCircleOfConfusion& coc, double radius);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -229,4 +229,4 @@ glm::dvec2 apertureSample(const Aperture& aperture, const glm::dvec2& square) {
     return {ratio > 1 ? point.x / ratio : point.x, ratio < 1 ? point.y * ratio : point.y};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 
 #include "lens/lens.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Where the light of an aperture image passes, as cumulative sums over square cells, row by row from the top: pixels,
 // or parts of pixels of a small image, or groups of pixels of a large one.
@@ -53,4 +53,4 @@ glm::dvec2 squareOfConcentricDisk(const glm::dvec2& disk);
 // Is it a disk of which each part lets the same light through?
 bool isUniformDisk(const Aperture& aperture);
 
-}  // namespace defocus
+}  // namespace defocus::engine

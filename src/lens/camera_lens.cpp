@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 void fitToCamera(Lens& lens, const Camera& camera, double aspect, const std::function<bool(std::string_view)>& isSet) {
     const bool widthIsSet = isSet("horizontalAperture");
@@ -17,4 +17,4 @@ void fitToCamera(Lens& lens, const Camera& camera, double aspect, const std::fun
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

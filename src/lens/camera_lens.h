@@ -15,10 +15,10 @@
 #include "lens/lens.h"
 #include "scene/camera.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Sets of `lens` what follows from the camera: focal length and horizontal aperture, as far as `isSet` doesn't say that
 // the field of that name (lens/lens_fields.h) has been set. `aspect` is the image's width over its height.
 void fitToCamera(Lens& lens, const Camera& camera, double aspect, const std::function<bool(std::string_view)>& isSet);
 
-}  // namespace defocus
+}  // namespace defocus::engine

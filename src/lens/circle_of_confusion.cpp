@@ -9,7 +9,7 @@
 #include "lens/aberrations.h"
 #include "lens/wavelengths.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -195,4 +195,4 @@ CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, d
     return deviation;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -25,7 +25,7 @@
 #include "lens/lens.h"
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct ClipCircleOfConfusion {
     double a = 0;
@@ -109,4 +109,4 @@ struct CocDeviation {
 CocDeviation cocDeviation(const ClipCircleOfConfusion& coc, const CocBox& box, double longestEdge,
                           const glm::dvec2& tanHalf, int width);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -36,4 +36,4 @@ double customaryCircleOfConfusion(const Lens& lens, int width, int height) {
     return glm::length(sensorSize(lens, width, height)) / diagonalShare;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

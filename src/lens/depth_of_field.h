@@ -16,7 +16,7 @@
 
 #include "lens/lens.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct DepthOfField {
     double hyperfocal = 0;  // m; 0 where everything is always in focus
@@ -33,4 +33,4 @@ glm::dvec2 sensorSize(const Lens& lens, int width, int height);
 // The customary acceptable circle of confusion: the sensor's diagonal over 1500, mm (0.029 mm for 36 × 24 mm).
 double customaryCircleOfConfusion(const Lens& lens, int width, int height);
 
-}  // namespace defocus
+}  // namespace defocus::engine

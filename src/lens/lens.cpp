@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -86,4 +86,4 @@ double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture) {
     return horizontalAperture / (2 * tanHalfHorizontal);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

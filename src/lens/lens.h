@@ -10,7 +10,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr double millimetre = 1e-3;  // m
 
@@ -59,4 +59,4 @@ double tanHalfHorizontalFov(const Lens& lens);  // tan(θx/2); follows the focus
 double apertureDiameter(const Lens& lens);      // A in m, blurScale included; 0 without depth of field
 double focalLengthFromFov(double tanHalfHorizontal, double horizontalAperture);  // mm; inverse of tanHalfHorizontalFov
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -180,4 +180,4 @@ std::vector<std::string> setLensFields(Lens& lens, const LensValues& values) {
     return refused;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "defocus/lens.h"
 #include "lens/lens.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What a value of the lens shapes, which decides whether it has an effect.
 enum class LensFeature {
@@ -68,4 +68,4 @@ LensValues givenLensValues(const LensSettings& given);
 // for each value out of range.
 std::vector<std::string> setLensFields(Lens& lens, const LensValues& values);
 
-}  // namespace defocus
+}  // namespace defocus::engine

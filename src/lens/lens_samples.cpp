@@ -11,7 +11,7 @@
 
 #include "core/hash.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -228,4 +228,4 @@ std::vector<LensSample> lensSamples(const Lens& lens, Sequence sequence, std::ui
     return samples;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

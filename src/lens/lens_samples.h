@@ -16,7 +16,7 @@
 #include "defocus/settings.h"
 #include "lens/aperture.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr std::array allSequences = {Sequence::sobol, Sequence::halton, Sequence::scrambledHalton, Sequence::r2};
 
@@ -54,4 +54,4 @@ LensSample lensSample(const Aperture& aperture, Sequence sequence, std::uint64_t
 std::vector<LensSample> lensSamples(const Lens& lens, Sequence sequence, std::uint64_t first, std::uint32_t count,
                                     std::uint32_t seed);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -18,4 +18,4 @@ double photographicExposure(const Lens& lens) {
     return lens.exposureTime > 0 ? -exposureValue100(lens) - std::log2(saturation) : 0;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

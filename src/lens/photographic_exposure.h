@@ -10,7 +10,7 @@
 
 #include "lens/lens.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // EV100; the lens must have an exposure time above 0.
 double exposureValue100(const Lens& lens);
@@ -18,4 +18,4 @@ double exposureValue100(const Lens& lens);
 // EV by which an image is brightened, log2(1 / (1.2 · 2^EV100)); 0 without an exposure time.
 double photographicExposure(const Lens& lens);
 
-}  // namespace defocus
+}  // namespace defocus::engine

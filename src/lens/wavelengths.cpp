@@ -1,6 +1,6 @@
 #include "lens/wavelengths.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 double chromaticShift(double a, double dioptres, double t) {
     return 3 * a * dioptres * (0.5 - t);
@@ -21,4 +21,4 @@ std::vector<glm::vec3> bandWeights(std::span<const LensSample> samples) {
     return weights;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

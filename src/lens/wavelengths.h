@@ -12,7 +12,7 @@
 
 #include "lens/lens_samples.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What the band's place `t` ∈ [0, 1] adds to b₁ and b₂ of a lens whose C(w) begins with `a`.
 double chromaticShift(double a, double dioptres, double t);
@@ -21,4 +21,4 @@ double chromaticShift(double a, double dioptres, double t);
 // samples, so that what is grey stays grey.
 std::vector<glm::vec3> bandWeights(std::span<const LensSample> samples);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "plan/object_pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const F
     return sides;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

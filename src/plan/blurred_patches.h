@@ -7,7 +7,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr std::size_t patchDepths = 5;
 
@@ -24,4 +24,4 @@ double pixelsPerUnitAtCentre(const ObjectPlan& object, const FramePlan& plan);
 // Returns the diameter of the circle of confusion at the centre of the object's box in view space, px.
 double cocAtCentre(const ObjectPlan& object, const FramePlan& plan);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 glm::dmat4 lookingAt(const glm::dvec3& position, const glm::dvec3& target) {
     const glm::dvec3 backward = position - target;
@@ -38,4 +38,4 @@ double focusBetween(double from, double to, double place) {
     return 1 / ((1 - place) / from + place / to);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the worldFromCamera of an upright camera at `position` that looks at `target`. If the camera looks straight
 // up or down, the top of the image points to −z or +z. Throws Error if both are the same point.
@@ -21,4 +21,4 @@ View carriedAround(const View& view, const glm::dvec3& centre, double angle);
 // focus ring is. Either distance may be infinite.
 double focusBetween(double from, double to, double place);
 
-}  // namespace defocus
+}  // namespace defocus::engine

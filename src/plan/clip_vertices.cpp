@@ -2,7 +2,7 @@
 
 #include "scene/posed_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 ClipVertices clipVertices(const FramePlan& plan, const World& world, const ObjectPlan& object, std::uint32_t level,
                           const ObjectPose& pose, double time) {
@@ -36,4 +36,4 @@ ClipVertices clipVertices(const FramePlan& plan, const World& world, const Objec
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct ClipVertices {
     std::vector<glm::dvec3> places;  // (x, y, w) of the pinhole image
@@ -17,4 +17,4 @@ struct ClipVertices {
 ClipVertices clipVertices(const FramePlan& plan, const World& world, const ObjectPlan& object, std::uint32_t level,
                           const ObjectPose& pose, double time);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -170,4 +170,4 @@ std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, 
     return values;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Where an object's box lies; unlimited: it touches everything.
 struct ContactBounds {
@@ -38,4 +38,4 @@ double contactGap(const ContactBounds& a, const ContactBounds& b);
 std::vector<double> spreadOverContact(const std::vector<ContactBounds>& bounds, std::vector<double> values,
                                       double least, double most);
 
-}  // namespace defocus
+}  // namespace defocus::engine

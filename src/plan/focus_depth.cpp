@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "scene/pick.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -91,4 +91,4 @@ double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, con
     return *depth;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

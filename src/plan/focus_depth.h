@@ -10,7 +10,7 @@
 
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the depth of the node's centre. Throws Error if there is no such node or if it lies behind the camera.
 double depthOfNode(const Scene& scene, const Pose& pose, const View& view, std::string_view name, const char* who);
@@ -34,4 +34,4 @@ std::optional<double> depthOfMiddle(const Scene& scene, const Pose& pose, const 
 // The same, but throws Error if it shows no surface.
 double depthOfMiddle(const Scene& scene, const Pose& pose, const View& view, const char* who);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -19,7 +19,7 @@
 #include "plan/visibility.h"
 #include "scene/posed_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -371,4 +371,4 @@ FramePlan planFrame(const World& world, const View& view, const RenderSettings& 
     return plan;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

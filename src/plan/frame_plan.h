@@ -13,7 +13,7 @@
 #include "plan/tiles.h"
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The time of a sample.
 struct SampleMoment {
@@ -164,4 +164,4 @@ std::optional<std::uint32_t> boundarySample(const ObjectPlan& object);
 // together.
 FramePlan planFrame(const World& world, const View& view, const RenderSettings& settings);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "plan/frame_plan.h"
 #include "plan/lens_groups.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -179,4 +179,4 @@ double pixelRate(const LensCells& cells, double coc) {
     return 1 / std::sqrt(std::max(1.0, 3 * (variance - 1.0 / 6)));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FramePlan;
 
@@ -52,4 +52,4 @@ LensCells lensCells(const FramePlan& plan);
 // for a pixel. 1 where images stay as they are.
 double pixelRate(const LensCells& cells, double coc);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -53,4 +53,4 @@ LensTriangle between(const LensTriangle& from, const LensTriangle& to, double sh
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LensTriangle {
     std::array<glm::dvec3, 3> places;  // (x, y, w) of the pinhole image
@@ -29,4 +29,4 @@ double largestDeterminant(const LensTriangle& from, const LensTriangle& to, doub
 // The triangle at a share of the way.
 LensTriangle between(const LensTriangle& from, const LensTriangle& to, double share);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::vector<std::uint32_t> groupedOrder(std::span<const LensSample> samples, std
     return order;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

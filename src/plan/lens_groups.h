@@ -7,7 +7,7 @@
 
 #include "lens/lens_samples.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns an order of `samples` in which run g of `groupSize` samples, the last one perhaps shorter, are neighbours of
 // images[g] on the lens: both sets are halved across the longer side of the samples again and again, always between
@@ -16,4 +16,4 @@ namespace defocus {
 std::vector<std::uint32_t> groupedOrder(std::span<const LensSample> samples, std::span<const LensSample> images,
                                         std::uint32_t groupSize);
 
-}  // namespace defocus
+}  // namespace defocus::engine

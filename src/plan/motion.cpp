@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "plan/object_pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -95,4 +95,4 @@ void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPl
         plan.middleFromView.clear();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Throws Error if the shutter's poses and cameras don't belong to one scene at the same moments, or if there are fewer
 // of them than the samples need.
@@ -21,4 +21,4 @@ bool shutterIsOpen(const World& world, const View& view);
 // vertices changes.
 void planMoments(FramePlan& plan, const World& world, const std::vector<ObjectPlan>& casters);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -76,4 +76,4 @@ bool mirrors(const ObjectPose& pose) {
     return balance > 0;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

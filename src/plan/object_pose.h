@@ -3,7 +3,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 ObjectPose objectPose(const Object& object, const glm::dmat4& viewFromWorld);
 
@@ -21,4 +21,4 @@ double largestScale(const ObjectPose& pose);
 // Returns whether the pose flips the winding of triangles. The joints of a skin decide by majority.
 bool mirrors(const ObjectPose& pose);
 
-}  // namespace defocus
+}  // namespace defocus::engine

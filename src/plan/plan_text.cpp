@@ -9,7 +9,7 @@
 #include "lens/lens_fields.h"
 #include "plan/rates.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -198,4 +198,4 @@ std::string planJson(const FramePlan& plan) {
     return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::string planTable(const FramePlan& plan);
 // The keys are image, lens, samples, shutter, objects[], leftOut[] and triangles. An object has name, depth, coc,
@@ -13,4 +13,4 @@ std::string planTable(const FramePlan& plan);
 // sample with the second.
 std::string planJson(const FramePlan& plan);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "plan/sample_range.h"
 #include "plan/shadows.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -238,4 +238,4 @@ std::uint64_t ratedTriangles(const FramePlan& plan, const FrameRates& rates) {
     return triangles;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

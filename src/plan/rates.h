@@ -30,7 +30,7 @@
 #include "plan/frame_plan.h"
 #include "plan/lens_cells.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr std::uint32_t rateBlock = 64;        // samples a block
 inline constexpr std::uint32_t leastLensGroups = 16;  // of a block: as few pixel offsets still smooth an edge
@@ -94,4 +94,4 @@ RatedBlock ratedBlock(const FramePlan& plan, const FrameRates& rates, std::uint3
 // Returns the triangles that multirate draws for `plan`; without rates they are FramePlan::trianglesDrawn.
 std::uint64_t ratedTriangles(const FramePlan& plan, const FrameRates& rates);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #include "plan/render_settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor) {
     const LodThresholds standard = chosenThresholds(settings.thresholds, settings.metric, sampleCount);
@@ -13,4 +13,4 @@ void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double f
         settings.thresholds = {.blur = factor * standard.blur, .size = factor * standard.size};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include "defocus/settings.h"
 #include "lod/pyramid/level_selection.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What may hide that a level is coarse. Benches isolate one cause; images need both.
 enum class LodCause {
@@ -32,4 +32,4 @@ struct RenderSettings {
 // Fixes the thresholds at `factor` times those that frames of `sampleCount` samples have.
 void fixThresholds(RenderSettings& settings, std::uint32_t sampleCount, double factor = 1);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::uint64_t trianglesDrawn(const FramePlan& plan, std::uint32_t first, std::ui
     return triangles;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the plan of samples [first, first + count) of `plan`: sample i of the result is sample first + i. The range
 // must lie within the plan. Objects stay in the plan even if none of these samples draws them.
@@ -13,4 +13,4 @@ FramePlan samplesOf(const FramePlan& plan, std::uint32_t first, std::uint32_t co
 // Returns how many triangles samples [first, first + count) of `plan` draw.
 std::uint64_t trianglesDrawn(const FramePlan& plan, std::uint32_t first, std::uint32_t count);
 
-}  // namespace defocus
+}  // namespace defocus::engine

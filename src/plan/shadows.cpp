@@ -13,7 +13,7 @@
 
 #include "plan/object_pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -472,4 +472,4 @@ std::vector<ShadowProjection> shadowProjections(const World& world, const FrameP
     return projections;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr int surroundings = -1;  // as a light
 // A sample: weaker lights cast no shadow. What they leave is for several points on each light, where samples are few.
@@ -61,4 +61,4 @@ std::vector<ShadowProjection> shadowProjections(const World& world, const FrameP
 // The concentric map of the square [0, 1)² to the unit disk (Shirley and Chiu 1997).
 glm::dvec2 diskPoint(const glm::dvec2& point);
 
-}  // namespace defocus
+}  // namespace defocus::engine

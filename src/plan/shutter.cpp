@@ -4,7 +4,7 @@
 
 #include "lens/lens_samples.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -56,4 +56,4 @@ void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
         view.shutterCameras.clear();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

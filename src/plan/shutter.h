@@ -7,7 +7,7 @@
 
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // How long the shutter is open, and how motion is followed meanwhile.
 struct ShutterSettings {
@@ -33,4 +33,4 @@ struct ShutterMoment {
 void openShutter(const ShutterSettings& shutter, const RenderSettings& settings,
                  const std::function<ShutterMoment(double)>& momentAt, Shutter& opened, View& view);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "plan/clip_vertices.h"
 #include "plan/lens_facing.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -152,4 +152,4 @@ Image sweptWorkColourMap(const Image& work) {
     return colourMapped(shares);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

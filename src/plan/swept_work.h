@@ -6,7 +6,7 @@
 #include "image/image.h"
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // One channel: triangles a pixel of the image. A triangle counts in all pixels that its bounding rectangle overlaps,
 // over all lens points and times; one that reaches the near plane counts in all pixels, and one that shows its back to
@@ -19,4 +19,4 @@ inline constexpr float mostShownSweptWork = 16383;
 // As colours that a person can read: black where nothing is, then brighter with the logarithm (magma).
 Image sweptWorkColourMap(const Image& work);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "plan/frame_plan.h"
 #include "plan/visibility.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -48,4 +48,4 @@ FramePlan tileOf(const FramePlan& plan, const Tile& tile) {
     return part;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

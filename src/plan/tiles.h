@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FramePlan;
 
@@ -47,4 +47,4 @@ RowRange rowsOfPart(int height, int index, int count);
 // through itself. Levels, lens samples and all else stay those of the whole frame.
 FramePlan tileOf(const FramePlan& plan, const Tile& tile);
 
-}  // namespace defocus
+}  // namespace defocus::engine

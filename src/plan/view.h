@@ -14,7 +14,7 @@
 #include "scene/pose.h"
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct View {
     glm::dmat4 worldFromCamera{1.0};  // a rigid transform; the camera looks along its −z axis
@@ -46,4 +46,4 @@ struct World {
     std::vector<Pyramid> pyramids;  // one for each mesh of the scene
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

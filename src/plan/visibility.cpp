@@ -14,7 +14,7 @@
 #include "plan/clip_vertices.h"
 #include "plan/lens_facing.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -498,4 +498,4 @@ void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& p
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -29,7 +29,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the part of `viewBox` in front of the near plane as the lens sees it; `own` is what its surfaces make of the
 // blur.
@@ -45,4 +45,4 @@ bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const O
 // Fills object.visible and lowers the triangle counts of its draws.
 void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan);
 
-}  // namespace defocus
+}  // namespace defocus::engine

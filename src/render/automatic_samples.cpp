@@ -6,7 +6,7 @@
 
 #include "render/frame_uniforms.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -33,4 +33,4 @@ std::uint32_t samplesForBlur(const FramePlan& plan) {
     return static_cast<std::uint32_t>(blocks) * blockSamples;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr std::uint32_t leastAutomaticSamples = 32;
 inline constexpr std::uint32_t mostAutomaticSamples = 1024;
@@ -21,4 +21,4 @@ std::uint32_t samplesForBlur(const FramePlan& plan);
 // The diameter, px; 0 where nothing has a bound.
 double largestBoundedBlur(const FramePlan& plan);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace defocus {
+namespace defocus::engine {
 
 void Backdrop::take(const GlTexture& colors, std::uint32_t count, bool blurred) {
     TextureInfo info = colors.info();
@@ -20,4 +20,4 @@ void Backdrop::take(const GlTexture& colors, std::uint32_t count, bool blurred) 
     if (blurred) copy_.generateMipmaps();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

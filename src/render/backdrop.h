@@ -3,7 +3,7 @@
 
 #include "gl/texture.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class Backdrop {
 public:
@@ -17,4 +17,4 @@ private:
     GlTexture copy_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "render/automatic_samples.h"
 #include "render/frame_uniforms.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::optional<StopReason> BlockSchedule::reasonToStop(const FramePlan& plan, dou
     return {};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "render/error_estimate.h"
 #include "render/stop_settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // "the estimated error is below the target"
 const char* stopReasonText(StopReason reason);
@@ -73,4 +73,4 @@ private:
     std::optional<StopReason> stopped_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

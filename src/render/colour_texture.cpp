@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 GlTexture colourMapTexture(glm::vec3 (*map)(float)) {
     constexpr int width = 256;
@@ -19,4 +19,4 @@ GlTexture colourMapTexture(glm::vec3 (*map)(float)) {
     return texture;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,9 +4,9 @@
 #include "gl/texture.h"
 #include "image/colour_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // `map` from 0 (left) to 1 (right): 256 x 1, linear RGBA.
 GlTexture colourMapTexture(glm::vec3 (*map)(float));
 
-}  // namespace defocus
+}  // namespace defocus::engine

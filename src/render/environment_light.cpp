@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::array<glm::vec4, 9> diffuseCoefficients(const Environment& environment) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,11 +7,11 @@
 
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Irradiance over π as a function of the normal n. A gradient gives a zonal polynomial c0 + c1·n.y + c2·n.y², a map the
 // nine coefficients of second-order spherical harmonics (Ramamoorthi and Hanrahan 2001), in the order 1, y, z, x, xy,
 // yz, 3z² − 1, xz, x² − y². Other types need none (zeros).
 std::array<glm::vec4, 9> diffuseCoefficients(const Environment& environment);
 
-}  // namespace defocus
+}  // namespace defocus::engine

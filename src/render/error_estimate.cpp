@@ -11,7 +11,7 @@
 #include "core/parallel.h"
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -100,4 +100,4 @@ void ErrorEstimate::add(const ImageView& mean, std::uint32_t samples) {
     while (kept_.size() > 2 && kept_[1].samples <= samples / 4) kept_.erase(kept_.begin());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

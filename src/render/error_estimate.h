@@ -20,7 +20,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The exponent a of lens samples in a picture. Random points have 0.5, straight edges under a well spread set 0.75; the
 // mean over four sequences and three scenes, from 64 to 1,024 samples, is 0.59 (bench/results/llvmpipe-sequences.txt).
@@ -56,4 +56,4 @@ private:
     std::optional<double> error_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include "core/stopwatch.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void FrameClock::beginSetup() {
     setupMilliseconds_ = 0;
@@ -33,4 +33,4 @@ void FrameClock::fill(RenderStats& stats) {
     stats.driver = currentDriver();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

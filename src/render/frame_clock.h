@@ -7,7 +7,7 @@
 #include "gl/timer.h"
 #include "render/renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class FrameClock {
 public:
@@ -31,4 +31,4 @@ private:
     GpuTimer timer_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "render/automatic_samples.h"
 #include "render/frame_uniforms.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void checkStop(const StopSettings& stop, const Method& method, const ShutterSettings& shutter) {
     if (!stop.given()) return;
@@ -131,4 +131,4 @@ RenderStats FrameRun::stats() const {
     return stats;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "render/block_schedule.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Throws UsageError where the settings can't be followed: by a method that doesn't sum blocks (Method::sumsBlocks), or
 // with a pose of its own for each of a number of samples that isn't known.
@@ -55,4 +55,4 @@ private:
     std::chrono::steady_clock::time_point begin_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

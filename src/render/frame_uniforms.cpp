@@ -11,7 +11,7 @@
 #include "render/environment_light.h"
 #include "render/layer_window.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -287,4 +287,4 @@ std::size_t FrameUniforms::bytes() const {
            waves_.bytes() + bandShifts_.bytes() + sampleBands_.bytes() + environmentMap_.bytes();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "gl/texture.h"
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr std::uint32_t blockSamples = 64;  // samples a block of the sum
 
@@ -62,4 +62,4 @@ private:
     GlTexture environmentMap_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -69,4 +69,4 @@ void poseDefines(ShaderDefines& defines, const GpuPoses& poses, const GpuMesh& m
     if (mesh.deformation.morphTangents) defines.emplace_back("MORPH_TANGENTS", "1");
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "plan/frame_plan.h"
 #include "render/gpu_scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct GpuPoses {
     TexelBuffer texels;    // RGBA32F; empty for an object whose one matrix says all
@@ -24,4 +24,4 @@ GpuPoses gpuPoses(const FramePlan& plan, const ObjectPlan& object, const GpuMesh
 // Adds what the vertex shader of an object in these poses needs.
 void poseDefines(ShaderDefines& defines, const GpuPoses& poses, const GpuMesh& mesh);
 
-}  // namespace defocus
+}  // namespace defocus::engine

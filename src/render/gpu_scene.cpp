@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -350,4 +350,4 @@ std::size_t GpuScene::bytes() const {
     return total;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -15,7 +15,7 @@
 #include "gl/texture.h"
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Vertex attribute locations of shaders/accumulation/object.vert.
 enum AttributeLocation : unsigned {
@@ -127,4 +127,4 @@ private:
     std::map<int, GpuMaterialTextures> materialTextures_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

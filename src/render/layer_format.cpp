@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::size_t layerPixelBytes(LayerFormat format) {
     return pixelBytes(layerTextureFormat(format)) + pixelBytes(TextureFormat::depth32f);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

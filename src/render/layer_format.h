@@ -5,7 +5,7 @@
 #include "gl/texture.h"
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // `asked`, or for automatic what the world's radiance needs. Throws Error for a format that can't hold what the plan
 // draws.
@@ -18,4 +18,4 @@ TextureFormat layerTextureFormat(LayerFormat format);
 // Bytes a pixel of one layer, depth included.
 std::size_t layerPixelBytes(LayerFormat format);
 
-}  // namespace defocus
+}  // namespace defocus::engine

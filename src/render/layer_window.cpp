@@ -1,6 +1,6 @@
 #include "render/layer_window.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 LayerWindow layerWindow(const FramePlan& plan) {
     const int width = plan.view.width;
@@ -22,4 +22,4 @@ LayerWindow layerWindow(const FramePlan& plan) {
     return window;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

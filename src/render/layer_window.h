@@ -4,7 +4,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LayerWindow {
     // Of the layers, px.
@@ -28,4 +28,4 @@ struct LayerWindow {
 // Of the plan's tile, or of the whole image. What transmits may show any pixel of a layer, so nothing is cut then.
 LayerWindow layerWindow(const FramePlan& plan);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -16,7 +16,7 @@
 #include "render/scheuermann/scheuermann.h"
 #include "render/stochastic/stochastic.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::string settingsText(const std::vector<MethodSetting>& known, const MethodSe
     return text;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

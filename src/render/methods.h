@@ -15,7 +15,7 @@
 #include "render/layer_format.h"
 #include "render/renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct MethodSetting {
     std::string name;                  // "far-components"; on the command line --far-components
@@ -92,4 +92,4 @@ double valueAt(const View& view, const MethodSettings& settings, const std::stri
 // "taps=16,coc=thin-lens": what differs from the standard values, in the table's order; empty when nothing does.
 std::string settingsText(const std::vector<MethodSetting>& known, const MethodSettings& settings);
 
-}  // namespace defocus
+}  // namespace defocus::engine

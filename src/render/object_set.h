@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Some of a plan's objects: whether each is among them. An empty set stands for all.
 using ObjectSet = std::vector<bool>;
@@ -12,4 +12,4 @@ inline bool contains(const ObjectSet& set, std::size_t object) {
     return set.empty() || set[object];
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "core/stopwatch.h"
 #include "render/frame_uniforms.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -109,4 +109,4 @@ bool ProgressiveImage::grow(double milliseconds) {
     return !finished_;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

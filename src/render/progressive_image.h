@@ -9,7 +9,7 @@
 #include "render/block_schedule.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class ProgressiveImage {
 public:
@@ -59,4 +59,4 @@ private:
     double millisecondsPerSample_ = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

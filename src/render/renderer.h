@@ -10,7 +10,7 @@
 #include "image/image.h"
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class GlTexture;
 
@@ -79,4 +79,4 @@ public:
     [[nodiscard]] virtual const GlTexture* imageTexture() { return nullptr; }
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

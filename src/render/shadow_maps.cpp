@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -120,4 +120,4 @@ void ShadowMaps::bind(std::uint32_t sample) const {
     glUniform1i(firstSampleLocation, static_cast<GLint>(sample - layer));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

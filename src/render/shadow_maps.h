@@ -8,7 +8,7 @@
 #include "plan/shadows.h"
 #include "render/surface_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class ShadowMaps {
 public:
@@ -41,4 +41,4 @@ private:
 // Bytes of the maps of one lens sample.
 std::uint64_t shadowMapBytes(const FramePlan& plan);
 
-}  // namespace defocus
+}  // namespace defocus::engine

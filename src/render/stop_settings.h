@@ -6,7 +6,7 @@
 
 #include "defocus/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // With a target error or a time limit, blocks of 64 samples are added until one of them is reached. Levels of detail
 // get finer with the expected number of samples. RenderSettings::sampleCount then counts for nothing.
@@ -25,4 +25,4 @@ struct StopSettings {
     [[nodiscard]] bool given() const { return targetError || timeLimit; }
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "plan/object_pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::string keyOf(const ShaderDefines& defines) {
     return key;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "render/gpu_scene.h"
 #include "render/uniform_blocks.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // An object's uniform block of shaders/include/frame.glsl, std140.
 struct GpuObject {
@@ -48,4 +48,4 @@ ShaderDefines surfaceDefines(const GpuScene& scene, const GpuMesh& mesh, int mat
 // One text for each set of defines.
 std::string keyOf(const ShaderDefines& defines);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 
 #include "render/shadow_maps.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -395,4 +395,4 @@ std::size_t SurfacePass::bytes() const {
     return total;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

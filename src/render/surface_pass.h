@@ -15,7 +15,7 @@
 #include "render/occlusion/occlusion.h"
 #include "render/surface_draws.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct SurfacePassInfo {
     std::string fragmentShader;  // under shaders/
@@ -126,7 +126,7 @@ private:
     int shadowSlot_ = 0;  // that casters are drawn into
     UniformBlocks<GpuObject> objectBlocks_;
     UniformBlocks<GpuMaterial> materialBlocks_;
-    std::vector<GpuPoses> poses_;                      // as many as objects
+    std::vector<GpuPoses> poses_;  // as many as objects
     std::map<int, std::size_t> materialSlots_;
     std::vector<Draw> opaque_;
     bool marksBlended_ = false;
@@ -137,4 +137,4 @@ private:
     Occlusion occlusion_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

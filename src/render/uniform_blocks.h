@@ -6,7 +6,7 @@
 
 #include "gl/buffer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // `bytes` rounded up to where a uniform block may begin.
 std::size_t uniformStride(std::size_t bytes);
@@ -33,4 +33,4 @@ private:
     Buffer buffer_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/suggestion.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -111,4 +111,4 @@ glm::dquat sampleRotation(const AnimationChannel& channel, double time) {
     return glm::dot(rotation, rotation) > 0 ? glm::normalize(rotation) : glm::dquat(1, 0, 0, 0);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // `count` floats of the channel at `time` (3 for translation and scale, one a target for weights). Times outside the
 // keys hold the first or last value.
@@ -22,4 +22,4 @@ double loopedTime(const AnimationClip& clip, double time);
 // A rotation channel (x, y, z, w a key) at `time`: spherical interpolation along the shorter arc, unit length.
 glm::dquat sampleRotation(const AnimationChannel& channel, double time);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 
 #include "core/parallel.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -164,4 +164,4 @@ Image turnedEnvironment(const Image& map, double angle) {
     return turned;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "image/image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // "studio" (softboxes in a dark room), "overcast" (the CIE's overcast sky), "sunset" (a low sun)
 std::span<const std::string_view> builtInEnvironments();
@@ -21,4 +21,4 @@ Image builtInEnvironment(const std::string& name);
 // The map turned counter-clockwise, seen from above, by an angle in radians.
 Image turnedEnvironment(const Image& map, double angle);
 
-}  // namespace defocus
+}  // namespace defocus::engine

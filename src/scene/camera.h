@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace defocus {
+namespace defocus::engine {
 
 // The draft extension EXT_camera_physical: the lens and sensor of a camera, whose field of view stays that of the file.
 struct PhysicalCamera {
@@ -33,4 +33,4 @@ struct Camera {
     }
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

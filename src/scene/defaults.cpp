@@ -13,7 +13,7 @@
 #include "core/error.h"
 #include "core/suggestion.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -231,4 +231,4 @@ Environment environmentOrDefault(const Scene& scene) {
     return sky;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "defocus/camera.h"
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct PlacedCamera {
     Camera camera;
@@ -49,4 +49,4 @@ Environment environmentOrDefault(const Scene& scene);
 // seventh of what they do. 1 at least.
 double skyScale(const Pose& pose);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -80,4 +80,4 @@ void addGround(Scene& scene, const Pose& pose) {
     scene.nodes.push_back(std::move(node));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

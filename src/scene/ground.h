@@ -3,7 +3,7 @@
 
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Adds a mesh, a material and a node (Node::ground): a level, matt, grey disk at the lowest point
 // of `pose`, the scene's own at some time, and about its middle. It reaches 30 times as far as what stands on it, so
@@ -16,4 +16,4 @@ void removeGround(Scene& scene);
 // Has it been added?
 bool hasGround(const Scene& scene);
 
-}  // namespace defocus
+}  // namespace defocus::engine

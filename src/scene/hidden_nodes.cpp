@@ -6,7 +6,7 @@
 
 #include "scene/posed_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -60,4 +60,4 @@ void hideNodes(const Scene& scene, std::span<const std::string> namesOrNumbers, 
     if (left > 0 && !pose.bounds.empty()) pose.bounds = boundsOf(scene, pose);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

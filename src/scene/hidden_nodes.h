@@ -6,7 +6,7 @@
 
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Takes the objects of these nodes, and of all nodes below them, out of the pose. Bounds that it had are those of what
 // is left; cameras and lights stay. A node is called by its name, or, where it has none or shares it, by its number in
@@ -19,4 +19,4 @@ int nodeCalled(const Scene& scene, const std::string& nameOrNumber);
 // What a node is to be called; see hideNodes.
 std::string callingOf(const Scene& scene, int node);
 
-}  // namespace defocus
+}  // namespace defocus::engine

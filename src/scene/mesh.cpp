@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
     return normals;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 
 #include "core/bounds.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What a vertex makes of the blur c that the lens gives its place: factor·c, and signed millimetres on the sensor
 // besides (> 0 as behind the focus), which change linearly from the opening of the shutter to its closing. That is the
@@ -83,4 +83,4 @@ Bounds boundsOf(const std::vector<glm::vec3>& positions);
 std::vector<glm::vec3> smoothNormals(const std::vector<glm::vec3>& positions,
                                      const std::vector<std::uint32_t>& indices);
 
-}  // namespace defocus
+}  // namespace defocus::engine

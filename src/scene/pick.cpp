@@ -10,7 +10,7 @@
 
 #include "scene/posed_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -121,10 +121,9 @@ public:
 
     [[nodiscard]] double nearestCrossing(const Ray& world, double nearest) const {
         if (misses(world, ball_)) return nearest;
-        if (!deformed_) return defocus::nearestCrossing(mesh_, bounds_, object_.worldFromObject, world, nearest);
+        if (!deformed_) return engine::nearestCrossing(mesh_, bounds_, object_.worldFromObject, world, nearest);
         if (!reaches(world, bounds_, nearest)) return nearest;
-        return defocus::nearestCrossing(mesh_, world, nearest,
-                                        [&](std::uint32_t vertex) { return positions_[vertex]; });
+        return engine::nearestCrossing(mesh_, world, nearest, [&](std::uint32_t vertex) { return positions_[vertex]; });
     }
 
 private:
@@ -167,4 +166,4 @@ std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dve
     return firstHits(scene, pose, origin, {direction}).front();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Hit {
     double distance = 0;  // m along the unit direction
@@ -20,4 +20,4 @@ std::vector<std::optional<Hit>> firstHits(const Scene& scene, const Pose& pose, 
 std::optional<Hit> firstHit(const Scene& scene, const Pose& pose, const glm::dvec3& origin,
                             const glm::dvec3& direction);
 
-}  // namespace defocus
+}  // namespace defocus::engine

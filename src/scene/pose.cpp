@@ -10,7 +10,7 @@
 #include "scene/animation.h"
 #include "scene/posed_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -288,4 +288,4 @@ glm::dvec3 nodeCentre(const Scene& scene, const Pose& pose, int node) {
     return glm::dvec3(pose.worldFromNode[static_cast<std::size_t>(node)][3]);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Object {  // a mesh instance with all its primitives
     int mesh = -1;
@@ -55,4 +55,4 @@ int nodeNamed(const Scene& scene, std::string_view name);
 // World position of a node: the centre of its mesh's bounds, as posed, where it has one, else its origin.
 glm::dvec3 nodeCentre(const Scene& scene, const Pose& pose, int node);
 
-}  // namespace defocus
+}  // namespace defocus::engine

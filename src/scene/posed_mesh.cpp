@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -91,4 +91,4 @@ Bounds posedBounds(const Mesh& mesh, const Bounds& meshBounds, const Object& obj
     return bounds;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A vertex is p' = Σ w_j · M_j · (p + Σ m_t · d_t) / Σ w_j with joint weights w and morph weights m. A weight that is
 // no number counts as 0, the skin's first joint for those that it lacks, and for vertices without any.
@@ -38,4 +38,4 @@ Bounds posedBounds(const Mesh& mesh, const Object& object);
 // As posedBounds, for `meshBounds` that were measured before.
 Bounds posedBounds(const Mesh& mesh, const Bounds& meshBounds, const Object& object);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -21,7 +21,7 @@
 #include "scene/camera.h"
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // ---- materials ----------------------------------------------------------------------------------
 
@@ -234,4 +234,4 @@ struct Scene {
     std::vector<Ignored> ignored;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

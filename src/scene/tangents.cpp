@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -101,4 +101,4 @@ VertexBlock withTangents(const VertexBlock& block, std::span<std::vector<std::ui
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -40,4 +40,4 @@ double guessedMetresPerUnit(double extent) {
     return std::pow(10, std::round(std::log10(everyday / extent)));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

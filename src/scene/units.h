@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Metres of a unit: "m", "cm", "mm", or a number of metres from 1e-9 to 1e9. Throws Error for anything else.
 double metresOfUnit(const std::string& text);
@@ -16,4 +16,4 @@ std::string unitOfMetres(double metres);
 // extent that is no positive number.
 double guessedMetresPerUnit(double extent);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -144,4 +144,4 @@ glm::vec3 perpendicular(const glm::vec3& normal) {
     return {1.0f + sign * normal.x * normal.x * a, sign * normal.x * normal.y * a, -sign * normal.x};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct VertexBlock {
     Vertices vertices;
@@ -33,4 +33,4 @@ std::uint32_t append(Mesh& mesh, const VertexBlock& block);
 // Any unit vector perpendicular to the unit vector `normal`.
 glm::vec3 perpendicular(const glm::vec3& normal);
 
-}  // namespace defocus
+}  // namespace defocus::engine

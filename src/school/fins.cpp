@@ -7,7 +7,7 @@
 
 #include "school/surface.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr float rimHalfThickness = 0.0013f;  // body lengths
@@ -231,4 +231,4 @@ void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, Fis
     stitchShell(strips, count, surface.positions, surface.indices);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

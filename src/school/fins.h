@@ -8,7 +8,7 @@
 
 #include "school/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FinRay {
     glm::vec3 root{0.0f};
@@ -36,4 +36,4 @@ std::vector<Fin> fishFins(const FishShape& shape);
 FinRows finRows(const Fin& fin, float edge);
 void addFin(const Fin& fin, const FinRows& rows, const FishPattern& pattern, FishSurface& surface);
 
-}  // namespace defocus
+}  // namespace defocus::engine

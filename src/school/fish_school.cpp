@@ -16,7 +16,7 @@
 #include "school/random.h"
 #include "school/species.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int maximumFish = 10'000;
@@ -226,4 +226,4 @@ Scene fishSchool(const FishSchoolOptions& options, const Progress& progress) {
     return scene;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FishSchoolOptions {
     int fishCount = 20;             // 1 … 10,000
@@ -19,4 +19,4 @@ struct FishSchoolOptions {
 // range.
 Scene fishSchool(const FishSchoolOptions& options = {}, const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "school/fins.h"
 #include "school/surface.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
@@ -259,4 +259,4 @@ Mesh fishMesh(const Fish& fish, int triangles, int skinMaterial, int eyeMaterial
     return mesh;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "school/pattern.h"
 #include "school/shape.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Fish {
     std::string species;
@@ -31,4 +31,4 @@ struct FishSurface {
     void add(const glm::vec3& position, const glm::vec3& color);
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "school/random.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr float softness = 0.012f;  // of painted borders, in body lengths: a few edges of the mesh
@@ -141,4 +141,4 @@ glm::vec3 eyeColor(const FishPattern& pattern, float angle) {
     return glm::mix(color, black, glm::smoothstep(0.36f, 0.42f, fromPupil));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "school/shape.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FishBand {  // around the body
     float a = 0.5f;
@@ -86,4 +86,4 @@ glm::vec3 eyeColor(const FishPattern& pattern, float angle);
 // 0xRRGGBB in sRGB → linear.
 glm::vec3 linearColor(std::uint32_t srgb);
 
-}  // namespace defocus
+}  // namespace defocus::engine

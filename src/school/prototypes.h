@@ -5,7 +5,7 @@
 
 #include "school/mesh.h"
 
-namespace defocus::prototypes {
+namespace defocus::engine::prototypes {
 
 Fish angelfish(int variant);
 Fish butterflyfish(int variant);
@@ -45,4 +45,4 @@ inline void setPairedFins(FishPattern& p, std::uint32_t root, std::uint32_t edge
     p.pairedEdge = rgb(edge);
 }
 
-}  // namespace defocus::prototypes
+}  // namespace defocus::engine::prototypes

@@ -1,6 +1,6 @@
 #include "school/prototypes.h"
 
-namespace defocus::prototypes {
+namespace defocus::engine::prototypes {
 
 // ---- tall disks
 // ----------------------------------------------------------------------------------------------------------
@@ -134,4 +134,4 @@ Fish idol(int) {
     return fish;
 }
 
-}  // namespace defocus::prototypes
+}  // namespace defocus::engine::prototypes

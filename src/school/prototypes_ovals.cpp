@@ -1,6 +1,6 @@
 #include "school/prototypes.h"
 
-namespace defocus::prototypes {
+namespace defocus::engine::prototypes {
 
 // ---- ovals
 // ---------------------------------------------------------------------------------------------------------------
@@ -178,4 +178,4 @@ Fish goldfish(int variant) {
     return fish;
 }
 
-}  // namespace defocus::prototypes
+}  // namespace defocus::engine::prototypes

@@ -1,6 +1,6 @@
 #include "school/prototypes.h"
 
-namespace defocus::prototypes {
+namespace defocus::engine::prototypes {
 
 // ---- swimmers
 // ------------------------------------------------------------------------------------------------------------
@@ -89,4 +89,4 @@ Fish parrotfish(int variant) {
     return fish;
 }
 
-}  // namespace defocus::prototypes
+}  // namespace defocus::engine::prototypes

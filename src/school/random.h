@@ -8,7 +8,7 @@
 
 #include "core/hash.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class FishRandom {
 public:
@@ -56,4 +56,4 @@ inline float valueNoise(const glm::vec2& p, std::uint32_t seed) {
                     glm::mix(latticeValue(x, y + 1, seed), latticeValue(x + 1, y + 1, seed), s.x), s.y);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

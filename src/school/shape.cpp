@@ -9,7 +9,7 @@
 
 #include "school/random.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr float originA = 0.45f;  // the bend leaves this point of the spine where it is
@@ -178,4 +178,4 @@ glm::vec3 FishSpine::bend(const glm::vec3& straight) const {
     return {position.x + straight.z * std::sin(heading), straight.y, position.y + straight.z * std::cos(heading)};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

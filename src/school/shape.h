@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Where the outline's knots lie; the outline is round at the snout (it grows with the root of `a`).
 inline constexpr std::array<float, 9> fishKnots{0.0f, 0.04f, 0.12f, 0.25f, 0.4f, 0.55f, 0.7f, 0.85f, 1.0f};
@@ -119,4 +119,4 @@ private:
     std::array<Station, steps + 1> table_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

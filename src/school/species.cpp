@@ -5,7 +5,7 @@
 #include "school/prototypes.h"
 #include "school/random.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Fish prototype(FishSpecies species, int variant) {
@@ -71,4 +71,4 @@ Fish makeFish(FishSpecies species, int variant, float length, std::uint32_t seed
     return fish;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "school/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class FishSpecies { angelfish, butterflyfish, anthias, tang, fusilier, goldfish, clownfish, parrotfish, idol };
 inline constexpr int fishSpeciesCount = 9;
@@ -15,4 +15,4 @@ inline constexpr int fishSpeciesCount = 9;
 // fish.
 Fish makeFish(FishSpecies species, int variant, float length, std::uint32_t seed, std::uint32_t number);
 
-}  // namespace defocus
+}  // namespace defocus::engine

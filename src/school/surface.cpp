@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<std::uint32_t>& indices) {
@@ -114,4 +114,4 @@ std::uint64_t shellTriangles(const std::vector<std::uint32_t>& counts) {
     return 2u * side + 2u * outlineEdges;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // `count` consecutive vertices from `first`. Closed rows (rings) are evenly spaced from `offset` (in steps, 0 … 1) all
 // around; open rows are evenly spaced from end to end.
@@ -33,4 +33,4 @@ void stitchShell(const std::vector<VertexRow>& rows, std::uint32_t backOffset, c
 std::uint64_t ringTriangles(const std::vector<std::uint32_t>& counts);
 std::uint64_t shellTriangles(const std::vector<std::uint32_t>& counts);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "capture/shot_options.h"
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Two nodes without meshes, "Still" at (0, 0, −4) and "Rising", which climbs 1 m a second for 2 s; a camera of its own
@@ -301,4 +301,4 @@ TEST_F(FrameSequence, exposureFollowsTheLens) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

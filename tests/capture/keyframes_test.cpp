@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 const std::vector<Key<double>> steps = {{0, 1}, {10, 4}, {14, 4}, {30, -2}, {31, -3}};
@@ -61,4 +61,4 @@ TEST(Keyframes, pointsMoveComponentByComponent) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

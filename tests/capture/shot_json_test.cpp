@@ -5,7 +5,7 @@
 #include "capture/shot_options.h"
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::string faultOf(std::string_view text, const std::vector<ShotOverride>& overrides = {}) {
@@ -171,4 +171,4 @@ TEST(ShotJson, rangesOfTheCommandLine) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -17,7 +17,7 @@
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using nlohmann::json;
@@ -324,4 +324,4 @@ TEST(ShotSchema, eachPropertySaysWhatItIsAndWhatItMayBe) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

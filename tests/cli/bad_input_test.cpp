@@ -14,7 +14,7 @@
 #include "models.h"
 #include "scene/gltf/builder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -412,4 +412,4 @@ TEST_F(BadInput, trianglesWithoutPlaceAreAWarning) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Of a process that was just forked: works in `folder`, has its caches in `caches`, and writes to the files `out` and
 // `error` (descriptors). Never returns.
@@ -25,4 +25,4 @@ namespace defocus {
     ::_exit(98);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

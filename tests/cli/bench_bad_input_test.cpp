@@ -5,7 +5,7 @@
 #include "cli/two_quads.h"
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Bench : public ProgramTest {
@@ -72,4 +72,4 @@ TEST(BenchResults, areNotWrittenFromChangedSources) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

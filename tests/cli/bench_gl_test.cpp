@@ -8,7 +8,7 @@
 #include "cli/gl_program.h"
 #include "cli/two_quads.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -235,4 +235,4 @@ TEST_F(BenchSpeedup, measuresAPresetBesideNone) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

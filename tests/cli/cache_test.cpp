@@ -4,7 +4,7 @@
 
 #include "cli/program.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,4 +122,4 @@ TEST_F(Cache, wrongCommandLinesAndFolders) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

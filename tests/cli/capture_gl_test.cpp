@@ -7,7 +7,7 @@
 #include "cli/shots.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -366,4 +366,4 @@ TEST_F(Capture, signalThatEndsFfmpegIsNamed) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "cli/shots.h"
 #include "cli/traced_child.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ TEST_F(Survival, fullFileSystemKeepsWholeFrames) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "core/error.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Compare : public testing::Test {
@@ -153,4 +153,4 @@ TEST_F(Compare, helpHasAnExample) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "cli/option_test.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using nlohmann::json;
@@ -188,4 +188,4 @@ TEST_F(EveryOption, cacheFolderIsNamed) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

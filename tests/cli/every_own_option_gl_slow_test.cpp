@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "eval/scaling/scaling.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -224,4 +224,4 @@ TEST_F(OwnOption, stabilityWritesWhereItIsTold) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include "cli/program.h"
 #include "scene/gltf/builder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using nlohmann::json;
@@ -96,4 +96,4 @@ TEST_F(ExposureOptions, wrongValuesGiveOneLine) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

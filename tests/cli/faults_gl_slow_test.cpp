@@ -18,7 +18,7 @@
 #include "gl/context.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -372,4 +372,4 @@ TEST_F(Faults, aReadOnlyFolderIsOneLineAndNeverACrash) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

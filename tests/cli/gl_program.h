@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class GlProgramTest : public ProgramTest {
 protected:
@@ -41,4 +41,4 @@ private:
     }
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

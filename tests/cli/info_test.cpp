@@ -11,7 +11,7 @@
 #include "models.h"
 #include "scene/gltf/builder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::string info(const std::string& arguments) {
@@ -170,4 +170,4 @@ TEST(Info, brokenFilesAreErrors) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

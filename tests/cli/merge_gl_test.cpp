@@ -5,7 +5,7 @@
 #include "cli/shots.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -128,4 +128,4 @@ TEST_F(Merge, whatDoesNotFitTogetherIsRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "defocus/setting_info.h"
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A number that Request has no member for: the row keeps it in Request::clip.
@@ -80,4 +80,4 @@ TEST(NewSetting, appearsEverywhere) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include "cli/gl_program.h"
 #include "cli/option_cases.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ TEST_F(NewShot, faultsAreOneLine) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -16,7 +16,7 @@
 #include "scene/gltf/builder.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 using Words = std::vector<std::string>;
 
@@ -367,4 +367,4 @@ inline Words lineOfCase(const CommandLine& given, const std::string& name, const
     return line;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

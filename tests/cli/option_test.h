@@ -7,7 +7,7 @@
 #include "cli/gl_program.h"
 #include "cli/option_cases.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What is measured, but no time, and nothing that depends on one.
 inline nlohmann::json withoutTimes(const nlohmann::json& value) {
@@ -76,4 +76,4 @@ inline std::string lettersOf(std::string text) {
     return text;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

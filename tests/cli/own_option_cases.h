@@ -4,7 +4,7 @@
 
 #include "cli/option_cases.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct OwnOptionCase {
     Words words;                     // the option with its value
@@ -185,4 +185,4 @@ inline const std::map<std::string, OwnOptionCase>& ownOptionCases() {
     return table;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

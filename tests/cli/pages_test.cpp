@@ -6,7 +6,7 @@
 #include "cli/program.h"
 #include "cli/program_outline.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ TEST_F(Pages, helpIsShortAndHelpAllIsWhole) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

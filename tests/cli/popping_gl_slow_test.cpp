@@ -17,7 +17,7 @@
 #include "gl/context.h"
 #include "models.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double mostOfALevel = 0.25;
@@ -143,4 +143,4 @@ TEST_F(NoPopping, ofTheFoxInAWalkCycle) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

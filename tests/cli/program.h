@@ -16,7 +16,7 @@
 
 #include "cli/program_copies.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Outcome {
     int exitCode = -1;  // 128 + number of the signal that ended it
@@ -86,4 +86,4 @@ inline void expectOneLine(const Outcome& outcome, int exitCode) {
     EXPECT_GT(outcome.err.size(), std::string("defocus: \n").size());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

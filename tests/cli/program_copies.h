@@ -19,7 +19,7 @@
 
 #include "cli/run_program.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct ProgramRun {
     std::filesystem::path folder;     // where it runs
@@ -143,4 +143,4 @@ private:
 
 inline testing::Environment* const programCopies = testing::AddGlobalTestEnvironment(new ProgramCopies);
 
-}  // namespace defocus
+}  // namespace defocus::engine

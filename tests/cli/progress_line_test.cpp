@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(ProgressLine, fitsEveryTerminal) {
@@ -41,4 +41,4 @@ TEST(TimeLeft, takesTheFramesOfAFilmAsOneStage) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

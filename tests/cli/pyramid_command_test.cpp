@@ -16,7 +16,7 @@
 #include "school/fish_school.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::string pyramid(std::vector<std::string> arguments) {
@@ -158,4 +158,4 @@ TEST(PyramidCommand, UnknownMeshAndFolderThatCannotBeWrittenAreErrors) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "image/image_io.h"
 #include "plan/lens_cells.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -392,4 +392,4 @@ TEST_F(Render, shaderFaultsNameTheShader) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

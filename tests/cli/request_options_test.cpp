@@ -6,7 +6,7 @@
 #include "cli/program.h"
 #include "cli/two_quads.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using nlohmann::json;
@@ -130,4 +130,4 @@ TEST_F(SceneOptionsTest, helpOfEachCommandHasAnExample) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

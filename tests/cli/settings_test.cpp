@@ -4,7 +4,7 @@
 
 #include "cli/program.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class SettingsPages : public ProgramTest {
@@ -34,4 +34,4 @@ TEST_F(SettingsPages, tableAndJsonNameEverySetting) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

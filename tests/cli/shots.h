@@ -8,7 +8,7 @@
 #include "cli/gl_program.h"
 #include "cli/two_quads.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class Capture : public GlProgramTest {
 protected:
@@ -38,4 +38,4 @@ protected:
     [[nodiscard]] std::string bytesOf(const std::filesystem::path& name) const { return textOf(folder() / name); }
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

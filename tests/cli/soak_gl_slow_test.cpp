@@ -14,7 +14,7 @@
 #include "image/image_io.h"
 #include "process_memory.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ TEST_F(Soak, eightProgramsShareACacheFolder) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

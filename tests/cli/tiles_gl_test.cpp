@@ -7,7 +7,7 @@
 #include "gl/context.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -208,4 +208,4 @@ TEST_F(ShortOfMemory, samplesThatTheBlurAloneChoseAreSaid) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

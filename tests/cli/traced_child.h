@@ -16,7 +16,7 @@
 #include <functional>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 class TracedChild {
 public:
@@ -106,4 +106,4 @@ private:
     int exitCode_ = -1;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

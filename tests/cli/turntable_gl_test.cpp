@@ -14,7 +14,7 @@
 #include "lod/shapes.h"
 #include "scene/gltf/write.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr std::array<double, 4> radii = {1, 0.8, 0.55, 0.3};  // m, of the levels
@@ -122,4 +122,4 @@ TEST_F(TurntableCommand, FaultsAreOneLineBeforeTheWork) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace two_quads_detail {
 
@@ -72,4 +72,4 @@ inline void writeTwoQuads(const std::filesystem::path& path) {
     std::ofstream(path) << document.dump(2);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -20,7 +20,7 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -299,4 +299,4 @@ TEST(Bounds, emptyStaysEmptyAndTransformsKeepTheCorners) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::uint64_t hashOf(const std::vector<std::uint64_t>& words) {
@@ -82,4 +82,4 @@ TEST(Hash, zerosAndLengthsCount) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(JsonNesting, countsArraysAndObjectsOutsideOfText) {
@@ -16,4 +16,4 @@ TEST(JsonNesting, countsArraysAndObjectsOutsideOfText) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ TEST(Layering, foreignLibrariesStayInTheirPlace) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(MemoryLimits, amountsHaveDecimalAndBinaryUnits) {
@@ -55,4 +55,4 @@ TEST(MemoryLimits, residentMemoryGrowsByWhatIsTouched) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Small blocks and pages hand their values over to each other as a vector grows and shrinks.
@@ -68,4 +68,4 @@ TEST(Memory, whatNoMachineHasIsRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <functional>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 int exitCodeOf(const std::function<int()>& action) {
@@ -53,4 +53,4 @@ TEST(Message, closedOutputsAreNotTakenByOtherFiles) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

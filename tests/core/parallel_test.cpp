@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Tasks, allAreDoneOnceWhoeverDoesThem) {
@@ -77,4 +77,4 @@ TEST(ParallelFor, everyIndexOnceAndTheFirstExceptionComesBack) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::string faultOf(const std::function<void()>& parse) {
@@ -58,4 +58,4 @@ TEST(ParseChoice, listsTheChoicesAndSuggestsTheNearest) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(NearestWord, forgivesOneEditInThreeLetters) {
@@ -39,4 +39,4 @@ TEST(NearestWord, isNotSlowedByEndlessWords) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

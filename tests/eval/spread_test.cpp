@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Spread, ofOneToElevenInAnyOrder) {
@@ -25,4 +25,4 @@ TEST(Spread, ofOneAndOfNone) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

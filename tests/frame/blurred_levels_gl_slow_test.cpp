@@ -14,7 +14,7 @@
 #include "models.h"
 #include "render/frame_run.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int boxSize = 32;  // px
@@ -80,4 +80,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BlurredLevels,
                          [](const auto& scene) { return testNameOf(scene.param); });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

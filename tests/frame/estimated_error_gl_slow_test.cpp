@@ -18,7 +18,7 @@
 #include "models.h"
 #include "render/frame_run.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t referenceSamples = 2048;
@@ -109,4 +109,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EstimatedError,
                          [](const auto& scene) { return testNameOf(scene.param); });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

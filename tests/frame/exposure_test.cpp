@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Rows of these greys, all of them covered but for the first `empty`.
@@ -71,4 +71,4 @@ TEST(Meter, isReadForTheLightsOfFilesAlone) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

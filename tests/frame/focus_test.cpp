@@ -9,7 +9,7 @@
 #include "lens/circle_of_confusion.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Points on the plane w + tan(swing)·X + tan(tilt)·Y = s give back what it was made of.
@@ -150,4 +150,4 @@ TEST(ChooseFocus, isWhatTheMiddleShowsWhereNobodySaysMore) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "defocus/defocus.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using nlohmann::json;
@@ -33,21 +33,21 @@ protected:
 };
 
 TEST_F(Library, sceneInfoNamesWhatARequestMayName) {
-    const SceneInfo info = sceneInfo(*loadScene(request_.scene));
+    const SceneInfo info = defocus::Scene::load(request_.scene).info();
     EXPECT_EQ(info.cameras, std::vector<std::string>{"Main"});
     EXPECT_EQ(info.nodes, (std::vector<std::string>{"Near", "Far", "Tripod"}));
     EXPECT_TRUE(info.clips.empty());
     EXPECT_EQ(info.triangles, 2u);  // one mesh, drawn twice
     EXPECT_TRUE(info.ignored.empty());
-    EXPECT_EQ(sceneInfo(*schoolOfFish(3, 400)).cameras.size(), 1u);
+    EXPECT_EQ(defocus::Scene::schoolOfFish(3, 400).info().cameras.size(), 1u);
 }
 
 TEST_F(Library, scenesThatCannotBeOpened) {
-    const std::string missing = messageOf<Error>([&] { loadScene(folder_ / "missing.glb"); });
+    const std::string missing = messageOf<Error>([&] { (void)defocus::Scene::load(folder_ / "missing.glb"); });
     EXPECT_NE(missing.find("missing.glb"), std::string::npos) << missing;
-    EXPECT_THROW(loadScene(""), UsageError);
-    EXPECT_THROW(schoolOfFish(0), UsageError);
-    EXPECT_THROW(schoolOfFish(1, 3), UsageError);
+    EXPECT_THROW((void)defocus::Scene::load(""), UsageError);
+    EXPECT_THROW((void)defocus::Scene::schoolOfFish(0), UsageError);
+    EXPECT_THROW((void)defocus::Scene::schoolOfFish(1, 3), UsageError);
 }
 
 TEST_F(Library, settingsByNameAreThoseOfTheStruct) {
@@ -228,4 +228,4 @@ TEST_F(Library, anyRequestIsPlannedOrRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

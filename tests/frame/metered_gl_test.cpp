@@ -7,7 +7,7 @@
 #include "image/image_io.h"
 #include "scene/gltf/builder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class MeteredRender : public OwnContextTest {
@@ -65,4 +65,4 @@ TEST_F(MeteredRender, metersOnce) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

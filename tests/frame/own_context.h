@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class OwnContextTest : public testing::Test {
 protected:
@@ -19,4 +19,4 @@ protected:
     }
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "gl/context.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -95,4 +95,4 @@ TEST_F(Partial, rangesAreOfWholeBlocks) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

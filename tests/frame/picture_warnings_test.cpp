@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // The left part of the columns has one value, the right part another.
@@ -41,4 +41,4 @@ TEST(ClippingWarnings, colouredLightIsNotWhite) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "frame/prepared_frame.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Quads of 2 m at these depths, before a uniform background, focused at 4 m.
@@ -161,4 +161,4 @@ TEST(PlanWarnings, ofManyIgnoredThingsAFewAreNamed) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

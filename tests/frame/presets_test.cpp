@@ -15,7 +15,7 @@
 #include "plan/frame_plan.h"
 #include "plan/object_pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 const Preset& jeong() {
@@ -208,4 +208,4 @@ TEST_F(JeongPlan, levelsHaveTheValuesOfLevel0) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

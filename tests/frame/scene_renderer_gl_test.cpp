@@ -17,7 +17,7 @@
 #include "image/image_io.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Two fish of 1,000 triangles each, with levels of detail.
@@ -190,19 +190,18 @@ TEST_F(SceneRendererTest, faultsLeaveTheFrameBeforeAsItIs) {
     bad[4].nodeBlur["none such"] = 1;
     for (const Request& request : bad) EXPECT_THROW(renderer.start(request), Error);
     EXPECT_EQ(renderer.image().pixels, whole.pixels);
-    EXPECT_THROW(SceneRenderer(SceneHandle(), smallRequest()), UsageError);
 }
 
 TEST_F(SceneRendererTest, aSceneIsSharedAndNobodyChangesIt) {
-    const SceneHandle school = schoolOfFish(2, 1'000);
-    const std::string fish = sceneInfo(*school).nodes.front();
+    const defocus::Scene school = defocus::Scene::schoolOfFish(2, 1'000);
+    const std::string fish = school.info().nodes.front();
     const Image plain = render(smallRequest());
     Request sharp = smallRequest();
-    for (const std::string& name : sceneInfo(*school).nodes)
+    for (const std::string& name : school.info().nodes)
         if (!name.empty()) sharp.nodeBlur[name] = 0;
     SceneRenderer first(school, sharp);
     SceneRenderer second(school, smallRequest());
-    EXPECT_EQ(first.scene(), school);
+    EXPECT_EQ(first.scene().engineScene(), school.engineScene());
     const Image sharpImage = first.render();
     EXPECT_NE(sharpImage.pixels, plain.pixels);
     EXPECT_EQ(second.render().pixels, plain.pixels);
@@ -397,4 +396,4 @@ TEST_F(SceneRendererTest, aFrameInTilesHasTheBitsOfOnePiece) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

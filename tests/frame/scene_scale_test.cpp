@@ -12,7 +12,7 @@
 #include "scene/gltf/builder.h"
 #include "scene/units.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A square of this width, whose back half is as far behind the front half as it is wide.
@@ -124,4 +124,4 @@ TEST_F(SceneScale, blurIsThatOfTheThing) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

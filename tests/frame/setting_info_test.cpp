@@ -9,7 +9,7 @@
 #include "frame/settings/settings.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 const SettingInfo& infoNamed(const std::vector<SettingInfo>& infos, const std::string& name) {
@@ -62,4 +62,4 @@ TEST(SettingInfos, tellFormRangeAndOwners) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "frame/settings/presets.h"
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::string hashOf(const Request& request) {
@@ -46,4 +46,4 @@ TEST(SettingsHash, isThatOfWhatAPresetSets) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

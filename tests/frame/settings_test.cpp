@@ -16,7 +16,7 @@
 #include "core/error.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A value that the setting takes and that no default-made request has.
@@ -160,4 +160,4 @@ TEST(Settings, pythonNames) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

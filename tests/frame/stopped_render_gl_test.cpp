@@ -8,7 +8,7 @@
 #include "defocus/defocus.h"
 #include "frame/own_context.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Request twoFish() {
@@ -88,4 +88,4 @@ TEST_F(StoppedRender, whatCannotBeFollowedIsRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

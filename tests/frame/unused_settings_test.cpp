@@ -4,7 +4,7 @@
 
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 struct Given {
@@ -55,4 +55,4 @@ TEST(UnusedSettings, whatHasItsOtherHalfIsUsed) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

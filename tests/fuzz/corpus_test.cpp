@@ -11,7 +11,7 @@
 
 #include "fuzz/targets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 static void PrintTo(const FuzzTarget& target, std::ostream* stream) {
     *stream << target.name;
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(Targets, FuzzCorpus, testing::ValuesIn(fuzzTargets().be
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -33,7 +33,7 @@
 #include "scene/ground.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -390,4 +390,4 @@ const FuzzTarget& fuzzTargetNamed(const std::string& name) {
     return *found;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FuzzTarget {
     const char* name = "";
@@ -28,4 +28,4 @@ std::span<const FuzzTarget> fuzzTargets();
 // Throws Error where there is none of this name.
 const FuzzTarget& fuzzTargetNamed(const std::string& name);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "gl/texel_buffer.h"
 #include "gl_conduct.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using GlBuffer = GlTest;
@@ -164,4 +164,4 @@ TEST_F(GlTexelBuffer, beyondTheDriversLimitNamesWhatItHolds) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

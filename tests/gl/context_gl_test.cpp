@@ -3,7 +3,7 @@
 #include "gl/context.h"
 #include "gl/gl_test.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Context = GlTest;
@@ -35,4 +35,4 @@ TEST_F(Context, anotherThreadMayHaveItsOwn) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr unsigned nvidiaFree = 0x9049;  // GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX
@@ -31,4 +31,4 @@ TEST(DeviceMemory, isUnknownWhereNobodySays) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,7 +1,7 @@
 #include "gl/fullscreen.h"
 #include "gl/gl_test.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using FullscreenPass = GlTest;
@@ -46,4 +46,4 @@ TEST_F(FullscreenPass, ignoresDepthCullingAndBlending) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

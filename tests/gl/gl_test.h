@@ -15,7 +15,7 @@
 #include "gl/target.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class GlTest : public testing::Test {
 protected:
@@ -62,4 +62,4 @@ private:
     ScratchFolder folder_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

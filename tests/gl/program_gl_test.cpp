@@ -5,7 +5,7 @@
 #include "gl/program.h"
 #include "gl_conduct.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class GlProgram : public GlTest {
@@ -101,4 +101,4 @@ TEST_F(GlProgram, badPathsAndIncludesAreErrors) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,7 +1,7 @@
 #include "gl/gl_test.h"
 #include "gl/read_back.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using ReadBack = GlTest;
@@ -55,4 +55,4 @@ TEST_F(ReadBack, readsTheFirstLayer) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

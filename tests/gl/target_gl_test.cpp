@@ -5,7 +5,7 @@
 #include "gl/target.h"
 #include "gl_conduct.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using GlTarget = GlTest;
@@ -97,4 +97,4 @@ TEST_F(GlTarget, whatCannotBeRenderedToIsSaidInWords) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

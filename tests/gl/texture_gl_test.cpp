@@ -7,7 +7,7 @@
 #include "gl/texture.h"
 #include "gl_conduct.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using GlTextureTest = GlTest;
@@ -194,4 +194,4 @@ TEST_F(GlTextureTest, beyondMemoryIsAnError) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include "gl/gl_test.h"
 #include "gl/timer.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Timer = GlTest;
@@ -54,4 +54,4 @@ TEST_F(Timer, leavesOutWhatLiesBetween) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

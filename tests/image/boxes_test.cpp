@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Image evenImage(int width, int height, float value) {
@@ -38,4 +38,4 @@ TEST(BoxDifference, isTheRootOfTheMeanSquare) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

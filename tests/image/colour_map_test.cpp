@@ -7,7 +7,7 @@
 
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 float luminance(const glm::vec3& linear) {
@@ -54,4 +54,4 @@ TEST(ColourMap, anErrorImageIsColouredPixelByPixel) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

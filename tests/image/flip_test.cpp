@@ -11,7 +11,7 @@
 #include "image/image_io.h"
 #include "models.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Image noise(int width, int height, unsigned seed, float brightest) {
@@ -180,4 +180,4 @@ TEST(Flip, refusesOptionsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -19,7 +19,7 @@
 #include "scratch_folder.h"
 #include "special_values.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -385,4 +385,4 @@ TEST(ImageFiles, aJpegTooShortForItsPixelsIsRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "core/file.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -158,4 +158,4 @@ TEST_F(ImageRows, sizesThatAreNoAttributesAreRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "image/image.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Image gradient(int channels) {
@@ -60,4 +60,4 @@ TEST(ImageView, ofTooFewPixelsIsRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "image/tone_map.h"
 #include "special_values.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Image constant(int width, int height, int channels, float value) {
@@ -228,4 +228,4 @@ TEST(Difference, ofImagesOfDifferentSizesIsRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -70,4 +70,4 @@ inline Bytes buildPng(int width, int height, int bits, PngColour colour, const B
     return png;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

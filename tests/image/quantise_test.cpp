@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Image evenly(float value, int channels = 3) {
@@ -50,4 +50,4 @@ TEST(Quantised, coverageIsRounded) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 struct Ink {
@@ -85,4 +85,4 @@ TEST_F(TextInImages, WhatLiesOutsideIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::vector<float> shown(std::vector<float> rgb, ToneMap toneMap, double exposure = 0) {
@@ -131,4 +131,4 @@ TEST(ToneMapped, aGreyImageIsShownAsThatGrey) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "lens/lens.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 ClipCircleOfConfusion aberratedLens(double astigmatism, double coma) {
@@ -94,4 +94,4 @@ TEST(Aberrations, widenTheRangeOfTheBlur) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

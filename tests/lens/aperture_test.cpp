@@ -12,7 +12,7 @@
 #include "aperture_shapes.h"
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int gridSize = 700;  // cells a side of the square's even subdivision: 490,000 points
@@ -220,4 +220,4 @@ TEST(ApertureImage, thoseThatPassNoLightAreNamed) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // 50 mm on 36 x 24 mm, fitted vertically.
@@ -61,4 +61,4 @@ TEST(CameraLens, whatIsSetByNameWins) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Lens lensAt(double focusDistance) {
@@ -219,4 +219,4 @@ TEST(CircleOfConfusion, deviationBoundHoldsForEdgesInTheBox) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

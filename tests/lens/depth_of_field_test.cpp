@@ -8,7 +8,7 @@
 
 #include "lens/circle_of_confusion.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -100,4 +100,4 @@ TEST(DepthOfField, customaryCircleIsTheDiagonalOver1500) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

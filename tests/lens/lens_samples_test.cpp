@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::vector<LensSample> samplesOf(const Lens& lens, std::uint32_t count, Sequence sequence = Sequence::sobol) {
@@ -94,4 +94,4 @@ TEST(LensSamples, seedsGiveOtherPointsOfTheSameShape) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

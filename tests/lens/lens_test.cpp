@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "lens/circle_of_confusion.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Lens, circleOfConfusionOfATextbookExample) {
@@ -114,4 +114,4 @@ TEST(Lens, impossibleLensesAreNamed) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

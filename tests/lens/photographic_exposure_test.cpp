@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Lens exposed(double fStop, double time, double iso) {
@@ -44,4 +44,4 @@ TEST(PhotographicExposure, withoutATimeNothingIsBrightened) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "lens/aperture.h"
 #include "lens/lens_samples.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Sequences, radicalInverseOfTheFirstIntegers) {
@@ -271,4 +271,4 @@ TEST(Sequences, seedsSpreadEachPointOverTheSquare) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "lod/pyramid/conserved.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct ConservedLimits {
     double colour = 1e-3;
@@ -31,4 +31,4 @@ inline void expectConserved(const Mesh& mesh, const ConservedLimits& limits) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

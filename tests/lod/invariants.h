@@ -13,7 +13,7 @@
 #include "lod/pyramid/surface_distance.h"
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // All that a cluster says holds for its triangles, and clusters tile the ranges of the primitives.
 inline void expectClustersHold(const Pyramid& pyramid) {
@@ -146,4 +146,4 @@ inline void expectMainPartLasts(const Mesh& mesh, const Pyramid& pyramid) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "lod/simplify/triangle_set.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 template <typename Numbers>
 Numbers numbered(const std::vector<std::uint32_t>& values) {
@@ -25,4 +25,4 @@ TriangleSet<Vertex> numberedTriangles(const std::vector<std::vector<std::uint32_
     return triangles;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 using PositionKey = std::tuple<float, float, float>;
 
@@ -215,4 +215,4 @@ inline double surfaceArea(const std::vector<glm::vec3>& positions, const std::ve
     return area;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "plan/plan_checks.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // `nearest`, `farthest`: depths, m. Pixels lie as far apart at 10 m as in the image.
@@ -98,4 +98,4 @@ TEST(Contact, boundsHoldEveryVertex) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

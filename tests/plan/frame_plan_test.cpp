@@ -13,7 +13,7 @@
 #include "plan/plan_text.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(FramePlan, everyObjectDrawsEverySampleOnce) {
@@ -337,4 +337,4 @@ TEST(FramePlan, textAndJsonTellTheSame) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

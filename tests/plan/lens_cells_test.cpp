@@ -12,7 +12,7 @@
 #include "plan/sample_range.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Spheres before and behind the focus, much blurred.
@@ -212,4 +212,4 @@ TEST(LensCells, framesThatDoNotAllowThemSayWhy) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

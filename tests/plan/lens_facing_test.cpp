@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double aspect = 1.5;
@@ -135,4 +135,4 @@ TEST(LensFacing, isExactOfWhatStandsStillAndWhereOnlyTheBlurChanges) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "aperture_shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::vector<LensSample> samplesOfLens(const Lens& lens, std::uint32_t first, std::uint32_t count) {
@@ -93,4 +93,4 @@ TEST(LensGroups, prefixesStaySpreadOverTheLens) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "plan/plan_text.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // The first sphere goes by `step` from moment to moment.
@@ -125,4 +125,4 @@ TEST(Motion, shuttersThatDoNotFitAreRefused) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

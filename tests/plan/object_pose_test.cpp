@@ -7,7 +7,7 @@
 #include "models.h"
 #include "posed_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // How far a point lies outside a box.
@@ -97,4 +97,4 @@ TEST(ObjectPose, windingFollowsTheMajorityOfJoints) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

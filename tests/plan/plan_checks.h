@@ -6,7 +6,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline RenderSettings settingsFor(std::uint32_t samples) {
     RenderSettings settings;
@@ -21,4 +21,4 @@ inline bool leftOut(const FramePlan& plan, const std::string& what) {
                        [&](const LeftOut& entry) { return entry.what.find(what) != std::string::npos; });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

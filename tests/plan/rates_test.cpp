@@ -13,7 +13,7 @@
 #include "plan/sample_range.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Five spheres of which only some are blurred so little that they share, before nothing.
@@ -286,4 +286,4 @@ TEST(Rates, withoutCellsNothingSharesUnlessItIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(RenderSettings, fixedThresholdsDoNotFollowTheSamples) {
@@ -15,4 +15,4 @@ TEST(RenderSettings, fixedThresholdsDoNotFollowTheSamples) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Which levels draw a sample of an object, and at which share of the pixels.
@@ -51,4 +51,4 @@ TEST(SampleRange, eachSampleIsDrawnAsInTheWholeFrame) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

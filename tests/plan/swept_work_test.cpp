@@ -6,7 +6,7 @@
 
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A square of 6 px around the middle of an image of 100 × 80 px, at 4 m.
@@ -78,4 +78,4 @@ TEST(SweptWork, backsCountWhereTheyShow) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "plan/frame_plan.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Cells, coverTheImageOnceAndFollowFromItsSize) {
@@ -91,4 +91,4 @@ TEST(TilePlan, keepsLevelsAndSamples) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

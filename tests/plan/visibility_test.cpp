@@ -13,7 +13,7 @@
 
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Random {
@@ -406,4 +406,4 @@ TEST(Visibility, aBoxAroundTheCameraIsNotTakenToFaceAway) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "plan/rates.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Aberrations : public testing::Test {
@@ -195,4 +195,4 @@ TEST_F(Aberrations, methodsThatCannotSaySo) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "gl/context.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class ApertureBokeh : public testing::Test {
@@ -89,4 +89,4 @@ TEST_F(ApertureBokeh, differsFromOtherShapes) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A plan of one object whose blur is at most so wide.
@@ -57,4 +57,4 @@ TEST(SamplesForBlur, followMotion) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Means of 64 · n samples whose error is `first` · n^(−0.6), and each step to the limit independent of the last.
@@ -177,4 +177,4 @@ TEST(BlockSchedule, samplesBeginWhereTheFramesDo) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class CocControls : public testing::Test {
@@ -416,4 +416,4 @@ TEST_F(CocControls, postProcessMethodsFollow) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

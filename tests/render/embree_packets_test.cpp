@@ -12,7 +12,7 @@
 #include "embree/packet_samples.h"
 #include "render/renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Image tracedImage(const Scene& scene, const View& view, std::uint32_t samples) {
@@ -131,4 +131,4 @@ TEST(EmbreePacketCulling, raysGoOnBehindBacks) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

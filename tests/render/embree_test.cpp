@@ -15,7 +15,7 @@
 #include "likeness.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 FramePlan planOf(const View& view, std::uint32_t samples) {
@@ -414,4 +414,4 @@ TEST(EmbreeBadInput, EnvironmentMapIsAClearError) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

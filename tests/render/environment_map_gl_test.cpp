@@ -7,7 +7,7 @@
 
 #include "render/lit_wall.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using EnvironmentMaps = LitWall;
@@ -163,4 +163,4 @@ TEST_F(EnvironmentMaps, aMattWallUnderAGradientGathersItsHemisphere) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

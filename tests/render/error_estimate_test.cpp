@@ -14,7 +14,7 @@
 #include "image/metrics.h"
 #include "lens/lens_samples.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int lensEdgesSize = 48;
@@ -131,4 +131,4 @@ TEST(ErrorEstimate, aMillionPixelsStandForAll) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

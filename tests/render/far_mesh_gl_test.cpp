@@ -9,7 +9,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Bounds boxAround(const glm::dvec3& middle, double reach) {
@@ -73,4 +73,4 @@ TEST(FarMesh, looksLikeTheSameMeshAroundItsOrigin) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

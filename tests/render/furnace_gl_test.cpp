@@ -4,7 +4,7 @@
 
 #include "render/lit_wall.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Furnace = LitWall;
@@ -81,4 +81,4 @@ TEST_F(Furnace, aWhiteMetalLosesLightWithItsRoughnessAlone) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

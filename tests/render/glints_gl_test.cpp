@@ -7,7 +7,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Glints : public testing::Test {
@@ -120,4 +120,4 @@ TEST_F(Glints, spreadingThemKeepsTheirLight) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

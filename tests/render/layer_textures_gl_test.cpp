@@ -6,7 +6,7 @@
 #include "render/sheen_equations.h"
 #include "render/textured_wall.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using LayerTextures = LitWall;
@@ -200,4 +200,4 @@ TEST_F(LayerTextures, alphaOfSheenRoughnessIsRoughness) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

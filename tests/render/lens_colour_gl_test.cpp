@@ -8,7 +8,7 @@
 #include "gl/context.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class LensColour : public testing::Test {
@@ -180,4 +180,4 @@ TEST_F(LensColour, catEyeIsTheLensOfTwoCircles) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

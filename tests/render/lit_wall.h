@@ -14,7 +14,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr double wallDepth = 2;  // m before the camera
 
@@ -179,4 +179,4 @@ private:
     static inline std::unique_ptr<GlContext> context_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "render/lit_wall.h"
 #include "render/sheen_equations.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using MaterialLayers = LitWall;
@@ -177,4 +177,4 @@ TEST_F(MaterialLayers, sheenUnderALightIsTheStandardsAndTakesFromTheBase) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

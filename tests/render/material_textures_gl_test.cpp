@@ -4,7 +4,7 @@
 
 #include "render/textured_wall.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using MaterialTextures = LitWall;
@@ -262,4 +262,4 @@ TEST_F(MaterialTextures, filteringMixesLight) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

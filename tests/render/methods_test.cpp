@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 const std::vector<MethodSetting> known = {
@@ -47,4 +47,4 @@ TEST(MethodSettings, methodsAreReadAsTheyAreWritten) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

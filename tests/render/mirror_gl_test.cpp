@@ -7,7 +7,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Mirror : public testing::Test {
@@ -110,4 +110,4 @@ TEST_F(Mirror, everyLevelIsAsBright) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

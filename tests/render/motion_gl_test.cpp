@@ -14,7 +14,7 @@
 #include "render/methods.h"
 #include "render/rendered.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Motion : public testing::Test {
@@ -258,4 +258,4 @@ TEST_F(Motion, oneSegmentIsExactForTranslationAndMorphs) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

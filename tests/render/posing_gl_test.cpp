@@ -10,7 +10,7 @@
 #include "render/methods.h"
 #include "render/rendered.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Posing : public testing::Test {
@@ -205,4 +205,4 @@ TEST_F(Posing, tangentsTurnToo) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

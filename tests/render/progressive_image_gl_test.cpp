@@ -15,7 +15,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Growing : public testing::Test {
@@ -194,4 +194,4 @@ TEST_F(Growing, psnrIsThatOfCompare) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include "render/lit_wall.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using PunctualLights = LitWall;
@@ -148,4 +148,4 @@ TEST_F(PunctualLights, severalAddUp) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include "plan/frame_plan.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline Image imageOf(Renderer& renderer, const FramePlan& plan) {
     renderer.start(plan);
@@ -29,4 +29,4 @@ inline Image imageInFloats(const World& world, const FramePlan& plan) {
     return imageOf(*methodNamed("accumulation").make(world, options), plan);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class RoughLevels : public testing::Test {
@@ -90,4 +90,4 @@ TEST_F(RoughLevels, areAsBrightAsTheirRelief) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "render/methods.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double receiverDepth = 4;  // m before the camera, as everything here
@@ -313,4 +313,4 @@ TEST_F(Shadowed, multirateAndPostProcessDrawThemToo) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Estevez and Kulla 2017, as KHR_materials_sheen prints it.
 inline double sheenLambda(double cosine, double alpha) {
@@ -28,4 +28,4 @@ inline double sheenOf(double nl, double nv, double nh, double roughness) {
     return distribution * std::min(visibility, 1.0);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double sliverDepth = 2;   // m
@@ -85,4 +85,4 @@ TEST(Sliver, noSampleHasAColorThatItsCornersDoNotAllow) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

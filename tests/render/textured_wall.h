@@ -9,7 +9,7 @@
 
 #include "render/lit_wall.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // IEC 61966-2-1.
 inline double linearOf(int code) {
@@ -79,4 +79,4 @@ inline glm::dvec2 asTheyAre(const glm::dvec2& uv) {
     return uv;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "image/metrics.h"
 #include "render/lit_wall.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Transmission = LitWall;
@@ -223,4 +223,4 @@ TEST_F(Transmission, roughnessSpreadsWhatLiesBehindAndKeepsItsLight) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "render/methods.h"
 #include "truth_scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Image rasterised(const World& world, const View& view, const RenderSettings& settings) {
@@ -148,4 +148,4 @@ TEST(TruthBokehShape, TriangleHasTheOrientationOfTheRayTracer) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "render/methods.h"
 #include "truth_scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double limit = 5;  // px
@@ -56,4 +56,4 @@ TEST(TruthLimited, foregroundIsThatOfALensBeforeEveryPixel) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "posed_world.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Image rendered(const SmallWorld& small, Renderer& renderer) {
@@ -41,4 +41,4 @@ TEST_P(PosedTruth, rasteriserAndRayTracerSeeTheSamePose) {
 INSTANTIATE_TEST_SUITE_P(Models, PosedTruth, testing::ValuesIn(posedModels), posedModelName);
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

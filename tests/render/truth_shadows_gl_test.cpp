@@ -11,7 +11,7 @@
 #include "render/methods.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::unique_ptr<SmallWorld> ballBeforeAWall() {
@@ -96,4 +96,4 @@ TEST(TruthOfShadows, lampsThrowTheSamePenumbrae) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double blurredSide = 4;  // px, a side of what is blurred
@@ -259,4 +259,4 @@ TEST_F(VertexBlurs, aovIsTheFunctionOfThePlan) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "render/methods.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Visibility : public testing::Test {
@@ -164,4 +164,4 @@ INSTANTIATE_TEST_SUITE_P(Models, VisibilityOf,
                          [](const auto& tested) { return testNameOf(tested.param); });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class BuiltInEnvironment : public testing::TestWithParam<std::string_view> {
@@ -79,4 +79,4 @@ TEST(BuiltInEnvironments, areKnownByName) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

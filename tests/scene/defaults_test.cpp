@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A scene whose bounds are the box from `minimum` to `maximum`.
@@ -174,4 +174,4 @@ TEST(DefaultLights, greyBallLooksMidGrey) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

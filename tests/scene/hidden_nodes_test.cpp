@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A table at 10 m with a cup on it, and two lamps without names of their own.
@@ -70,4 +70,4 @@ TEST(HiddenNodes, unknownNamesAreFaults) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "scene/gltf/gltf.h"
 #include "scene/tangents.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Mesh, boundsAreOfWhatTrianglesUse) {
@@ -144,4 +144,4 @@ TEST(VertexBlock, perpendicularIsPerpendicular) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // The unit cube from −1 to 1, twelve triangles.
@@ -106,4 +106,4 @@ TEST(Pick, agreesWithTheBoxItself) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "near.h"
 #include "scene/animation.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Mesh triangleMesh() {
@@ -210,4 +210,4 @@ TEST(Animation, clipsMoveTheirNodes) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "near.h"
 #include "scene/pick.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 void expectNearInFloat(const glm::dvec3& a, const glm::dvec3& b) {
@@ -132,4 +132,4 @@ TEST(PosedMesh, raysMeetThePosedTriangle) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int imageWidth = 1024;
@@ -333,4 +333,4 @@ TEST(FishSchool, optionsOutOfRangeAreErrors) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-namespace defocus {
+namespace defocus::engine {
 
 class DropSource {
 public:
@@ -118,4 +118,4 @@ private:
     std::string uris_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

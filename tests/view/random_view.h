@@ -13,7 +13,7 @@
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class Dice {
 public:
@@ -94,4 +94,4 @@ inline glm::dmat4 randomCamera(Dice& dice) {
     return glm::rotate(upright, roll, glm::dvec3(0, 0, 1));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -20,7 +20,7 @@
 #include "view/random_view.h"
 #include "view/state/camera_controls.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Request smallSchool() {
@@ -262,4 +262,4 @@ TEST(ShellWord, quotesWhatAShellWouldRead) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "view/drop_source.h"
 #endif
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -364,4 +364,4 @@ TEST_F(View, unreadableSceneOfAScriptIsAFault) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #ifdef DEFOCUS_XCB
 #include "view/drop_source.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class ViewSoak : public ViewProgram {};
@@ -42,6 +42,6 @@ TEST_F(ViewSoak, scenesInTurnTakeNoMoreMemoryAndLeaveNoHandleOpen) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine
 
 #endif

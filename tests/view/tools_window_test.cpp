@@ -8,7 +8,7 @@
 #include "image/image_io.h"
 #include "view/view_program.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -353,4 +353,4 @@ TEST_F(ViewTools, aHandThatIsFasterThanTheFramesLosesNothing) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

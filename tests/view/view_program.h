@@ -24,7 +24,7 @@
 
 #include "cli/run_program.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class ViewProgram : public testing::Test {
 protected:
@@ -245,4 +245,4 @@ private:
     mutable nlohmann::json reached_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include "view/view_program.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Visuals : public ViewProgram {
@@ -50,4 +50,4 @@ TEST_F(WithoutGlx, theReasonIsOneLine) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

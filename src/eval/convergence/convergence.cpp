@@ -12,7 +12,7 @@
 #include "core/hash.h"
 #include "core/stopwatch.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -369,4 +369,4 @@ void measureConvergence(const World& world, const View& view, const ReferenceIma
         }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -22,7 +22,7 @@
 #include "plan/view.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Which rows a method has that is named without settings of its own.
 enum class MethodForm {
@@ -123,4 +123,4 @@ void measureConvergence(const World& world, const View& view, const ReferenceIma
                         std::span<const ConvergenceRun> done, const ConvergenceVisitor& visitor,
                         const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "render/aov/aov.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::vector<Crop> tellingCrops(const World& world, const View& view, const Refer
     return crops;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

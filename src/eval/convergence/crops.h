@@ -7,7 +7,7 @@
 
 #include "frame/reference_image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Crop {
     std::string title;
@@ -27,4 +27,4 @@ std::optional<Crop> largestSquare(const Image& values, int size, const std::opti
 std::vector<Crop> tellingCrops(const World& world, const View& view, const ReferenceImage& reference,
                                std::uint32_t fewSamples, const RendererOptions& options);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::string equalErrorTable(std::span<const Competitor> competitors) {
     return text + fmt::format("\n  (each with its best settings; x: times as long as {})\n", competitors[0].name);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

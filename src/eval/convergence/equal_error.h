@@ -10,7 +10,7 @@
 
 #include "eval/convergence/rows.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr std::array comparedErrors{0.01, 0.005, 0.0033};  // root mean squared, of display values in [0, 1]
 
@@ -35,4 +35,4 @@ std::vector<Competitor> timesToErrors(std::span<const ConvergenceRow> rows, std:
 // fewer than two competitors.
 std::string equalErrorTable(std::span<const Competitor> competitors);
 
-}  // namespace defocus
+}  // namespace defocus::engine

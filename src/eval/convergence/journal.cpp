@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "eval/convergence/text.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t sub
     return runs;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::vector<BiasFloor> biasFloors(std::span<const ConvergenceRow> rows) {
     return floors;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

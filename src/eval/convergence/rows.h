@@ -10,7 +10,7 @@
 #include "eval/convergence/convergence.h"
 #include "eval/spread.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct ConvergenceRow {
     std::string method;
@@ -64,4 +64,4 @@ struct BiasFloor {
 // Returns one floor for each setting with levels.
 std::vector<BiasFloor> biasFloors(std::span<const ConvergenceRow> rows);
 
-}  // namespace defocus
+}  // namespace defocus::engine

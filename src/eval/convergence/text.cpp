@@ -12,7 +12,7 @@
 #include "eval/seed_errors.h"
 #include "eval/spread.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -197,4 +197,4 @@ std::string convergenceJson(std::span<const ConvergenceRow> rows, const Referenc
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

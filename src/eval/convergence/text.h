@@ -13,7 +13,7 @@
 #include "eval/convergence/rows.h"
 #include "frame/reference_image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // ---- for people -----------------------------------------------------------------------------------------------------
 
@@ -57,4 +57,4 @@ std::string runsCsv(std::span<const ConvergenceRun> runs, std::uint64_t subject)
 // Error, with the file `name`, if the subject differs or a line isn't a run.
 std::vector<ConvergenceRun> readRunsCsv(std::string_view text, std::uint64_t subject, const std::string& name);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -69,4 +69,4 @@ Scene unlitScene(Scene scene) {
     return scene;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

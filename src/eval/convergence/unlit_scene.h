@@ -4,11 +4,11 @@
 
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Each material becomes unlit and opaque and takes the mean colour of its texture. Lambert shading under one light,
 // which is fixed to each mesh, goes into 8-bit vertex colours; the methods interpolate these linearly. Meshes, nodes,
 // cameras and environment don't change.
 Scene unlitScene(Scene scene);
 
-}  // namespace defocus
+}  // namespace defocus::engine

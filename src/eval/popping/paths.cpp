@@ -10,7 +10,7 @@
 #include "plan/camera_path.h"
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& fram
     return {begin, begin + length};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

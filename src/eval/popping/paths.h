@@ -5,7 +5,7 @@
 
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class Movement {
     focusPull,  // the focus goes from the nearest to the farthest object, evenly in 1/distance, as a focus ring does
@@ -36,4 +36,4 @@ void poseWorld(World& world, const MovementFrame& frame);
 std::vector<MovementFrame> busiestStretch(const std::vector<MovementFrame>& frames, World& world,
                                           const RenderSettings& settings, int length);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "plan/visibility.h"
 #include "render/aov/aov.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -386,4 +386,4 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
     poseWorld(world, own);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,8 +4,8 @@
 // same with the sample at the boundary split over its pixels (continuous); and fractional levels drawn by the method
 // "multirate", whose lens rates change too.
 //
-// The truth is full detail at the SAME lens samples, which multirate has of its own. So the noise cancels, and full detail itself measures 0. Let I be
-// a frame of the mode and R the same frame at full detail, both display-encoded:
+// The truth is full detail at the SAME lens samples, which multirate has of its own. So the noise cancels, and full
+// detail itself measures 0. Let I be a frame of the mode and R the same frame at full detail, both display-encoded:
 //   change: (I_t − I_{t−1}) − (R_t − R_{t−1}). The bench takes its RMSE, and the FLIP between I_t and the frame that it
 //           should have become, I_{t−1} + (R_t − R_{t−1}), clipped to [0, 1]. Besides pops, it contains all other
 //           errors of the levels that move with the camera.
@@ -36,7 +36,7 @@
 #include "eval/popping/paths.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class PoppingMode { nearest, fractional, continuous, multirate };
 
@@ -102,4 +102,4 @@ void measurePopping(World& world, const View& view, const PoppingOptions& option
 // elsewhere. `level` (−1 where there is no object) and `coc` (px) come from AovImages.
 Image objectPixels(const Image& level, const Image& coc);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "eval/json_number.h"
 #include "eval/spread.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -190,4 +190,4 @@ std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const Sa
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "eval/bench_subject.h"
 #include "eval/popping/popping.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The summary of one measure over the frames of a movement.
 struct PopSummary {
@@ -42,4 +42,4 @@ std::string poppingCsv(std::span<const PoppingFrame> frames);  // one line for e
 std::string poppingJson(std::span<const PoppingFrame> frames, std::span<const SampleStep> steps,
                         const BenchSubject& subject, const PoppingOptions& options);
 
-}  // namespace defocus
+}  // namespace defocus::engine

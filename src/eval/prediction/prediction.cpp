@@ -14,7 +14,7 @@
 #include "plan/blurred_patches.h"
 #include "scene/defaults.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -211,4 +211,4 @@ void measurePrediction(const PreparedFrame& frame, const PredictionOptions& opti
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

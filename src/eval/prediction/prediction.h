@@ -4,9 +4,10 @@
 // compared with level 0. What N lens samples miss is not the level's error: each comparison is made with two sets of
 // 1,024 samples, and only what both agree on counts.
 //
-// Held equal between predicted and rendered: mesh, level, lens, the patches of the blur, the default lights. Both errors
-// are of linear light up to white, over the three channels and the area that level 0 covers, in units of its mean light.
-// The renderer's shading, with normal maps and the default sky, stands against the simpler one of the prediction.
+// Held equal between predicted and rendered: mesh, level, lens, the patches of the blur, the default lights. Both
+// errors are of linear light up to white, over the three channels and the area that level 0 covers, in units of its
+// mean light. The renderer's shading, with normal maps and the default sky, stands against the simpler one of the
+// prediction.
 
 #include <functional>
 #include <string>
@@ -16,7 +17,7 @@
 #include "frame/prepared_frame.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct PredictionOptions {
     std::vector<double> cocs = {1, 4, 16, 64};  // px, at the mesh's centre
@@ -45,4 +46,4 @@ struct PredictionRow {
 void measurePrediction(const PreparedFrame& frame, const PredictionOptions& options,
                        const std::function<void(const PredictionRow&)>& visit, const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "eval/json_number.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string predictionJson(std::span<const PredictionRow> rows, const BenchSubje
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

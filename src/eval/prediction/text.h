@@ -7,7 +7,7 @@
 #include "eval/bench_subject.h"
 #include "eval/prediction/prediction.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::string predictionHeader();                        // two lines
 std::string predictionLine(const PredictionRow& row);  // one line
@@ -19,4 +19,4 @@ std::string predictionSummary(std::span<const PredictionRow> rows);
 std::string predictionCsv(std::span<const PredictionRow> rows);
 std::string predictionJson(std::span<const PredictionRow> rows, const BenchSubject& subject);
 
-}  // namespace defocus
+}  // namespace defocus::engine

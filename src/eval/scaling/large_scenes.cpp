@@ -9,7 +9,7 @@
 #include "core/stopwatch.h"
 #include "eval/scaling/worlds.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::vector<LargeScene> largeScenes() {
     return {{"100 M triangles, instances", 10'000, 10'000, true}, {"10,000 different objects", 10'000, 200, false}};
@@ -76,4 +76,4 @@ std::string largeSceneLine(const LargeSceneRow& row) {
         static_cast<double>(row.residentBytes) * 1e-6, static_cast<double>(row.gpuBytes) * 1e-6);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

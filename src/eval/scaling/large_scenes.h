@@ -13,7 +13,7 @@
 #include "eval/spread.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LargeScene {
     std::string name;
@@ -52,4 +52,4 @@ LargeSceneRow measureLargeScene(const LargeScene& scene, const LargeSceneOptions
 std::string largeSceneHeader();
 std::string largeSceneLine(const LargeSceneRow& row);
 
-}  // namespace defocus
+}  // namespace defocus::engine

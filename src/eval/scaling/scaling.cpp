@@ -11,7 +11,7 @@
 #include "eval/machine.h"
 #include "eval/scaling/worlds.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -290,4 +290,4 @@ std::optional<PowerLaw> fittedPowerLaw(std::span<const std::pair<double, double>
     return law;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

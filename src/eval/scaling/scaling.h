@@ -24,7 +24,7 @@
 #include "plan/view.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class ScalingAxis {
     triangles,  // 100,000 … 10,000,000 in eight fish
@@ -113,4 +113,4 @@ struct PowerLaw {
 // Returns nothing if they have fewer than two different x. All values must be > 0.
 std::optional<PowerLaw> fittedPowerLaw(std::span<const std::pair<double, double>> points);
 
-}  // namespace defocus
+}  // namespace defocus::engine

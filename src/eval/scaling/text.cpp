@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -203,4 +203,4 @@ std::string scalingJson(std::span<const ScalingRow> rows, std::span<const Scalin
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "eval/scaling/large_scenes.h"
 #include "eval/scaling/scaling.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::string scalingHeader();                     // two lines
 std::string scalingLine(const ScalingRow& row);  // one line
@@ -33,4 +33,4 @@ std::string scalingCsv(std::span<const ScalingRow> rows);
 std::string scalingJson(std::span<const ScalingRow> rows, std::span<const ScalingLeftOut> leftOut,
                         std::span<const LargeSceneRow> scenes, const BenchSubject& subject);
 
-}  // namespace defocus
+}  // namespace defocus::engine

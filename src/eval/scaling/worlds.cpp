@@ -8,7 +8,7 @@
 #include "frame/prepared_frame.h"
 #include "lod/pyramid/cache.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -91,4 +91,4 @@ ScalingWorld gridOf(int instances, int triangles, const std::filesystem::path& c
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "plan/view.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The world points to the scene.
 struct ScalingWorld {
@@ -29,4 +29,4 @@ ScalingWorld differentFish(int count, int triangles, const std::filesystem::path
 // large as its cell, so a fish covers fewer pixels as their number grows, and a layer covers about as many as before.
 ScalingWorld gridOf(int instances, int triangles, const std::filesystem::path& cacheFolder);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "core/stopwatch.h"
 #include "frame/reference_image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -247,4 +247,4 @@ void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const 
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "plan/view.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Settings by which levels are chosen and samples lie, and a world whose pyramids are of these settings.
 struct SpeedupForm {
@@ -81,4 +81,4 @@ struct SpeedupRow {
 void measureSpeedup(std::span<const SpeedupForm> forms, const View& view, const SpeedupOptions& options,
                     const std::function<void(const SpeedupRow&)>& visit, const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "eval/spread.h"
 #include "frame/reference_image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -143,4 +143,4 @@ std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& su
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

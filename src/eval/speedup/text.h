@@ -7,7 +7,7 @@
 #include "eval/bench_subject.h"
 #include "eval/speedup/speedup.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::string speedupHeader();                     // two lines
 std::string speedupLine(const SpeedupRow& row);  // one line
@@ -15,4 +15,4 @@ std::string speedupCsv(std::span<const SpeedupRow> rows);
 
 std::string speedupJson(std::span<const SpeedupRow> rows, const BenchSubject& subject);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "image/moments.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -114,4 +114,4 @@ void setBlur(View& view, double depth, double pixels) {
     view.lens.blurScale *= pixels / blurDiameter(view, depth);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "plan/frame_plan.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Board {
     double depth = 2;        // m
@@ -68,4 +68,4 @@ BlurredLight blurredLight(const Image& image, const View& view, const LightPlace
 // Sets blurScale so that the blur at `depth` (m) is `pixels` wide.
 void setBlur(View& view, double depth, double pixels);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "eval/stability/board_scene.h"
 #include "eval/stability/stability.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -87,4 +87,4 @@ void addEdgeCases(std::vector<StabilityCase>& cases) {
     add("an edge at 0.02 m before a wall at 2,000 km, both blurred", deepEdge);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

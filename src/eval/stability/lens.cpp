@@ -12,7 +12,7 @@
 #include "image/metrics.h"
 #include "image/moments.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -140,4 +140,4 @@ void addLensCases(std::vector<StabilityCase>& cases) {
         add(name, "place, px", "closed form", placeLimit, [light = light] { return light().placeError; });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

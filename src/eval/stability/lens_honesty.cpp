@@ -9,7 +9,7 @@
 #include "eval/stability/board_scene.h"
 #include "image/moments.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -99,4 +99,4 @@ void measureHonesty(const std::vector<std::string>& methods, const std::function
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

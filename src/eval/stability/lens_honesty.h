@@ -9,7 +9,7 @@
 
 #include "core/progress.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr double honestDiameter = 0.5;  // px by which a disk that follows the lens may be off
 // The share of the sharp light's energy by which a disk may be off. If each pixel has 256 samples of its own, their
@@ -36,4 +36,4 @@ std::vector<std::string> honestyMethods();
 void measureHonesty(const std::vector<std::string>& methods, const std::function<void(const HonestyRow&)>& visit,
                     const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

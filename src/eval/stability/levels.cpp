@@ -10,7 +10,7 @@
 #include "eval/stability/stability.h"
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -87,4 +87,4 @@ void addLevelCases(std::vector<StabilityCase>& cases) {
         [] { return flatError(besetGrid(), 1, 1); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "eval/stability/stability.h"
 #include "lens/lens_samples.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -115,4 +115,4 @@ void addMotionCases(std::vector<StabilityCase>& cases) {
     add("through the camera and back", "pixels not within 0 to 1", "finite light", 0, throughCameraError);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

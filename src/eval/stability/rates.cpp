@@ -11,7 +11,7 @@
 #include "eval/stability/board_scene.h"
 #include "eval/stability/stability.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -79,4 +79,4 @@ void addRateCases(std::vector<StabilityCase>& cases) {
     add("shared images, blur scale 0", "largest difference", "accumulation", 0, sharingPinholeError);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

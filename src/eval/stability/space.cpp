@@ -10,7 +10,7 @@
 #include "image/metrics.h"
 #include "image/moments.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -142,4 +142,4 @@ void addSpaceCases(std::vector<StabilityCase>& cases) {
             [depth] { return lightAt(depth).placeError; });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "eval/stability/stability.h"
 #include "lod/pyramid/level_selection.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -119,4 +119,4 @@ void addSplitCases(std::vector<StabilityCase>& cases) {
     add("rendered: from level 1 to 2 at once", infinite, 1, 2, LodMode::fractional);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

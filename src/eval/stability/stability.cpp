@@ -5,7 +5,7 @@
 
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -39,4 +39,4 @@ void measureStability(const std::function<void(const StabilityRow&)>& visit, con
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "core/progress.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -48,4 +48,4 @@ void addRateCases(std::vector<StabilityCase>& cases);
 void addLevelCases(std::vector<StabilityCase>& cases);
 void addTracedCases(std::vector<StabilityCase>& cases);
 
-}  // namespace defocus
+}  // namespace defocus::engine

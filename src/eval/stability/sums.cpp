@@ -9,7 +9,7 @@
 #include "eval/stability/board_scene.h"
 #include "eval/stability/stability.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -120,4 +120,4 @@ void addSumCases(std::vector<StabilityCase>& cases) {
         });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 
 #include "eval/json_number.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const Ho
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "eval/stability/lens_honesty.h"
 #include "eval/stability/stability.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns one line, with a heading above it if `before` measured something else or against another truth. `before` is
 // null for the first row.
@@ -20,4 +20,4 @@ std::string honestySummary(std::span<const HonestyRow> rows);
 std::string stabilityJson(std::span<const StabilityRow> rows, std::span<const HonestyRow> honesty,
                           const BenchSubject& subject);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "eval/stability/stability.h"
 #include "image/metrics.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -61,4 +61,4 @@ void addTracedCases(std::vector<StabilityCase>& cases) {
                          .method = rayTracer});
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "eval/stability/board_scene.h"
 #include "eval/stability/stability.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -118,4 +118,4 @@ void addValueCases(std::vector<StabilityCase>& cases) {
         [] { return lightTexelError(0); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace defocus {
+namespace defocus::engine {
 
 std::string methodWithoutSamples(const SettingContext& context) {
     if (context.method.usesLensSamples) return {};
@@ -66,4 +66,4 @@ std::string firstOf(const SettingContext& context, std::initializer_list<Conditi
     return {};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

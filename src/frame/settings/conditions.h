@@ -6,7 +6,7 @@
 
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 using Condition = std::string (*)(const SettingContext&);
 
@@ -26,4 +26,4 @@ std::string withMeasuredLevels(const SettingContext& context);
 // Returns the first reason.
 std::string firstOf(const SettingContext& context, std::initializer_list<Condition> conditions);
 
-}  // namespace defocus
+}  // namespace defocus::engine

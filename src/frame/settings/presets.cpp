@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::span<const Preset> presets() {
     // Jeong, Kim and Lee 2011. Their thresholds are as fixed as these, which are ours at 64 samples.
@@ -81,4 +81,4 @@ const Preset* presetOf(const Request& request) try {
     return nullptr;  // the request's method, or a setting of it, doesn't exist
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

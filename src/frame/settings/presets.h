@@ -10,7 +10,7 @@
 
 #include "defocus/request.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct PresetValue {
     std::string setting;  // its name in the table
@@ -37,4 +37,4 @@ void clearPreset(const Preset& preset, Request& request);
 // Returns the first preset whose settings the request has; null if there is none.
 const Preset* presetOf(const Request& request);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -16,7 +16,7 @@
 #include "core/parse.h"
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class Row {
 public:
@@ -205,4 +205,4 @@ Row other(std::string name, std::string option, std::string metavar, Set set, Te
 
 }  // namespace rows
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "lod/pyramid/level_selection.h"
 #include "scene/units.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -561,4 +561,4 @@ void addSetting(Setting setting) {
     table().push_back(std::move(setting));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

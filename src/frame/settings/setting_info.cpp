@@ -9,12 +9,12 @@ namespace defocus {
 
 namespace {
 
-SettingInfo infoOf(const Setting& setting) {
+SettingInfo infoOf(const engine::Setting& setting) {
     SettingInfo info;
     info.name = setting.name;
-    info.keyword = snakeCase(setting.name);
+    info.keyword = engine::snakeCase(setting.name);
     info.option = setting.option;
-    info.group = groupTitle(setting.group);
+    info.group = engine::groupTitle(setting.group);
     info.kind = setting.kind;
     info.metavar = setting.metavar;
     info.unit = setting.unit;
@@ -29,12 +29,12 @@ SettingInfo infoOf(const Setting& setting) {
     return info;
 }
 
-SettingInfo infoOf(const MethodSetting& setting) {
+SettingInfo infoOf(const engine::MethodSetting& setting) {
     SettingInfo info;
     info.name = setting.name;
-    info.keyword = snakeCase(setting.name);
+    info.keyword = engine::snakeCase(setting.name);
     info.option = "--" + setting.name;
-    info.group = groupTitle(SettingGroup::method);
+    info.group = engine::groupTitle(engine::SettingGroup::method);
     info.kind = !setting.choices.empty() ? SettingKind::choice
                 : setting.whole          ? SettingKind::integer
                                          : SettingKind::number;
@@ -51,9 +51,9 @@ SettingInfo infoOf(const MethodSetting& setting) {
 
 std::vector<SettingInfo> settingInfos() {
     std::vector<SettingInfo> infos;
-    for (const Setting& setting : settings()) infos.push_back(infoOf(setting));
-    for (const Method& method : methods())
-        for (const MethodSetting& setting : method.settings) {
+    for (const engine::Setting& setting : engine::settings()) infos.push_back(infoOf(setting));
+    for (const engine::Method& method : engine::methods())
+        for (const engine::MethodSetting& setting : method.settings) {
             auto known = std::ranges::find(infos, setting.name, &SettingInfo::name);
             if (known == infos.end()) known = infos.insert(infos.end(), infoOf(setting));
             known->methods.push_back(method.name);

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/suggestion.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::string groupTitle(SettingGroup group) {
     return "";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -15,7 +15,7 @@
 #include "defocus/setting_info.h"
 #include "frame/request.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class SettingGroup { scene, camera, lens, samples, method, display, developer };
 
@@ -97,4 +97,4 @@ std::string snakeCase(std::string_view name);
 // Returns the group's heading in --help and docs: "Samples and level of detail".
 std::string groupTitle(SettingGroup group);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "frame/settings/settings.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::vector<std::string> unusedSettings(const Request& request, const Scene& scene, const Lens& lens) {
     const SettingContext context{request, *chosenMethod(request).method, scene, lens};
@@ -28,4 +28,4 @@ std::vector<std::string> unusedSettings(const Request& request, const Scene& sce
     return lines;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,9 +8,9 @@
 #include "lens/lens.h"
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A line for each reason: which options do nothing, and why. `lens` is the one that the request and the camera make.
 std::vector<std::string> unusedSettings(const Request& request, const Scene& scene, const Lens& lens);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -225,4 +225,4 @@ std::optional<std::string> exposureText(const Request& request) {
     return value != nullptr ? std::optional(fmt::format("{}", value->ev)) : std::nullopt;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "frame/request.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void setMotionSegments(Request& request, const std::string& text);
 std::optional<std::string> motionSegmentsText(const Request& request);
@@ -58,4 +58,4 @@ void clearMethod(Request& request);
 void setExposure(Request& request, const std::string& text);
 std::optional<std::string> exposureText(const Request& request);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "lod/pyramid/level_selection.h"
 #include "lod/pyramid/picture.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -352,4 +352,4 @@ double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides
     return static_cast<double>(pyramid.levels.size() - 1);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Fills Pyramid::smallestPatch, Pyramid::contrast and PyramidLevel::blurredError from the rest of the pyramid and the
 // finishes of the mesh's primitives. Without finishes all are white and matt. Errors grow by a tenth or more from level
@@ -42,4 +42,4 @@ double squaredContrast(const Pyramid& pyramid, double side);
 // unit. λ is continuous in all of them, and 0 if no level's error is known.
 double levelOfBlurredError(const Pyramid& pyramid, std::span<const double> sides, double pixelsPerUnit, double light);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "core/parallel.h"
 #include "lod/pyramid/file.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace fs = std::filesystem;
 
@@ -191,4 +191,4 @@ std::vector<CacheFile> clearCache(const fs::path& folder) {
     return files;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

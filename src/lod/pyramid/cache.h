@@ -11,7 +11,7 @@
 #include "core/progress.h"
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // $XDG_CACHE_HOME/defocus, else $HOME/.cache/defocus; empty where the environment has neither (as absolute paths).
 std::filesystem::path defaultCacheFolder();
@@ -51,4 +51,4 @@ std::vector<CacheFile> cacheFiles(const std::filesystem::path& folder);
 // Removes those files and returns them. Throws Error for one that can't be removed.
 std::vector<CacheFile> clearCache(const std::filesystem::path& folder);
 
-}  // namespace defocus
+}  // namespace defocus::engine

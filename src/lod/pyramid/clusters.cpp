@@ -12,7 +12,7 @@
 
 #include "core/bounds.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -380,4 +380,4 @@ template std::vector<Cluster> clusterTriangles(TriangleSet<MeshVertexNumber>&, s
 template std::vector<Cluster> clusterTriangles(TriangleSet<LevelVertexNumber>&, std::span<const glm::vec3>,
                                                const Numbered<LevelVertexNumber, PositionNumber>&, std::size_t);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "lod/pyramid/pyramid.h"
 #include "lod/simplify/triangle_set.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 using LocalNumber = Number<struct LocalKind>;  // of the places that one primitive uses
 
@@ -32,4 +32,4 @@ template <typename Vertex>
 std::vector<Cluster> clusterTriangles(TriangleSet<Vertex>& level, std::span<const glm::vec3> positions,
                                       const Numbered<Vertex, PositionNumber>& places, std::size_t placeCount);
 
-}  // namespace defocus
+}  // namespace defocus::engine

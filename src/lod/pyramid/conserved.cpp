@@ -8,7 +8,7 @@
 
 #include "lod/simplify/triangle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 ColourAt vertexColours(const Pyramid& pyramid, std::size_t level) {
     const std::vector<glm::vec4>& colours = pyramid.levels[level].colors;
@@ -71,4 +71,4 @@ ConservedDifference differenceOf(const Conserved& level, const Conserved& level0
     return difference;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

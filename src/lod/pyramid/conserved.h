@@ -11,7 +11,7 @@
 #include "lod/simplify/light.h"
 #include "lod/simplify/outline.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Conserved {
     double area = 0;       // object units squared
@@ -44,4 +44,4 @@ struct ConservedDifference {
 
 ConservedDifference differenceOf(const Conserved& level, const Conserved& level0);
 
-}  // namespace defocus
+}  // namespace defocus::engine

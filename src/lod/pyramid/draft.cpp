@@ -6,7 +6,7 @@
 
 #include "scene/vertex_block.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -59,4 +59,4 @@ Pyramid draftPyramid(const Mesh& mesh, std::uint32_t triangles) {
     return pyramid;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,11 +7,11 @@
 
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Makes one level of about `triangles` triangles (up to half as many more). Its vertices are some of the mesh's
 // (`source` says which), with joints and morph targets. A mesh that has no more is kept as it is; a primitive that no
 // cell can show is left out.
 Pyramid draftPyramid(const Mesh& mesh, std::uint32_t triangles);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "lod/pyramid/finish.h"
 #include "scene/vertex_block.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Structs are taken apart by structured bindings, some of them unused: that stops compiling when a struct gets another
 // member, which the key or the file would lack.
@@ -327,4 +327,4 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
     return pyramid;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -16,7 +16,7 @@
 
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A hash of every vertex stream, every primitive's indices and the morph targets.
 std::uint64_t meshHash(const Mesh& mesh);
@@ -76,4 +76,4 @@ std::optional<Pyramid> decodePyramid(std::span<const std::byte> bytes, const Mes
 // Reads the header alone, of any key and version; nothing where `bytes` are too short or of another kind.
 std::optional<PyramidFileHeader> pyramidHeader(std::span<const std::byte> bytes);
 
-}  // namespace defocus
+}  // namespace defocus::engine

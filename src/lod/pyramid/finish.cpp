@@ -9,7 +9,7 @@
 #include "core/hash.h"
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -159,4 +159,4 @@ std::uint64_t Finishes::hash(const Mesh& mesh) const {
     return hash;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

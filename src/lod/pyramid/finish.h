@@ -16,7 +16,7 @@
 
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A texture, reduced to a size that such a picture can show.
 struct FinishImage {
@@ -72,4 +72,4 @@ private:
     mutable std::map<std::pair<int, bool>, std::weak_ptr<const FinishImage>> images_;  // by image, sRGB or not
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace defocus {
+namespace defocus::engine {
 
 using Four = float __attribute__((vector_size(16)));
 using FourWords = std::uint32_t __attribute__((vector_size(16)));
@@ -21,4 +21,4 @@ void store(Value* to, const Numbers& numbers) {
     std::memcpy(to, &numbers, sizeof(numbers));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

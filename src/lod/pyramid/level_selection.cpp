@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -142,4 +142,4 @@ SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode)
     return split;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "defocus/settings.h"
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The names on the command line.
 const char* lodModeName(LodMode mode);
@@ -96,4 +96,4 @@ struct SampleSplit {
 
 SampleSplit splitSamples(double lambda, std::uint32_t sampleCount, LodMode mode);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "lod/pyramid/four.h"
 #include "lod/pyramid/picture_shading.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -173,4 +173,4 @@ Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, st
     return picture;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Cells of a grid, the ends not included. Values of its cells lie row by row.
 struct CellBox {
@@ -68,4 +68,4 @@ private:
 // Draws level `number`.
 Picture pictureOf(const Pyramid& pyramid, std::size_t number, const Eye& eye, std::span<const Finish> finishes);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "lod/simplify/light.h"
 #include "scene/defaults.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr float skyRadiance = 0.5f;  // about the mean of the default sky
 
@@ -343,4 +343,4 @@ private:
     MattCells matt_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

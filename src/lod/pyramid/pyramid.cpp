@@ -23,7 +23,7 @@
 #include "lod/simplify/weld.h"
 #include "scene/vertex_block.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -479,4 +479,4 @@ Pyramid fullDetail(const Mesh& mesh) {
     return build(mesh, options, 0, {});
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

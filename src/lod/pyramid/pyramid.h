@@ -22,7 +22,7 @@
 #include "lod/simplify/pyramid_end.h"
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class Finishes;
 
@@ -148,4 +148,4 @@ void measureDeformations(Pyramid& pyramid, const Mesh& mesh);
 // Builds level 0 alone, for renders that use no other; vertex and index order are optimised all the same.
 Pyramid fullDetail(const Mesh& mesh);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -17,7 +17,7 @@
 #include "core/bounds.h"
 #include "lod/simplify/triangle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -303,4 +303,4 @@ SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "lod/pyramid/four.h"
 #include "lod/simplify/triangle_set.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Boxes around the four children of a node.
 struct BoxNode {
@@ -72,4 +72,4 @@ struct SurfaceDistance {
 // points only, a lower bound of the Hausdorff distance.
 SurfaceDistance surfaceDistance(const Surface& first, const Surface& second, std::size_t count);
 
-}  // namespace defocus
+}  // namespace defocus::engine

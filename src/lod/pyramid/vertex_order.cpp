@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -90,4 +90,4 @@ SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& l
     return order;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

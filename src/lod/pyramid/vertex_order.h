@@ -8,7 +8,7 @@
 #include "lod/simplify/triangle_set.h"
 #include "lod/simplify/weld.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns whether triangles that follow each other, and their corners, have numbers so far apart that caches are of
 // little help. (On a grid in rows they are √n apart.)
@@ -29,4 +29,4 @@ struct SurvivalOrder {
 SurvivalOrder sortBySurvival(const std::vector<TriangleSet<MeshVertexNumber>>& levels,
                              const WeldedPositions& positions);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "lod/simplify/number.h"
 #include "lod/simplify/quadric.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 template <std::size_t n>
 class DenseQuadrics {
@@ -134,4 +134,4 @@ private:
     LargeVector<Changes> changes_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "core/memory.h"
 #include "lod/simplify/state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -380,4 +380,4 @@ void compact(Simplifier& s) {
     for (const VertexHandle v : s.survivors.numbers()) s.survivors[v] = v;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

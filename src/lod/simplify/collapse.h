@@ -8,7 +8,7 @@
 
 #include "lod/simplify/surface_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Says which collapses the surface allows, and what they do to the faces around. The link condition is that of Dey,
 // Edelsbrunner, Guha and Nekhayev 1999, Topology Preserving Edge Contraction (OpenMesh's is_collapse_ok). As a
@@ -98,4 +98,4 @@ struct CollapseModules {
     QuadricModule quadrics;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

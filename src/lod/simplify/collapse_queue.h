@@ -10,7 +10,7 @@
 
 #include "lod/simplify/surface_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class CollapseQueue {
 public:
@@ -100,4 +100,4 @@ private:
     std::vector<std::uint32_t> places_;  // of each vertex in the heap
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

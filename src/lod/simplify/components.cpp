@@ -14,7 +14,7 @@
 #include "core/hash.h"
 #include "lod/simplify/state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -381,4 +381,4 @@ Numbered<ComponentNumber, Growth> growths(const Simplifier& s) {
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

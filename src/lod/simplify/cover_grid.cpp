@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -195,4 +195,4 @@ std::size_t EdgeFill::fillRow(CoverGrid& grid, int row) {
     return cells;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

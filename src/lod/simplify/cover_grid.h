@@ -10,7 +10,7 @@
 
 #include "core/bounds.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr int wordBits = 64;  // cells in a word of a grid
 
@@ -77,4 +77,4 @@ private:
     int firstRow_, endRow_;             // of those with edges
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

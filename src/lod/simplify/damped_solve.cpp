@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace defocus {
+namespace defocus::engine {
 
 std::vector<double> dampedSolution(std::span<const double> matrix, std::span<const double> b, double damping) {
     const auto n = static_cast<Eigen::Index>(b.size());
@@ -19,4 +19,4 @@ std::vector<double> dampedSolution(std::span<const double> matrix, std::span<con
     return x;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

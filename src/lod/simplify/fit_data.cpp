@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -174,4 +174,4 @@ float foreshortened(float area, const Anchor& anchor, const glm::vec3& face, con
     return area * std::clamp(glm::dot(face, normal), leastForeshortening, 1.0f);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "lod/simplify/least_squares.h"
 #include "lod/simplify/level_fit.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Both sets of texture coordinates; a set that the vertices don't have is 0.
 struct Coordinates {
@@ -119,4 +119,4 @@ void startFromMeans(LeastSquares& fit, const Own& own) {
 void fitCoordinates(const FitSource& source, const LevelMesh& level, const Numbered<MeshVertexNumber, Anchor>& anchors,
                     LevelFit& fit);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 
 #include "lod/simplify/number.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 using UnknownNumber = Number<struct UnknownKind>;
 
@@ -104,4 +104,4 @@ private:
     Numbered<UnknownNumber, float> inverseDiagonal_;  // 0 for 0
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 
 #include "lod/simplify/fit_data.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -313,4 +313,4 @@ void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit) {
     conserveLight(source, level, fit);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

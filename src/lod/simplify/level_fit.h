@@ -17,7 +17,7 @@
 #include "lod/simplify/weld.h"
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What all levels of a mesh are fitted to: its vertices, what they share with each other, and what the levels keep of
 // the whole surface.
@@ -95,4 +95,4 @@ LevelFit fitLevel(const FitSource& source, const LevelMesh& level, Numbered<Mesh
 // What fitLevel promises of places and of normals that are shared still holds; a triangle turns by at most 60° more.
 void conserve(const FitSource& source, const LevelMesh& level, LevelFit& fit);
 
-}  // namespace defocus
+}  // namespace defocus::engine

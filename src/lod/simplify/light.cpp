@@ -10,7 +10,7 @@
 #include "lod/simplify/damped_solve.h"
 #include "lod/simplify/triangle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -307,4 +307,4 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
     std::copy(best.begin(), best.end(), normals.begin());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Unit vectors to the 26 neighbours in a cube; the second half is opposite to the first.
 inline constexpr std::size_t lightCount = 26;
@@ -61,4 +61,4 @@ void fitLight(std::span<const glm::vec3> positions, std::span<const glm::vec4> c
               std::span<const std::uint32_t> indices, std::span<const std::uint32_t> groups, const LightMeans& target,
               std::span<glm::vec3> normals);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 
 #include "lod/simplify/triangle_set.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -328,4 +328,4 @@ Repairs repairsOf(const Mesh& mesh) {
     return buildManifold(weldedTriangles(triangles, positions, points), points).repairs;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

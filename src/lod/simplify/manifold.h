@@ -14,7 +14,7 @@
 #include "lod/simplify/weld.h"
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Counts the faces that have no place in a manifold as they are. A face may count as several kinds. Such faces are
 // drawn unchanged at level 0; coarser levels are made of the repaired surface.
@@ -51,4 +51,4 @@ Manifold buildManifold(const TriangleSet<PositionNumber>& triangles,
 // Counts what buildManifold would repair of the mesh.
 Repairs repairsOf(const Mesh& mesh);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -17,7 +17,7 @@
 
 #include "core/memory.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A number of one kind of thing, from 0 on; by default it names none.
 template <typename Kind>
@@ -168,9 +168,9 @@ private:
     std::vector<Item> items_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine
 
 template <typename Kind>
-struct std::hash<defocus::Number<Kind>> {
-    std::size_t operator()(defocus::Number<Kind> number) const { return number.value; }
+struct std::hash<defocus::engine::Number<Kind>> {
+    std::size_t operator()(defocus::engine::Number<Kind> number) const { return number.value; }
 };

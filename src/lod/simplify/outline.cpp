@@ -13,7 +13,7 @@
 #include "lod/simplify/damped_solve.h"
 #include "lod/simplify/triangle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -359,4 +359,4 @@ void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> 
     for (std::size_t v = 0; v < positions.size(); ++v) positions[v] = best[places[v]];
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

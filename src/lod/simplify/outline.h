@@ -12,7 +12,7 @@
 #include "core/bounds.h"
 #include "lod/simplify/cover_grid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Half of the directions to the 26 neighbours in a cube, because a surface covers the same area from the opposite side.
 // Unit length.
@@ -29,4 +29,4 @@ std::vector<CoverGrid> outlinesOf(std::span<const glm::vec3> positions, std::spa
 void fitOutlines(std::span<glm::vec3> positions, std::span<const std::uint32_t> indices,
                  std::span<const std::uint32_t> places, std::span<const CoverGrid> outlines, const Bounds& box);
 
-}  // namespace defocus
+}  // namespace defocus::engine

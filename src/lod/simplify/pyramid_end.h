@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class PyramidEnd : std::uint32_t {
     leastTriangles,  // the last level is as small as levels get
@@ -15,4 +15,4 @@ enum class PyramidEnd : std::uint32_t {
 };
 constexpr PyramidEnd lastPyramidEnd = PyramidEnd::mostLevels;
 
-}  // namespace defocus
+}  // namespace defocus::engine

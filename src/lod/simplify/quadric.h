@@ -18,7 +18,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Quadric {
     float c = 0;       // the sum at the vertex itself
@@ -156,4 +156,4 @@ struct AttributeQuadric {
     }
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

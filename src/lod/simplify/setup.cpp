@@ -9,7 +9,7 @@
 #include "lod/simplify/manifold.h"
 #include "lod/simplify/state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -201,4 +201,4 @@ void prepareSimplifier(Simplifier& s, const Vertices& vertices, const WeldedPosi
     s.modules.emplace(mesh);  // of the whole mesh
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 
 #include "lod/simplify/state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -384,4 +384,4 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

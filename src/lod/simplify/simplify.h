@@ -26,7 +26,7 @@
 #include "lod/simplify/weld.h"
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 constexpr std::size_t fewestToGiveBack = 16'384;  // triangles of a mesh whose freed memory is worth giving back
 
@@ -71,4 +71,4 @@ Simplification simplify(const Vertices& vertices, const WeldedPositions& positio
                         const TriangleSet<MeshVertexNumber>& triangles, const SimplifyOptions& options, Tasks& tasks,
                         const std::function<void(std::uint32_t, SimplifiedLevel)>& take);
 
-}  // namespace defocus
+}  // namespace defocus::engine

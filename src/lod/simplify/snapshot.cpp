@@ -12,7 +12,7 @@
 #include "lod/simplify/state.h"
 #include "lod/simplify/triangle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -385,4 +385,4 @@ SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool wi
     return level;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "lod/simplify/simplify.h"
 #include "lod/simplify/surface_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What is needed later of the surface before any collapse. The caller keeps `vertices` and `smoothing` alive.
 struct Origin {
@@ -128,4 +128,4 @@ Snapshot snapshot(Simplifier& s, std::size_t primitiveCount);
 // Makes the level of which `picture` is a copy. Its anchors are found only if `withAnchors` is set.
 SimplifiedLevel described(const Origin& origin, const Snapshot& picture, bool withAnchors);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle
     return copy;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -21,7 +21,7 @@
 #include "lod/simplify/triangle_set.h"
 #include "lod/simplify/wedges.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
@@ -182,4 +182,4 @@ void linkFaces(SurfaceMesh& mesh, const Manifold& manifold, const TriangleSet<Me
 // corner draws. `vertexNumbers` gets the new number of each vertex, invalid for those that are gone.
 std::unique_ptr<SurfaceMesh> livingCopy(SurfaceMesh& mesh, Numbered<VertexHandle, VertexHandle>& vertexNumbers);
 
-}  // namespace defocus
+}  // namespace defocus::engine

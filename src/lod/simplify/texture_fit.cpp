@@ -10,7 +10,7 @@
 
 #include "lod/simplify/fit_data.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -138,4 +138,4 @@ void fitCoordinates(const FitSource& source, const LevelMesh& level, const Numbe
     fit.uv1 = movedCoordinates(source.vertices.uv1, groups, solution, 2);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

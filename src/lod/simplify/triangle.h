@@ -11,7 +11,7 @@
 #include <span>
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Twice the area of a triangle, along its normal; at(corner) is its place.
 template <typename Corner, typename At>
@@ -98,4 +98,4 @@ void keepFacesUpright(Points& fitted, const Points& original, std::size_t triang
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "lod/simplify/number.h"
 #include "lod/simplify/triangle.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // `Vertex` says whose numbers the corners hold.
 template <typename Vertex>
@@ -64,4 +64,4 @@ std::vector<std::uint32_t> plainCorners(const TriangleSet<Vertex>& triangles) {
     return corners;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

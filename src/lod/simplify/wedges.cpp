@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <type_traits>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -186,4 +186,4 @@ void WedgeTable::prefetch(WedgeNumber w) const {
     std::visit([&](const auto& quadrics) { quadrics.prefetch(w); }, quadrics_);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -15,7 +15,7 @@
 #include "lod/simplify/number.h"
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The distance, in the mesh's longest sides, that weighs as much as a unit of an attribute (of uv: scaled to lengths of
 // the surface, so that it tells a texture that slides). Swept on the school of fish: half or twice as much costs up to
@@ -85,4 +85,4 @@ private:
     Quadrics quadrics_ = DenseQuadrics<3>(0);
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "core/hash.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -121,4 +121,4 @@ VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const Welded
     return groups;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

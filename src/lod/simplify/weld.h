@@ -7,7 +7,7 @@
 #include "lod/simplify/number.h"
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Equal vertices have one number, in order of first appearance.
 template <typename Vertex, typename Id>
@@ -30,4 +30,4 @@ using VertexGroups = Numbered<MeshVertexNumber, MeshVertexNumber>;
 // Vertices at one position whose normals agree within a degree share one group; others keep a crease between them.
 VertexGroups smoothingGroups(const std::vector<glm::vec3>& normals, const WeldedPositions& positions);
 
-}  // namespace defocus
+}  // namespace defocus::engine

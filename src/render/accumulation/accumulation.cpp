@@ -18,7 +18,7 @@
 #include "render/shadow_maps.h"
 #include "render/surface_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -239,4 +239,4 @@ std::unique_ptr<Renderer> makeSharingAccumulation(const World& world, const Rend
     return std::make_unique<AccumulationRenderer>(world, options, std::move(shared));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "render/accumulation/shared_images.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Needs a current GL 4.5 context, which must outlive the renderer.
 std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const RendererOptions& options);
@@ -15,4 +15,4 @@ std::unique_ptr<Renderer> makeAccumulationRenderer(const World& world, const Ren
 std::unique_ptr<Renderer> makeSharingAccumulation(const World& world, const RendererOptions& options,
                                                   std::unique_ptr<SharedImages> shared);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void BlockMerge::add(const BlockSum& block) {
     const Image& image = block.sum;
@@ -25,4 +25,4 @@ Image BlockMerge::image() {
     return sum_->mean();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

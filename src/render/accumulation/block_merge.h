@@ -6,7 +6,7 @@
 
 #include "render/accumulation/layer_sum.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class BlockMerge {
 public:
@@ -20,4 +20,4 @@ private:
     std::optional<LayerSum> sum_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -136,4 +136,4 @@ std::size_t CellSums::bytes() const {
     return sums_.bytes() + held_.bytes() + spread_.bytes() + shownMeans_.bytes() + openMeans_.bytes();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

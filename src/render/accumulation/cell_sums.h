@@ -15,7 +15,7 @@
 #include "gl/target.h"
 #include "plan/lens_cells.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The passes over images with so many classes.
 struct CellPasses {
@@ -61,4 +61,4 @@ private:
     Fullscreen fullscreen_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "gl/read_back.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -194,4 +194,4 @@ std::size_t LayerSum::bytes() const {
     return total;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -19,7 +19,7 @@
 #include "render/layer_window.h"
 #include "render/renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LayerSumInfo {
     int width = 1;  // px, of the layers and the sums
@@ -109,4 +109,4 @@ private:
     bool countsInAlpha_ = false;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "render/accumulation/layer_sum.h"
 #include "render/surface_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class SharedImages {
 public:
@@ -36,4 +36,4 @@ public:
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "render/colour_texture.h"
 #include "render/post_process/pinhole_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -132,4 +132,4 @@ Image rateColourMap(const Image& rate) {
     return colourMapOf(rate, [](float value) { return std::log2(value) / std::log2(leastShownRate); });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

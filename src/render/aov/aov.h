@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "render/surface_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct AovImages {
     Image depth;  // m along the view axis; infinity where nothing is
@@ -67,4 +67,4 @@ Image rateColourMap(const Image& rate);
 // is.
 Image levelColourMap(const Image& level);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "gl/read_back.h"
 #include "image/colour_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 WorkPass::WorkPass(const World& world, std::filesystem::path shaderFolder)
     : scene_(world),
@@ -73,4 +73,4 @@ WorkSummary workSummary(const Image& work, std::uint32_t samples) {
     return {sum / (static_cast<double>(work.pixels.size()) * samples), static_cast<double>(most) / samples};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "render/surface_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The same as renderWork below as a texture, a few lens samples at a time, for frame after frame of one world. Needs a
 // current GL context.
@@ -55,4 +55,4 @@ struct WorkSummary {
 
 WorkSummary workSummary(const Image& work, std::uint32_t samples);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "render/circular/complex_blur.h"
 #include "render/post_process/post_process.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -326,4 +326,4 @@ Method circularMethod() {
             }};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,8 +6,8 @@
 
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 Method circularMethod();
 
-}  // namespace defocus
+}  // namespace defocus::engine

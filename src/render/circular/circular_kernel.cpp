@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -233,4 +233,4 @@ double roundingAmplification(std::span<const CircularComponent> kernel, double e
     return std::abs(energyGain(kernel, extent, diskRadius)) * sum / (std::numbers::pi * diskRadius * diskRadius);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

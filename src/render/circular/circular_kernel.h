@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct CircularComponent {
     double decay;      // a, per squared radius
@@ -68,4 +68,4 @@ double diskProfileError(std::span<const CircularComponent> kernel, double extent
 // by at most ε · this · the brightest pixel: g·Σ_c √(A² + B²)·(∫|F| dx)² / ∫D over |x| ≤ extent, with g = energyGain.
 double roundingAmplification(std::span<const CircularComponent> kernel, double extent, double diskRadius);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "gl/scissor.h"
 #include "render/circular/circular_kernel.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -232,4 +232,4 @@ std::size_t ComplexBlur::bytes() const {
     return total;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "gl/target.h"
 #include "gl/texture.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // How the rows' complex sums are stored.
 enum class ComplexStorage {
@@ -100,4 +100,4 @@ struct ComplexBracket {
 struct CircularComponent;
 ComplexBracket bracketOf(const CircularComponent& component, ComplexTaps taps);
 
-}  // namespace defocus
+}  // namespace defocus::engine

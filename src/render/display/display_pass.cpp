@@ -8,7 +8,7 @@
 #include "render/aov/work.h"
 #include "render/colour_texture.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -87,4 +87,4 @@ double DisplayPass::psnr(const GlTexture& first, const GlTexture& second) {
                    : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "gl/target.h"
 #include "image/tone_map.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 enum class DisplayOverlay {
     none,
@@ -73,4 +73,4 @@ private:
     Fullscreen fullscreen_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

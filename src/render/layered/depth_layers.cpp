@@ -1,6 +1,6 @@
 #include "render/layered/depth_layers.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::size_t DepthLayers::bytes() const {
     return colors_.bytes() + surfaces_.bytes() + front_.bytes() + depth_.bytes() + shadows_.bytes() + pass_.bytes();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "render/shadow_maps.h"
 #include "render/surface_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // `plan` for an image that shows `border` px more on each side; the pixels between them keep what they show, and their
 // circle of confusion in px. For pinholes: lens samples are left out, and so is the tile.
@@ -60,4 +60,4 @@ private:
     std::uint32_t count_ = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "render/post_process/pinhole_pass.h"
 #include "render/post_process/post_process.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -238,4 +238,4 @@ Method layeredMethod() {
             }};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,8 +12,8 @@
 
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 Method layeredMethod();
 
-}  // namespace defocus
+}  // namespace defocus::engine

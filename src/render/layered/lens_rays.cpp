@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -113,4 +113,4 @@ void LensRays::trace(const DepthLayers& layers, const glm::vec2& pinhole, std::u
     glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

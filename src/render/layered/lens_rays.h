@@ -12,7 +12,7 @@
 #include "render/frame_uniforms.h"
 #include "render/layered/depth_layers.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LensRaysInfo {
     int width = 1;  // px, of the image
@@ -53,4 +53,4 @@ private:
     const FrameUniforms* frame_ = nullptr;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "render/lens_space/record_buffer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -383,4 +383,4 @@ std::size_t LensFront::bytes() const {
     return total;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "gl/target.h"
 #include "render/surface_draws.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Surfaces that are shaded alike.
 struct ShadedGroup {
@@ -138,4 +138,4 @@ private:
 // The kernels' dispatch over `count` items in groups of 256 threads.
 void dispatchOver(std::uint64_t count);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "render/lens_space/record_buffer.h"
 #include "render/lens_space/record_shading.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -162,4 +162,4 @@ std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const Render
     return std::make_unique<LensSpaceRenderer>(world, options, std::move(kernel));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

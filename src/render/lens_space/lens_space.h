@@ -7,7 +7,7 @@
 #include "render/lens_space/visibility_kernel.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The setting of these methods that VisibilityKernel::lightsVertices() follows.
 MethodSetting shadingSetting();
@@ -18,4 +18,4 @@ MethodSetting shadingSetting();
 std::unique_ptr<Renderer> makeLensSpaceRenderer(const World& world, const RendererOptions& options,
                                                 std::unique_ptr<VisibilityKernel> kernel);
 
-}  // namespace defocus
+}  // namespace defocus::engine

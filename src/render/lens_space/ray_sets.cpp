@@ -8,7 +8,7 @@
 #include <numeric>
 #include <span>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -92,4 +92,4 @@ RaySets pointRaySets(const FramePlan& plan, std::uint32_t parts) {
     return sets;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -15,7 +15,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A ray as shaders/lens_space/rays.glsl reads it.
 struct GpuRay {
@@ -45,4 +45,4 @@ RaySets pointRaySets(const FramePlan& plan, std::uint32_t parts);
 // Corput 1935).
 std::vector<std::uint32_t> spreadOrder(std::uint32_t count);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "render/lens_space/lens_front.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 RaySum::RaySum(int width, int height, const ShaderDefines& defines, const std::filesystem::path& shaderFolder)
     : width_(width),
@@ -38,4 +38,4 @@ const GlTexture& RaySum::mean() {
     return mean_;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 #include "gl/fullscreen.h"
 #include "gl/target.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class RaySum {
 public:
@@ -30,4 +30,4 @@ private:
     Fullscreen fullscreen_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "render/lens_space/visibility_kernel.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::uint64_t largestStorage() {
     GLint64 most = 0;
@@ -35,4 +35,4 @@ std::uint64_t RecordBuffer::capacity() const {
     return buffer_.bytes() / recordBytes;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "gl/buffer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The most bytes that this driver's shaders read of one buffer.
 std::uint64_t largestStorage();
@@ -29,4 +29,4 @@ private:
     Buffer buffer_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

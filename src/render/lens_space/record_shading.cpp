@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::size_t RecordShading::bytes() const {
     return materials_.bytes() + groups_.bytes() + dispatches_.bytes() + list_.bytes();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

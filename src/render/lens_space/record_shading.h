@@ -8,7 +8,7 @@
 
 #include "render/lens_space/lens_front.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class RecordShading {
 public:
@@ -40,4 +40,4 @@ private:
     Buffer groups_, dispatches_, list_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include "render/lens_space/ray_sets.h"
 #include "render/renderer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr std::size_t recordBytes = 4 * sizeof(std::uint32_t);  // of shaders/lens_space/records.glsl
 
@@ -39,4 +39,4 @@ public:
     [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "render/lens_space/record_buffer.h"
 #include "render/line/line_sets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -311,4 +311,4 @@ Method lineMethod() {
             }};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

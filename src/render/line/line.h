@@ -10,8 +10,8 @@
 
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 Method lineMethod();
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -129,4 +129,4 @@ LineSets lineSets(const FramePlan& plan, bool turned) {
     return lines;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "lens/aperture.h"
 #include "render/lens_space/ray_sets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LineSets {
     RaySets sets;  // lensAndPixel: the way (u, k·v) from the centre to the rim; values: backward, forwardShare, a
@@ -27,4 +27,4 @@ LineSets lineSets(const FramePlan& plan, bool turned);
 // The distance of the aperture's rim from its centre at `angle`, before rotation and anamorphic ratio.
 double apertureRim(const Aperture& aperture, double angle);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::vector<LineInterval> seenOnLine(const std::array<LensVertex, 3>& corners, c
     return seen;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

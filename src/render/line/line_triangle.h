@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LensVertex {  // clip space
     double x = 0;
@@ -36,4 +36,4 @@ struct LensLine {
 // asked its back.
 std::vector<LineInterval> seenOnLine(const std::array<LensVertex, 3>& corners, const LensLine& line, bool doubleSided);
 
-}  // namespace defocus
+}  // namespace defocus::engine

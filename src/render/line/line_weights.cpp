@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -22,4 +22,4 @@ double lightBetween(const LineLight& light, double p1, double p2) {
     return lightUpTo(light, p2) - lightUpTo(light, p1);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 // from the centre. For a disk and p from −1 to 1 a part has κ(p₁, p₂) = (p₂|p₂| − p₁|p₁|)/2 of the light (Tzeng et al.
 // 2012, whose p goes from −1/2 to 1/2, with 2 instead of 1/2).
 
-namespace defocus {
+namespace defocus::engine {
 
 // How the light of a line is spread over it, from −backward to 1.
 struct LineLight {
@@ -17,4 +17,4 @@ struct LineLight {
 
 double lightBetween(const LineLight& light, double p1, double p2);
 
-}  // namespace defocus
+}  // namespace defocus::engine

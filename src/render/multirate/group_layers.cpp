@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -41,4 +41,4 @@ void GroupLayers::copyTo(const LayerSum& sum, std::uint32_t layer, std::uint32_t
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "plan/rates.h"
 #include "render/accumulation/layer_sum.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class GroupLayers {
 public:
@@ -31,4 +31,4 @@ private:
     Target target_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "render/multirate/group_layers.h"
 #include "render/shadow_maps.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -110,4 +110,4 @@ Method multirateMethod() {
             .make = makeMultirate};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

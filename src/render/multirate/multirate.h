@@ -6,9 +6,9 @@
 
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Its row in the method table. Its renderers need a current GL 4.5 context, which must outlive them.
 Method multirateMethod();
 
-}  // namespace defocus
+}  // namespace defocus::engine

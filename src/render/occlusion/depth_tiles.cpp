@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -65,4 +65,4 @@ float DepthTiles::farthest(int left, int right, int bottom, int top) const {
     return least;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 class DepthTiles {
 public:
@@ -24,4 +24,4 @@ private:
     std::vector<Level> levels_;  // of tiles of 4, 8, 16, … px; the last has one tile
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

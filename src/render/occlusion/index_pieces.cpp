@@ -1,6 +1,6 @@
 #include "render/occlusion/index_pieces.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::vector<IndexPiece> indexPieces(const Pyramid& pyramid, std::uint32_t level, std::uint32_t primitive) {
     const PyramidLevel& own = pyramid.levels[level];
@@ -21,4 +21,4 @@ std::vector<IndexPiece> indexPieces(const Pyramid& pyramid, std::uint32_t level,
     return pieces;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

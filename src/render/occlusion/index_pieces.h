@@ -8,7 +8,7 @@
 
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr std::uint32_t mostPieceTriangles = 8;
 
@@ -21,4 +21,4 @@ struct IndexPiece {
 // Returns the pieces of a primitive at a level, in the order of their indices.
 std::vector<IndexPiece> indexPieces(const Pyramid& pyramid, std::uint32_t level, std::uint32_t primitive);
 
-}  // namespace defocus
+}  // namespace defocus::engine

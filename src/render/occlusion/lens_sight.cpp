@@ -6,7 +6,7 @@
 
 #include "render/layer_window.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::optional<SeenBox> LensSight::of(const glm::vec3& centre, const glm::vec3& r
     return seen;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct SeenBox {
     // Pixels of the layer, from its lower left corner, the ends not included; none where left ≥ right or bottom ≥ top.
@@ -42,4 +42,4 @@ private:
     glm::ivec2 layer_{0};  // px
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "render/frame_uniforms.h"
 #include "render/occlusion/lens_sight.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -154,4 +154,4 @@ void Occlusion::append(const Sorted& sorted, const IndexPiece& piece, std::vecto
     indices.insert(indices.end(), from, from + piece.indices.count);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "render/occlusion/depth_tiles.h"
 #include "render/occlusion/index_pieces.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // A primitive of an object at a level, as a pass draws it for some samples.
 struct OccludableDraw {
@@ -93,4 +93,4 @@ private:
     RemainingDraws shown_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #include "render/post_process/bucket_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 BucketPass::BucketPass(const PinholeImage& opaque, LayerFormat format, const std::filesystem::path& shaderFolder)
     : opaque_(&opaque) {
@@ -53,4 +53,4 @@ void BucketPass::draw(SurfacePass& surfaces, std::uint32_t sample, const ObjectS
     fullscreen_.draw(fill_);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "render/post_process/pinhole_image.h"
 #include "render/surface_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class BucketPass {
 public:
@@ -34,4 +34,4 @@ private:
     Fullscreen fullscreen_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -1,6 +1,6 @@
 #include "render/post_process/pinhole_image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 PinholeImage::PinholeImage(int width, int height, LayerFormat format, TextureFormat depthFormat, bool keepsOwnBlur) {
     const auto textureOf = [&](TextureFormat of) {
@@ -23,4 +23,4 @@ void PinholeImage::readAsCoverage(bool on) {
     glTextureParameteriv(color.name(), GL_TEXTURE_SWIZZLE_RGBA, on ? coverage : radiance);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

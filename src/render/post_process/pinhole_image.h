@@ -7,7 +7,7 @@
 #include "gl/texture.h"
 #include "render/layer_format.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct PinholeImage {
     PinholeImage() = default;
@@ -28,4 +28,4 @@ struct PinholeImage {
     std::optional<TexelRectangle> part;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -108,4 +108,4 @@ PinholeImage& PinholePass::drawBucket(std::uint32_t index, std::size_t bucket) {
     return bucketPass_->image();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

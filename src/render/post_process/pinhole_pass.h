@@ -13,7 +13,7 @@
 #include "render/shadow_maps.h"
 #include "render/surface_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The objects of `plan`, each at the whole level nearest to its λ, for `count` samples in the middle of the lens. They
 // are spread over the pixel by Hammersley's points; one alone lies in its middle. The plan's lens (its CoC) is kept.
@@ -61,4 +61,4 @@ private:
     std::optional<BucketPass> bucketPass_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "render/frame_clock.h"
 #include "render/post_process/pinhole_pass.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -180,4 +180,4 @@ std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const Rend
     return std::make_unique<PostProcessRenderer>(world, options, std::move(process));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "render/methods.h"
 #include "render/post_process/pinhole_image.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Blurs a pinhole image by its depth.
 class PostProcess {
@@ -34,4 +34,4 @@ MethodSetting transparencyBucketsSetting(const char* standard);
 std::unique_ptr<Renderer> makePostProcessRenderer(const World& world, const RendererOptions& options,
                                                   std::unique_ptr<PostProcess> process);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 
 #include "plan/visibility.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -98,4 +98,4 @@ TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan) 
     return {static_cast<int>(least.x), static_cast<int>(least.y), extent.x, extent.y};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

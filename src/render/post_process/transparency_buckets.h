@@ -8,7 +8,7 @@
 #include "gl/texture.h"
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Objects of the plan, front to back.
 using TransparencyBucket = std::vector<std::size_t>;
@@ -23,4 +23,4 @@ std::vector<TransparencyBucket> transparencyBuckets(const FramePlan& plan, std::
 // nothing is.
 TexelRectangle reachOf(const TransparencyBucket& bucket, const FramePlan& plan);
 
-}  // namespace defocus
+}  // namespace defocus::engine

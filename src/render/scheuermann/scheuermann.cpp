@@ -16,7 +16,7 @@
 #include "lens/aperture.h"
 #include "render/post_process/post_process.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -299,4 +299,4 @@ Method scheuermannMethod() {
             }};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

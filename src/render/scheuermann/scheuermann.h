@@ -20,7 +20,7 @@
 #include "lens/circle_of_confusion.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Depth → blurriness, −1 … cutoff: (z − focus)/(focus − near) in front, (z − focus)/(far − focus) behind.
 struct BlurrinessPlanes {
@@ -51,4 +51,4 @@ std::vector<glm::vec2> poissonDisk(std::uint32_t count);
 
 Method scheuermannMethod();
 
-}  // namespace defocus
+}  // namespace defocus::engine

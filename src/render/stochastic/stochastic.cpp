@@ -3,7 +3,7 @@
 #include "render/lens_space/lens_space.h"
 #include "render/lens_space/record_buffer.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -92,4 +92,4 @@ Method stochasticMethod() {
             }};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,8 +7,8 @@
 
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 Method stochasticMethod();
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "render/layer_format.h"
 #include "render/shadow_maps.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -165,4 +165,4 @@ void refuseTiles(const FramePlan& plan, std::uint64_t limit, const std::string& 
          reason);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

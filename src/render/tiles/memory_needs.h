@@ -9,7 +9,7 @@
 #include "render/methods.h"
 #include "render/tiles/tiling.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What a request says of the memory and format of layers.
 struct DrawLimits {
@@ -49,4 +49,4 @@ bool mustDrawInTiles(const World& world, const FramePlan& plan, const DrawLimits
 // Throws Error: "640 x 480 px don't fit into 100 MiB in one piece, and REASON".
 [[noreturn]] void refuseTiles(const FramePlan& plan, std::uint64_t limit, const std::string& reason);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "defocus/settings.h"
 #include "render/frame_uniforms.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 std::string rangeText(const SampleRange& range) {
     return fmt::format("{}:{}", range.first, range.end);
@@ -71,4 +71,4 @@ void dropFileAttributes(Metadata& metadata) {
     });
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Metadata name of the text that says what a frame is made of; equal for all parts of one frame.
 inline constexpr const char* settingsAttribute = "defocus:settings";
@@ -46,4 +46,4 @@ const std::string* textAttribute(const Metadata& metadata, const char* name);
 // Removes attributes that describe the file (compression, windows, …) and not the frame.
 void dropFileAttributes(Metadata& metadata);
 
-}  // namespace defocus
+}  // namespace defocus::engine

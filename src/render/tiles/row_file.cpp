@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -141,4 +141,4 @@ void joinRows(const std::vector<RowFile>& tiles, const std::vector<JoinedOutput>
     for (ImageRowWriter& writer : writers) writer.finish();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

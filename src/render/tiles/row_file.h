@@ -11,7 +11,7 @@
 #include "plan/tiles.h"
 #include "render/tiles/part_header.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct RowFileHeader {
     int width = 0;  // px, of the frame
@@ -51,4 +51,4 @@ struct JoinedOutput {
 // Writes the frame that the files of completeRows make up to each output. Throws Error naming the file.
 void joinRows(const std::vector<RowFile>& files, const std::vector<JoinedOutput>& outputs, const Metadata& metadata);
 
-}  // namespace defocus
+}  // namespace defocus::engine

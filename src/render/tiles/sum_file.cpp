@@ -7,7 +7,7 @@
 #include "render/accumulation/block_merge.h"
 #include "render/frame_uniforms.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -167,4 +167,4 @@ MergedFrame mergeParts(const std::vector<fs::path>& paths) {
     return merged;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "render/renderer.h"
 #include "render/tiles/part_header.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FramePart {
     SampleRange range;               // clipped to the frame's samples
@@ -39,4 +39,4 @@ struct MergedFrame {
 // cut a block or have other settings. Needs a current GL context.
 MergedFrame mergeParts(const std::vector<std::filesystem::path>& paths);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -59,4 +59,4 @@ void addTileStats(RenderStats& sum, const RenderStats& added) {
     sum = std::move(both);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "render/renderer.h"
 #include "render/tiles/tiling.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class TileWalk {
 public:
@@ -47,4 +47,4 @@ void placeTile(Image& rows, int firstRow, const Tile& tile, const Image& pixels)
 // `added` after `sum`, of one frame: times, triangles and the peak of both.
 void addTileStats(RenderStats& sum, const RenderStats& added);
 
-}  // namespace defocus
+}  // namespace defocus::engine

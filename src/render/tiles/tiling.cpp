@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/memory_limits.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -117,4 +117,4 @@ Tiling chosenTiling(const TilingNeeds& asked) {
     return tiling;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "plan/tiles.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // What a frame takes and what there is, bytes.
 struct TilingNeeds {
@@ -51,4 +51,4 @@ bool fitsInOnePiece(const TilingNeeds& needs);
 // much memory would do, where not even bands of a few rows do.
 Tiling chosenTiling(const TilingNeeds& needs);
 
-}  // namespace defocus
+}  // namespace defocus::engine

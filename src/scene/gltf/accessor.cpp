@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -216,4 +216,4 @@ std::vector<std::uint32_t> readIntegers(Source& source, int accessor, int compon
     return result;
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

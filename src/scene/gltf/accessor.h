@@ -11,7 +11,7 @@
 
 #include "scene/gltf/source.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 // Throws Error unless every accessor has a known type and stays inside its buffer view; nothing is read.
 void checkAccessors(const Source& source);
@@ -41,4 +41,4 @@ std::vector<Vector> readVectors(Source& source, int accessor, const std::string&
     return result;
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

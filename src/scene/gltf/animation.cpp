@@ -8,7 +8,7 @@
 
 #include "scene/gltf/accessor.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -256,4 +256,4 @@ void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const 
     }
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -4,7 +4,7 @@
 #include "scene/gltf/node.h"
 #include "scene/gltf/source.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 // Clips over the kept nodes. Channels of other nodes are dropped; those that cannot be played are noted.
 std::vector<AnimationClip> readAnimations(Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes);
@@ -15,4 +15,4 @@ std::vector<Skin> readSkins(Source& source, const Hierarchy& hierarchy);
 void checkSkinnedMeshes(const Source& source, const Hierarchy& hierarchy, const std::vector<Mesh>& meshes,
                         const std::vector<Skin>& skins);
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -9,7 +9,7 @@
 #include "core/bounds.h"
 #include "scene/gltf/accessor.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -272,4 +272,4 @@ void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint3
     repairWeights(block);
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -5,7 +5,7 @@
 #include "scene/gltf/source.h"
 #include "scene/vertex_block.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 // Reads what `primitive` names; `draco` (or nullptr) holds what is compressed. All attributes must have as many
 // elements as POSITION. Normals are empty where the file has none; then its tangents are dropped too, as the standard
@@ -21,4 +21,4 @@ std::uint64_t dropUnplaced(Source& source, const std::vector<glm::vec3>& positio
 // what is neither finite nor long enough is replaced.
 void repair(Source& source, VertexBlock& block, std::span<std::vector<std::uint32_t>* const> indices);
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -13,7 +13,7 @@
 #include "core/json_text.h"
 #include "core/message.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -240,4 +240,4 @@ Document readDocument(const std::filesystem::path& path) {
     return document;
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

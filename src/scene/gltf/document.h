@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 struct Document {
     std::string file;                                   // as given, for messages
@@ -50,4 +50,4 @@ template <typename... Args>
     throw Error(document.file + ": " + oneLine(fmt::format(format, std::forward<Args>(args)...)));
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

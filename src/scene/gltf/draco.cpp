@@ -9,7 +9,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 struct DracoPrimitive::Decoded {
     std::unique_ptr<draco::Mesh> mesh;
@@ -94,4 +94,4 @@ std::vector<float> DracoPrimitive::floats(const Source& source, const std::strin
     return result;
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

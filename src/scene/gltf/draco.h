@@ -9,7 +9,7 @@
 
 #include "scene/gltf/source.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 // A decoded primitive; attributes are read from it by name in place of their accessors' (absent) data.
 class DracoPrimitive {
@@ -34,4 +34,4 @@ private:
     std::string what_;
 };
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -13,7 +13,7 @@
 #include "scene/pose.h"
 #include "scene/units.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -128,4 +128,4 @@ Scene loadGltf(const std::filesystem::path& path, const Progress& progress) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

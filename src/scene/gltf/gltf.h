@@ -12,8 +12,8 @@
 #include "core/progress.h"
 #include "scene/scene.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 Scene loadGltf(const std::filesystem::path& path, const Progress& progress = {});
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "core/parallel.h"
 #include "image/image_io.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -297,4 +297,4 @@ Images readImages(Source& source, const Progress& progress) {
     return result;
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -3,7 +3,7 @@
 
 #include "scene/gltf/source.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 std::vector<Material> readMaterials(Source& source);
 
@@ -18,4 +18,4 @@ struct Images {
 // Decodes every image, on all cores. A broken or missing one is an Error naming it.
 Images readImages(Source& source, const Progress& progress);
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

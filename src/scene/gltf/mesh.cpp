@@ -8,7 +8,7 @@
 #include "scene/gltf/attributes.h"
 #include "scene/tangents.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -221,4 +221,4 @@ std::vector<Mesh> readMeshes(Source& source, const std::vector<Material>& materi
     return meshes;
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -3,7 +3,7 @@
 
 #include <meshoptimizer.h>
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -91,4 +91,4 @@ void unpackMeshoptViews(Source& source) {
     }
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

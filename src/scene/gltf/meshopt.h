@@ -3,9 +3,9 @@
 
 #include "scene/gltf/source.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 // Fills Source::unpackedViews. Throws Error for data that does not decode.
 void unpackMeshoptViews(Source& source);
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

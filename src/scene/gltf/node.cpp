@@ -9,7 +9,7 @@
 
 #include "scene/gltf/accessor.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -327,4 +327,4 @@ std::vector<Light> readLights(Source& source) {
     return lights;
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -3,7 +3,7 @@
 
 #include "scene/gltf/source.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 // The nodes that are kept: those of the file's default scene (else its first, else all), and what skins need of others.
 struct Hierarchy {
@@ -19,4 +19,4 @@ Hierarchy readHierarchy(Source& source);
 std::vector<Camera> readCameras(Source& source);
 std::vector<Light> readLights(Source& source);
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -371,4 +371,4 @@ void checkSchema(Document& document) {
     Checker(document).checkObject(document.json, rootProperties, "");
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

@@ -5,10 +5,10 @@
 
 #include "scene/gltf/document.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 // Throws Error naming the place, e.g. "accessors[3].bufferView is 7, but the file has 2 bufferViews". JSON has one type
 // of numbers: an integer that is written as a float (100.0) becomes one.
 void checkSchema(Document& document);
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

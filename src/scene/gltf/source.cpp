@@ -11,7 +11,7 @@
 #include "scene/gltf/schema.h"
 #include "scene/gltf/structure.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -27,15 +27,26 @@ constexpr std::array<std::string_view, 17> supportedExtensions = {
     "KHR_texture_transform",
 };
 
-// What a person sees instead, for extensions that are often met.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> fallbackLooks = {{
-    {"KHR_materials_iridescence", "not supported; drawn without iridescence"},
-    {"KHR_materials_anisotropy", "not supported; highlights are round"},
-    {"KHR_materials_variants", "not supported; drawn in the default variant"},
-    {"KHR_texture_basisu", "not supported; the texture's plain image is used where it has one"},
-    {"EXT_texture_webp", "not supported; the texture's plain image is used where it has one"},
-    {"MSFT_texture_dds", "not supported; the texture's plain image is used where it has one"},
+// How a model looks without an extension that is often met.
+struct Fallback {
+    std::string_view extension;
+    std::string_view look;
+    bool
+        mayBeRequired;  // the geometry is complete without it, so that a file which requires it is drawn with a warning
+};
+constexpr std::array<Fallback, 6> fallbacks = {{
+    {"KHR_materials_iridescence", "not supported; drawn without iridescence", true},
+    {"KHR_materials_anisotropy", "not supported; highlights are round", true},
+    {"KHR_materials_variants", "not supported; drawn in the default variant", true},
+    {"KHR_texture_basisu", "not supported; the texture's plain image is used where it has one", false},
+    {"EXT_texture_webp", "not supported; the texture's plain image is used where it has one", false},
+    {"MSFT_texture_dds", "not supported; the texture's plain image is used where it has one", false},
 }};
+
+const Fallback* fallbackOf(std::string_view extension) {
+    const auto* found = std::ranges::find(fallbacks, extension, &Fallback::extension);
+    return found != fallbacks.end() ? found : nullptr;
+}
 
 std::vector<std::string> stringsOf(const nlohmann::json& json, const char* name) {
     const auto found = json.find(name);
@@ -46,14 +57,16 @@ void checkExtensions(Source& source) {
     const auto supported = [](const std::string& name) {
         return std::find(supportedExtensions.begin(), supportedExtensions.end(), name) != supportedExtensions.end();
     };
-    for (const std::string& name : stringsOf(source.document.json, "extensionsRequired"))
-        if (!supported(name)) fault(source.document, "it requires the extension {}, which is not supported", name);
+    for (const std::string& name : stringsOf(source.document.json, "extensionsRequired")) {
+        const Fallback* fallback = fallbackOf(name);
+        if (!supported(name) && (fallback == nullptr || !fallback->mayBeRequired))
+            fault(source.document, "it requires the extension {}, which is not supported", name);
+    }
     const std::vector<std::string> used = stringsOf(source.document.json, "extensionsUsed");
     for (const std::string& name : std::set<std::string>(used.begin(), used.end())) {
         if (supported(name)) continue;
-        const auto* look = std::find_if(fallbackLooks.begin(), fallbackLooks.end(),
-                                        [&](const auto& entry) { return entry.first == name; });
-        ignore(source, "extension " + name, std::string(look != fallbackLooks.end() ? look->second : "not supported"));
+        const Fallback* fallback = fallbackOf(name);
+        ignore(source, "extension " + name, std::string(fallback != nullptr ? fallback->look : "not supported"));
     }
 }
 
@@ -177,4 +190,4 @@ float toFloat(double value) {
     return static_cast<float>(std::clamp(value, -largest, largest));
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

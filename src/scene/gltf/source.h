@@ -19,7 +19,7 @@
 #include "scene/gltf/tinygltf.h"
 #include "scene/scene.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 // How much memory may still be taken for the scene, so that a few bytes that claim billions of vertices, pixels or
 // objects are refused instead of filling it. Sharing, compression and zero-filled accessors make real scenes larger
@@ -77,4 +77,4 @@ std::string labelOf(const char* kind, std::size_t index, const std::string& name
 // A double from the file as a finite float.
 float toFloat(double value);
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

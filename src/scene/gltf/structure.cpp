@@ -3,7 +3,7 @@
 #define TINYGLTF_IMPLEMENTATION
 #include "scene/gltf/structure.h"
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace {
 
@@ -69,4 +69,4 @@ tinygltf::Model readStructure(const Document& document) {
     return model;
 }
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

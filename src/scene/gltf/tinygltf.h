@@ -11,8 +11,8 @@
 #include <tiny_gltf.h>
 #undef tinygltf
 
-namespace defocus::gltf {
+namespace defocus::engine::gltf {
 
 namespace tinygltf = ::defocusTinygltf;
 
-}  // namespace defocus::gltf
+}  // namespace defocus::engine::gltf

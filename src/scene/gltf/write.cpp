@@ -19,7 +19,7 @@
 #include "scene/gltf/tinygltf.h"
 #include "scene/vertex_block.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -166,4 +166,4 @@ void writeGlb(const std::filesystem::path& path, const Mesh& mesh) {
     file.commit();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

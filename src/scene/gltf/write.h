@@ -10,10 +10,10 @@
 
 #include "scene/mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Writes the file, all or nothing. Throws Error with the path, or with the mesh's name when no triangle is left to
 // write, an index is beyond the vertices, or the file would be larger than the format holds (4 GiB).
 void writeGlb(const std::filesystem::path& path, const Mesh& mesh);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "frame/settings/settings.h"
 #include "view/document/kept_files.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -190,4 +190,4 @@ void actOnDocument(Document& document, ViewState& state, const ViewActions& acti
     if (actions.chooseCamera) switchCamera(document, state, *actions.chooseCamera);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

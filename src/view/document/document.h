@@ -5,7 +5,7 @@
 #include "view/document/scene_loader.h"
 #include "view/state/view_state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct Document {
     std::filesystem::path shaderFolder;  // empty: the embedded shaders
@@ -48,4 +48,4 @@ void updateWorld(Document& document, ViewState& state, bool held);
 // Switches to a camera of the file, or "auto", and to its lens. Throws Error.
 void switchCamera(Document& document, ViewState& state, const std::string& name);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::optional<ViewEdit> EditHistory::reset(const ViewEdit& now) {
     return current_;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "view/state/view_state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns whether both states differ in nothing that counts as an edit.
 bool sameEdit(const ViewEdit& a, const ViewEdit& b);
@@ -44,4 +44,4 @@ private:
     double changedAt_ = 0;  // s
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

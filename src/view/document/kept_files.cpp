@@ -11,7 +11,7 @@
 #include "core/file.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -186,4 +186,4 @@ void rememberRecentFile(const fs::path& list, const fs::path& scene) {
     writeKept(list, names);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

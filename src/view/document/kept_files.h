@@ -4,7 +4,7 @@
 
 #include "view/state/view_state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // These are empty if the environment names no folder.
 std::filesystem::path viewSettingsPath();
@@ -42,4 +42,4 @@ std::vector<std::filesystem::path> readRecentFiles(const std::filesystem::path& 
 // Puts a scene first. Throws Error if the list can't be written.
 void rememberRecentFile(const std::filesystem::path& list, const std::filesystem::path& scene);
 
-}  // namespace defocus
+}  // namespace defocus::engine

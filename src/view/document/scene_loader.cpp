@@ -8,7 +8,7 @@
 #include "core/parallel.h"
 #include "lod/pyramid/draft.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::optional<SceneLoader::Opening> SceneLoader::opening() const {
     return jobs_.back()->opening;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

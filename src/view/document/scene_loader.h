@@ -11,7 +11,7 @@
 
 #include "frame/prepared_frame.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LoadedScene {
     Request options;
@@ -58,4 +58,4 @@ private:
     std::vector<std::unique_ptr<Job>> jobs_;  // the last one counts, the others are cancelled
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

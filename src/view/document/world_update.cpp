@@ -9,7 +9,7 @@
 #include "scene/ground.h"
 #include "view/document/document.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -157,4 +157,4 @@ void switchCamera(Document& document, ViewState& state, const std::string& name)
     document.shutterCameras.clear();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

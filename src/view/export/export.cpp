@@ -8,7 +8,7 @@
 #include "frame/render_command_text.h"
 #include "view/export/shot.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -85,4 +85,4 @@ void stepExport(std::optional<StillExport>& still, ViewState& state) {
     still.reset();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "view/document/document.h"
 #include "view/export/still_export.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns the `defocus render` command of the picture.
 std::string pictureCommand(const Document& document, const ViewState& state);
@@ -19,4 +19,4 @@ std::optional<std::string> actOnExport(std::optional<StillExport>& still, const 
 // Continues the still for a part of the frame's time.
 void stepExport(std::optional<StillExport>& still, ViewState& state);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "plan/camera_path.h"
 #include "scene/built_in_environment.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -132,4 +132,4 @@ std::string shotJson(const ShotRecording& recording) {
     return shot.dump(2) + "\n";
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "view/state/view_state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline constexpr int framesBetweenKeys = 48;  // 2 s
 
@@ -24,4 +24,4 @@ struct ShotRecording {
 // key.
 std::string shotJson(const ShotRecording& recording);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "core/stopwatch.h"
 #include "frame/render_report.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 StillExport::StillExport(const PreparedFrame& frame, const StillRequest& request)
     : frame_(&frame), request_(request), begin_(Clock::now()) {
@@ -39,4 +39,4 @@ void StillExport::finish() {
     writeImage(request_.output, driver_->image(), renderMetadata(report), request_.write);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

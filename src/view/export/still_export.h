@@ -9,7 +9,7 @@
 #include "frame/prepared_frame.h"
 #include "image/image_io.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct StillRequest {
     Request options;  // samples, seed, levels, method
@@ -41,4 +41,4 @@ private:
     std::chrono::steady_clock::time_point begin_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -203,4 +203,4 @@ void drawHud(const Ui& ui) {
     drawNotices(ui);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

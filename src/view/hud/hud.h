@@ -3,7 +3,7 @@
 
 #include "view/widgets/ui.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 void drawHud(const Ui& ui);
 
@@ -40,4 +40,4 @@ void drawLegend(const Ui& ui, const ImVec2& status);
 // Explains how the object under the cursor is drawn.
 void drawHover(const Ui& ui);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "image/colour_map.h"
 #include "view/hud/hud.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -124,4 +124,4 @@ void drawHover(const Ui& ui) {
     ImGui::EndTooltip();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "view/state/key_commands.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -87,4 +87,4 @@ void drawNotices(const Ui& ui) {
     drawKeys(ui);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "view/widgets/rows.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -95,4 +95,4 @@ void performancePanel(const Ui& ui) {
     ImGui::TextDisabled("%s", ui.device.c_str());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

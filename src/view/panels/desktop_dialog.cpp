@@ -11,7 +11,7 @@
 
 extern char** environ;
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::optional<DesktopDialog::Outcome> DesktopDialog::take() {
     return Outcome{code == 0 ? std::filesystem::path(text_) : std::filesystem::path(), code != 0 && code != cancelled};
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

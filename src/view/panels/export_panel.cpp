@@ -12,7 +12,7 @@
 #include "view/panels/panels.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -131,4 +131,4 @@ void drawExportDialog(const Ui& ui) {
     ImGui::EndPopup();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "view/widgets/rows.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -109,4 +109,4 @@ void imagePanel(const Ui& ui) {
     settingRow(state.options, "toneMap");
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

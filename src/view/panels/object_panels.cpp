@@ -12,7 +12,7 @@
 #include "view/panels/panels.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -203,4 +203,4 @@ void materialPanel(const Ui& ui) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -159,4 +159,4 @@ std::optional<fs::path> drawOpenDialog(OpenDialog& dialog, const ViewState& stat
     return chosen;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

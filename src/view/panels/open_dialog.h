@@ -5,7 +5,7 @@
 
 #include "view/state/view_state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The file dialog of the desktop: zenity or kdialog, as a process beside the window.
 class DesktopDialog {
@@ -71,4 +71,4 @@ void openSceneDialog(OpenDialog& dialog, const ViewState& state);
 // Draws the browser. Returns the scene once one is chosen.
 std::optional<std::filesystem::path> drawOpenDialog(OpenDialog& dialog, const ViewState& state, float scale);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -58,4 +58,4 @@ void drawPanels(const Ui& ui) {
     ImGui::End();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 
 #include "view/widgets/ui.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // The sections from top to bottom: function, title, whether it is open at first, when it is shown. A new section needs
 // its function and a line here.
@@ -37,4 +37,4 @@ void drawPanels(const Ui& ui);
 // Draws the dialog for a still while ViewState::exportDialog is set. It asks before a file is replaced.
 void drawExportDialog(const Ui& ui);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "view/widgets/rows.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -107,4 +107,4 @@ void methodPanel(const Ui& ui) {
     if (edited.text() != use.text()) options.methodSettings = edited.settings;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

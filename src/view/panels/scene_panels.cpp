@@ -13,7 +13,7 @@
 #include "view/widgets/rows.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -155,4 +155,4 @@ void animationPanel(const Ui& ui) {
     shutterRows(state.options);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "frame/settings/settings.h"
 #include "plan/camera_path.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -166,4 +166,4 @@ void updatePicture(LivePicture& picture, Document& document, ViewState& state, b
     updateWarnings(picture, state);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

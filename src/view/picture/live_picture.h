@@ -4,7 +4,7 @@
 #include "view/document/document.h"
 #include "view/picture/view_picture.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct LivePicture {
     std::optional<ViewPicture> image;   // none: no scene yet
@@ -27,4 +27,4 @@ void growPicture(LivePicture& picture, const Document& document, const ViewState
 void updatePicture(LivePicture& picture, Document& document, ViewState& state, bool software, double restOfFrame,
                    bool exporting);
 
-}  // namespace defocus
+}  // namespace defocus::engine

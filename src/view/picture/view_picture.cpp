@@ -8,7 +8,7 @@
 
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -272,4 +272,4 @@ void ViewPicture::present(const PictureRequest& request) {
     displayTimer_.end();
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -17,7 +17,7 @@
 #include "render/progressive_image.h"
 #include "view/state/frame_budget.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct PictureSide {
     std::string method;  // MethodUse::text
@@ -122,4 +122,4 @@ private:
     std::uint64_t begun_ = 0;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

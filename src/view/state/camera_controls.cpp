@@ -9,7 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -88,4 +88,4 @@ glm::dvec3 rayThrough(const ViewCamera& camera, const glm::dvec2& point, double 
            glm::dvec3(point.x * tanHalfHorizontal, point.y * tanHalfVertical, -1.0);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

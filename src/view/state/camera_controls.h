@@ -8,7 +8,7 @@
 
 #include "core/bounds.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct ViewCamera {
     glm::dmat4 worldFromCamera{1.0};  // rigid; the camera looks along its −z axis
@@ -44,4 +44,4 @@ ViewCamera framed(const ViewCamera& camera, const Bounds& bounds, double tanHalf
 glm::dvec3 rayThrough(const ViewCamera& camera, const glm::dvec2& point, double tanHalfHorizontal,
                       double tanHalfVertical);
 
-}  // namespace defocus
+}  // namespace defocus::engine

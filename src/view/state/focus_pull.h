@@ -7,7 +7,7 @@
 
 #include "plan/camera_path.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Returns 3t² − 2t³ for t clamped to [0, 1]: it has no slope at either end.
 inline double eased(double t) {
@@ -38,4 +38,4 @@ inline double rackedFocus(double focusDistance, double notches) {
     return std::clamp(focusDistance * std::exp(step * notches), minDistance, maxDistance);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FrameQuality {
     double resolution = 1;       // rendered pixels per window pixel along a side
@@ -47,4 +47,4 @@ inline FrameBudget adapted(FrameBudget budget, double measured) {
     return budget;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

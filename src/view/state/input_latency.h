@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace defocus {
+namespace defocus::engine {
 
 class InputLatency {
 public:
@@ -50,4 +50,4 @@ private:
     std::deque<double> answers_;  // ms
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include "gl/window.h"
 #include "view/state/photographic_stops.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::vector<std::string> cameraNames(const Scene& scene) {
     return names;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

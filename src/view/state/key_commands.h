@@ -5,7 +5,7 @@
 
 #include "view/state/view_state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct KeyContext {
     const PreparedFrame* frame = nullptr;  // null: no scene yet
@@ -34,4 +34,4 @@ void runKeyCommand(int key, const KeyContext& context);
 // Returns the names of the file's cameras, in its order. Keys 1 … 9 choose them.
 std::vector<std::string> cameraNames(const Scene& scene);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <span>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Rounded as cameras show them; full stops are √2 apart.
 inline std::span<const double> standardStops() {
@@ -27,4 +27,4 @@ inline double steppedStop(double fStop, int steps) {
     return stops[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(index, 0, std::ssize(stops) - 1))];
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

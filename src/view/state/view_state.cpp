@@ -15,7 +15,7 @@
 #include "scene/animation.h"
 #include "scene/pick.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::string clipText(const Scene& scene, int clip) {
     return !name.empty() && clipNamed(scene, name) == clip ? name : std::to_string(clip);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

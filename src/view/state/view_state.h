@@ -14,7 +14,7 @@
 #include "view/state/focus_pull.h"
 #include "view/state/frame_budget.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Starts at the window's top left corner; sizes and positions are in window units.
 struct PictureArea {
@@ -198,4 +198,4 @@ void advance(const Scene& scene, ViewState& state, double seconds);
 // Returns the value of --clip for a clip of the scene: its name, or its number if the name is ambiguous.
 std::string clipText(const Scene& scene, int clip);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "view/state/photographic_stops.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -249,4 +249,4 @@ void timeBar(std::span<const PassTime> parts, double budget, float scale) {
     }
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 
 #include "image/text.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -90,4 +90,4 @@ void addFont(ImFontAtlas& atlas, double scale) {
     atlas.AddFontDefault(&config);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 
 // Sets ImGui's style; `scale`: px per unit of the interface. ImGuiCol_CheckMark is the accent colour, and
 // ImGuiCol_PlotHistogramHovered warns.
@@ -17,4 +17,4 @@ glm::vec3 windowColor(bool dark);
 // Adds the system's sans serif font, or ImGui's bitmap font where there is none.
 void addFont(ImFontAtlas& atlas, double scale);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "core/parse.h"
 #include "view/widgets/widgets.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -195,4 +195,4 @@ std::string fieldLabel(std::string_view name) {
     return label;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Draws the row of the setting with this name. Returns whether the request changed. Values that the setting refuses are
 // ignored. `first`: of a setting that may be unset, its first value when it is switched on.
@@ -28,4 +28,4 @@ std::string secondsFormat(double seconds);
 // Returns the label of a setting's name: "Blade rotation" for "bladeRotation".
 std::string fieldLabel(std::string_view name);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "view/state/input_latency.h"
 #include "view/widgets/look.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct FrameTimes {
     double frame = 0;           // ms, of the latest frame
@@ -29,4 +29,4 @@ struct Ui {
     [[nodiscard]] const Pose& pose() const { return document.frame->world.pose; }
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

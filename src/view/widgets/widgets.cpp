@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -95,4 +95,4 @@ void centreDialog(float width, float height) {
     ImGui::SetNextWindowSize({std::min(width, window.x - 8), std::min(height, window.y - 8)});
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "render/renderer.h"
 #include "view/widgets/look.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 // Draws a header that opens and closes a section. Returns whether it is open.
 bool section(const char* title, bool openAtFirst);
@@ -65,4 +65,4 @@ void depthDiagram(const FramePlan& plan, float scale);
 // Draws a stacked bar with its legend and a mark at `budget` ms.
 void timeBar(std::span<const PassTime> parts, double budget, float scale);
 
-}  // namespace defocus
+}  // namespace defocus::engine

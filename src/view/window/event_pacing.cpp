@@ -4,7 +4,7 @@
 #include <optional>
 #include <set>
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -64,4 +64,4 @@ std::vector<WindowEvent> takeEvents(std::deque<WindowEvent>& queue, const EventP
     return result;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 
 #include "gl/window.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct EventPace {
     bool interfaceHasHand = false;  // a widget has the mouse or takes text, or a dialog is open
@@ -19,4 +19,4 @@ struct EventPace {
 // next frame.
 std::vector<WindowEvent> takeEvents(std::deque<WindowEvent>& queue, const EventPace& pace);
 
-}  // namespace defocus
+}  // namespace defocus::engine

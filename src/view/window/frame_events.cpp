@@ -8,7 +8,7 @@
 #include "view/window/event_pacing.h"
 #include "view/window/session.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::vector<WindowEvent> fetchEvents(Session& session) {
     return takeEvents(session.events, {interfaceHasHand, session.state.area.size});
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

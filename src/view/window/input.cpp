@@ -9,7 +9,7 @@
 #include "view/state/key_commands.h"
 #include "view/state/photographic_stops.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -165,4 +165,4 @@ void ViewInput::fly(const InputContext& context, double seconds, ViewState& stat
     state.camera = flown(state.camera, direction * (speed * std::min(seconds, 0.1)));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "gl/window.h"
 #include "view/state/view_state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct InputContext {
     const PreparedFrame* frame = nullptr;  // null: no scene yet
@@ -43,4 +43,4 @@ private:
     std::set<int> held_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

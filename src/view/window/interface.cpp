@@ -12,7 +12,7 @@
 
 #include "view/widgets/look.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -115,4 +115,4 @@ void ViewInterface::endFrame() {
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

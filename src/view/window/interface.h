@@ -6,7 +6,7 @@
 
 #include "gl/window.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 class ViewInterface {
 public:
@@ -34,4 +34,4 @@ private:
     bool dark_ = true;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

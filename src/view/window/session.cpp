@@ -12,7 +12,7 @@
 #include "view/hud/hud.h"
 #include "view/panels/panels.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -215,4 +215,4 @@ void runSession(const SessionOptions& options) {
     rememberSettings(session);
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

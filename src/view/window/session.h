@@ -12,7 +12,7 @@
 #include "view/window/input.h"
 #include "view/window/interface.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 struct SessionOptions {
     Request request;                     // its size is that of the picture
@@ -71,4 +71,4 @@ std::vector<WindowEvent> fetchEvents(Session& session);
 // Writes the state to SessionOptions::stats, several times a second; `now`: in any case.
 void writeStats(Session& session, bool now = false);
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include "core/file.h"
 #include "view/window/session.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 namespace {
 
@@ -111,4 +111,4 @@ void writeStats(Session& session, bool now) {
     writeFile(session.options.stats, stats.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -15,7 +15,7 @@
 #include "scratch_folder.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A method that claims more than it does.
@@ -284,4 +284,4 @@ TEST_F(Convergence, cropsLieInTheImageAndApart) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "scratch_folder.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -157,4 +157,4 @@ TEST_F(ConvergenceReference, refusesImpossibleNumbersOfSamples) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -18,7 +18,7 @@
 #include "scratch_folder.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // ---- Pareto's front -------------------------------------------------------------------------------------------------
@@ -439,4 +439,4 @@ TEST(ConvergenceHash, changesWithTheShaders) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -3,7 +3,7 @@
 #include "eval/convergence/unlit_scene.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A quad that faces +z under the light (0.4, 0.8, 0.6)/√1.16: 0.2 + 0.8·0.6/√1.16 of its colour.
@@ -45,4 +45,4 @@ TEST(ConvergenceUnlit, texturesBecomeTheirMeanColour) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

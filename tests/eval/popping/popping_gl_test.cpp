@@ -4,7 +4,7 @@
 #include "gl/context.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Popping : public testing::Test {
@@ -88,4 +88,4 @@ TEST_F(Popping, oneSamplesStepIsASmallPartOfALevels) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

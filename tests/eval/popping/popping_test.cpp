@@ -11,7 +11,7 @@
 #include "plan/frame_plan.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // ---- movements ------------------------------------------------------------------------------------------------------
@@ -212,4 +212,4 @@ TEST(PoppingFiles, csvHoldsEveryChangeAndJsonTheWorst) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

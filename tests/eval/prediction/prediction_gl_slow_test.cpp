@@ -9,7 +9,7 @@
 #include "gl/context.h"
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Of plaster, with bumps and stripes; what a pyramid knows of its look is all there is.
@@ -57,4 +57,4 @@ TEST(Prediction, ofPlasterIsRightWithinAFactorOfTwo) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "eval/prediction/text.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Prediction, tableAndJsonTellTheSame) {
@@ -31,4 +31,4 @@ TEST(Prediction, tableAndJsonTellTheSame) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

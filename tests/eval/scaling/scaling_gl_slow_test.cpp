@@ -4,7 +4,7 @@
 #include "eval/scaling/scaling.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // The smallest scenes: one fish, up to 10,000 times.
@@ -56,4 +56,4 @@ TEST(LargeScenes, areMeasuredAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

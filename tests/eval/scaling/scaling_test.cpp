@@ -10,7 +10,7 @@
 #include "eval/scaling/worlds.h"
 #include "plan/frame_plan.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Points = std::vector<std::pair<double, double>>;
@@ -203,4 +203,4 @@ TEST(ScalingWorlds, aGridFillsTheSameView) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

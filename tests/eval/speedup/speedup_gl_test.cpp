@@ -10,7 +10,7 @@
 #include "gl/context.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Speedup, measuresEachModeOfEachSettingAgainstTheSameFullDetail) {
@@ -179,4 +179,4 @@ TEST(Speedup, measuresFormsAndMethodsBesideEachOther) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "eval/stability/stability.h"
 #include "gl/context.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(EmbreeStability, extremesAreWhatTheRayTracerSees) {
@@ -32,4 +32,4 @@ TEST(EmbreeStability, lensHonestyHasTheRayTracers) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "gl/context.h"
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Stability, everyCaseStaysWithinItsLimit) {
@@ -69,4 +69,4 @@ TEST(LensHonesty, whatADriverCannotDrawIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

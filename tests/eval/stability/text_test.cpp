@@ -9,7 +9,7 @@
 
 #include "render/methods.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(StabilityText, everyLineFitsIntoAHundredColumns) {
@@ -65,4 +65,4 @@ TEST(LensHonesty, everySettingOfEveryMethodIsTriedAtItsOtherChoices) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

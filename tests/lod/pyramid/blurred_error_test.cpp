@@ -11,7 +11,7 @@
 #include "lod/pyramid/level_selection.h"
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Level 0 is a ball of radius 1 with a colour by place; level 1 is the same with what `change` makes of it.
@@ -207,4 +207,4 @@ TEST(BlurredError, theThresholdFollowsTheSamples) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -22,7 +22,7 @@
 #include "lod/shapes.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -642,4 +642,4 @@ TEST_F(CacheEnvironment, tellsTheDefaultFolder) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "lod/numbered.h"
 #include "lod/pyramid/clusters.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr std::uint32_t most = 64;
@@ -170,4 +170,4 @@ TEST(ClusterGrowth, looseTrianglesShareClustersWithThoseNearBy) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "lod/pyramid/pyramid.h"
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Clusters, boundsHoldForEveryTriangle) {
@@ -39,4 +39,4 @@ TEST(Clusters, collapsedTrianglesDontCountAndNeedlesDo) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

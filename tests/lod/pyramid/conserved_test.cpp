@@ -9,7 +9,7 @@
 #include "models.h"
 #include "scene/gltf/gltf.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Conserved, ofASphereIsKnown) {
@@ -45,4 +45,4 @@ TEST(Conserved, levelsOfABumpySphereKeepThem) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

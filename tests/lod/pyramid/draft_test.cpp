@@ -7,7 +7,7 @@
 #include "lod/pyramid/surface_distance.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Draft, isTheMeshRoughlyFromFewTriangles) {
@@ -66,4 +66,4 @@ TEST(Draft, smallAndEmptyMeshesAreWhole) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

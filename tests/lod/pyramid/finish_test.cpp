@@ -12,7 +12,7 @@
 #include "lod/pyramid/file.h"
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int texelsAcross = 64;
@@ -195,4 +195,4 @@ TEST(Finish, isPartOfThePyramidsKey) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "lod/pyramid/pyramid.h"
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Over every fifth of a ball's own vertices: the mean cosine of their normals with those of a level, and the mean
@@ -74,4 +74,4 @@ TEST(LevelNormals, ofABumpyBallAreAsLongAsTheyAgree) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "lod/invariants.h"
 #include "special_values.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Edges 1, √2, 2, 2√2, 4; errors 0, 0.01, 0.02, 0.04, 0.08.
@@ -209,4 +209,4 @@ TEST(SplitSamples, OtherModesDrawOneLevel) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

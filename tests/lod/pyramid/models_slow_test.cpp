@@ -16,7 +16,7 @@
 #include "models.h"
 #include "scene/gltf/gltf.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ TEST(RealModels, SoupOfHundredLooseTrianglesLosesWholeOnes) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Triangles of the smallest closed surface of this genus (Jungerman and Ringel 1980; genus 2 needs a vertex more).
@@ -67,4 +67,4 @@ TEST(PyramidEnd, AsManyLevelsAsAskedFor) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 #include "lod/invariants.h"
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Every attribute takes part: what a level draws at a position must be a vertex of the mesh.
@@ -480,4 +480,4 @@ TEST(PyramidProgress, movesInSmallStepsWithinOneMesh) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "lod/shapes.h"
 #include "special_values.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -196,4 +196,4 @@ TEST(SurfaceDistance, OnePointStandsForAll) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

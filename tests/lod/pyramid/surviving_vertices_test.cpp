@@ -7,7 +7,7 @@
 #include "lod/invariants.h"
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A different colour and second set of texture coordinates at each vertex.
@@ -123,4 +123,4 @@ TEST(SurvivingVertices, keepThePyramidSound) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

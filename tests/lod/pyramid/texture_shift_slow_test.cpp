@@ -17,7 +17,7 @@
 #include "models.h"
 #include "scene/gltf/gltf.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A finish that shows a surface's texture coordinates, modulo 1, as red and green; blue is 1.
@@ -140,4 +140,4 @@ INSTANTIATE_TEST_SUITE_P(Models, TextureShiftOf,
                          [](const auto& model) { return testNameOf(model.param); });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

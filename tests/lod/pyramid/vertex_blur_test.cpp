@@ -6,7 +6,7 @@
 
 #include "lod/pyramid/pyramid.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int cells = 48;
@@ -76,4 +76,4 @@ TEST(VertexBlurOfLevels, isThatOfTheMesh) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

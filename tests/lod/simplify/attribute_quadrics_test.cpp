@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using SparseRow = AttributeRow<3>;
@@ -83,4 +83,4 @@ TEST_F(BothForms, stayTheSameWhileQuadricsMoveAndWedgesGo) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

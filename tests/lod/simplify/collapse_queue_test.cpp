@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 VertexHandle vertex(int number) {
@@ -119,4 +119,4 @@ TEST(CollapseQueue, agreesWithASortedSet) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

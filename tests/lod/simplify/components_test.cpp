@@ -12,7 +12,7 @@
 #include "lod/invariants.h"
 #include "lod/pyramid/surface_distance.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Where part `i` of `count` lies: points evenly spread in the unit square (Roberts 2018).
@@ -203,4 +203,4 @@ TEST(Components, ABallOutlastsSmallPartsOfManyHandles) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // (4 + 0.1 · 3.5) x + 2 y = 1, 2 x + (3 + 0.1 · 3.5) y = 2
@@ -21,4 +21,4 @@ TEST(DampedSolve, IsZeroWithoutEquations) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "lod/shapes.h"
 #include "lod/simplify/drawn_surface.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Decimater = OpenMesh::Decimater::DecimaterT<SurfaceMesh>;
@@ -157,4 +157,4 @@ TEST(Decimater, leavesMaterialBordersToTheModules) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "lod/numbered.h"
 #include "lod/simplify/state.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 using Face = std::array<int, 3>;
 
@@ -60,4 +60,4 @@ inline std::vector<Face> drawnFaces(const SurfaceMesh& mesh) {
     return faces;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

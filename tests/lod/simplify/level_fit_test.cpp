@@ -7,7 +7,7 @@
 
 #include "lod/numbered.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 const glm::vec3 up(0, 0, 1);
@@ -51,7 +51,7 @@ OneTriangle oneTriangle() {
 }
 
 // The level is the triangle, and as many more of the vertices behind it as `indices` name.
-defocus::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& indices = {0, 1, 2}) {
+defocus::engine::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& indices = {0, 1, 2}) {
     const WeldedPositions positions = weldPositions(t.vertices.positions);
     const VertexGroups smoothing = smoothingGroups(t.vertices.normals, positions);
     FitSource source = prepareFit(t.vertices, positions, smoothing, numberedTriangles<MeshVertexNumber>({indices}));
@@ -66,7 +66,7 @@ defocus::LevelFit fitOf(const OneTriangle& t, const std::vector<std::uint32_t>& 
 
 TEST(LevelFit, flatTriangleStaysWhereItIs) {
     const OneTriangle t = oneTriangle();
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     for (std::uint32_t v = 0; v < 3; ++v)
         EXPECT_NEAR(glm::distance(fitted.positions[{v}], t.vertices.positions[v]), 0, 1e-6);
 }
@@ -75,7 +75,7 @@ TEST(LevelFit, flatTriangleStaysWhereItIs) {
 TEST(LevelFit, triangleRisesToTheBulgeItStandsFor) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 3; v < t.vertices.positions.size(); ++v) t.vertices.positions[v].z = 0.3f;
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     const float mean = (fitted.positions[{0}].z + fitted.positions[{1}].z + fitted.positions[{2}].z) / 3;
     EXPECT_GT(mean, 0.25f);
     EXPECT_LT(mean, 0.3f);
@@ -87,7 +87,7 @@ TEST(LevelFit, farFromTheOriginNothingIsLost) {
         t.vertices.positions[v] += glm::vec3(4096, -4096, 0);  // floats are 0.0005 apart there
         if (v >= 3) t.vertices.positions[v].z = 0.3f;
     }
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     EXPECT_GT((fitted.positions[{0}].z + fitted.positions[{1}].z + fitted.positions[{2}].z) / 3, 0.25f);
     for (std::uint32_t v = 0; v < 3; ++v)
         EXPECT_NEAR(glm::distance(glm::vec2(fitted.positions[{v}]), glm::vec2(t.vertices.positions[v])), 0, 0.01);
@@ -101,7 +101,7 @@ TEST(LevelFit, colourThatIsLinearOverTheTriangleIsKept) {
         for (int k = 0; k < 3; ++k) value += t.anchors[{v}].weight[k] * corner[k];
         t.vertices.colors[v].r = value;
     }
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     for (std::uint32_t v = 0; v < 3; ++v) EXPECT_NEAR(fitted.colors[{v}].r, corner[v], 0.016f);
     EXPECT_NEAR(fitted.colors[{0}].a, 1, 1e-5f);
 }
@@ -114,7 +114,7 @@ TEST(LevelFit, coloursOvershootRatherThanBrighten) {
         t.vertices.colors[v].r = t.anchors[{v}].weight[0] > 0.6f ? 1.0f : 0.0f;
         mean += double{t.vertices.colors[v].r} / static_cast<double>(t.anchors.size());
     }
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     EXPECT_LT(std::min(fitted.colors[{1}].r, fitted.colors[{2}].r), -0.02f);
     double shown = 0;
     for (const Anchor& anchor : t.anchors)
@@ -133,7 +133,7 @@ TEST(LevelFit, whatSharesAnAnchorCountsThere) {
     }
     for (std::uint32_t v = 0; v < 3; ++v) t.vertices.colors[v].r = 0.5f;
     t.vertices.colors.back().r = 0.5f;
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     for (std::uint32_t v = 0; v < 3; ++v) EXPECT_NEAR(fitted.colors[{v}].r, 0.5f, 1e-4f);
 }
 
@@ -147,7 +147,7 @@ TEST(LevelFit, meanColourBecomesLevel0s) {
     level.triangles = numberedTriangles<LevelVertexNumber>({{0, 1, 2}});
     level.sources = numbered<Numbered<LevelVertexNumber, MeshVertexNumber>>({0, 1, 2});
     level.apart.assign(3, 0);
-    defocus::LevelFit fit;
+    defocus::engine::LevelFit fit;
     fit.positions = {t.vertices.positions[0], t.vertices.positions[1], t.vertices.positions[2]};
     fit.normals = {up, up, up};
     fit.colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 2, 1}};
@@ -161,7 +161,7 @@ TEST(LevelFit, meanColourBecomesLevel0s) {
 TEST(LevelFit, textureLiesWhereItDid) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.01f * p.x * p.x, 0.1f * p.y);
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     ASSERT_EQ(fitted.uv0.size(), 3u);
     EXPECT_TRUE(fitted.uv1.empty());
     const auto shift = [&](const auto& cornerOf) {
@@ -186,7 +186,7 @@ TEST(LevelFit, textureCoordinatesAtSeamsStay) {
     t.vertices.colors.emplace_back(0, 0, 0, 1);
     t.vertices.uv0.emplace_back(0.5f, 0.5f);
     t.anchors.push_back({});
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     EXPECT_EQ(fitted.uv0[{0}], t.vertices.uv0[0]);
     EXPECT_NE(fitted.uv0[{1}], t.vertices.uv0[1]);
 }
@@ -196,7 +196,7 @@ TEST(LevelFit, otherChartsDoNotPullAtATexture) {
     OneTriangle t = oneTriangle();
     for (const glm::vec3& p : t.vertices.positions) t.vertices.uv0.emplace_back(0.1f * p.x, 0.1f * p.y);
     for (std::size_t v = 3; v < t.anchors.size(); v += 3) t.vertices.uv0[v] += glm::vec2(3, 0);
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     for (std::uint32_t v = 0; v < 3; ++v) EXPECT_LT(glm::distance(fitted.uv0[{v}], t.vertices.uv0[v]), 1e-5f);
 }
 
@@ -212,7 +212,7 @@ TEST(LevelFit, normalsOfAReliefAveragedGetShorter) {
     OneTriangle t = oneTriangle();
     for (std::size_t v = 0; v < t.vertices.normals.size(); ++v)
         t.vertices.normals[v] = glm::normalize(glm::vec3(v % 2 == 0 ? 0.5f : -0.5f, 0, 1));
-    const defocus::LevelFit fitted = fitOf(t);
+    const defocus::engine::LevelFit fitted = fitOf(t);
     glm::vec3 mean(0);
     for (std::uint32_t v = 0; v < 3; ++v) mean += fitted.normals[{v}] / 3.0f;
     EXPECT_NEAR(mean.z, 1 / std::sqrt(1.25), 0.01);  // the mean of the two slopes points up and is that long
@@ -229,7 +229,7 @@ TEST(LevelFit, verticesThatNobodyNamesKeepTheirOwn) {
     t.vertices.colors[4] = {0.9f, 0.8f, 0.7f, 0.6f};
     t.vertices.normals[4] = right;
     t.vertices.positions[4] = {2, 3, 0};
-    const defocus::LevelFit fitted = fitOf(t, {0, 1, 2, 3, 4, 5});
+    const defocus::engine::LevelFit fitted = fitOf(t, {0, 1, 2, 3, 4, 5});
     EXPECT_EQ(fitted.positions[{4}], t.vertices.positions[4]);
     EXPECT_EQ(fitted.colors[{4}], t.vertices.colors[4]);
     EXPECT_EQ(fitted.normals[{4}], right);
@@ -250,11 +250,11 @@ TEST(LevelFit, aTwinHasANormalOfItsOwn) {
                           {0, 0, 0, 1},
                           {},
                           {}};
-    const defocus::LevelFit fitted = fitLevel(source, level, t.anchors);
+    const defocus::engine::LevelFit fitted = fitLevel(source, level, t.anchors);
     EXPECT_EQ(fitted.positions[{3}], fitted.positions[{0}]);
     EXPECT_GT(fitted.normals[{0}].x, 0.05f);
     EXPECT_EQ(fitted.normals[{3}], up);
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -10,7 +10,7 @@
 
 #include "lod/shapes.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // A quarter: what faces the light throws back 1/2 in the mean, and half of the sphere faces away.
@@ -130,4 +130,4 @@ TEST(FitLight, leavesWhatHasNoNumbers) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

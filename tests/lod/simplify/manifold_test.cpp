@@ -7,7 +7,7 @@
 
 #include "lod/numbered.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Points = Numbered<PositionNumber, glm::dvec3>;
@@ -143,4 +143,4 @@ TEST(Manifold, HundredFacesAtOneEdgeAreCutApart) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

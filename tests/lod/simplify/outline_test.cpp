@@ -8,7 +8,7 @@
 #include "lod/shapes.h"
 #include "lod/simplify/weld.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr std::size_t alongZ = 4;  // of directionsOfOutlines(): (−1, 0, 0) is 4, (0, −1, 0) is 10, (0, 0, −1) is 12
@@ -88,4 +88,4 @@ TEST(FitOutlines, inscribedSphereGrowsToTheAreaOfTheFineOne) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 const glm::dvec3 corner[3] = {{0.1, 0.2, 0.3}, {1.1, 0.2, 0.5}, {0.3, 1.4, 0.2}};
@@ -81,4 +81,4 @@ TEST(AttributeQuadric, sumsLikeItsFaces) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -8,7 +8,7 @@
 #include "lod/shapes.h"
 #include "lod/simplify/drawn_surface.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Every half-edge, its opposite, its next and its face agree, and every vertex's half-edge leaves it, at a border
@@ -119,4 +119,4 @@ TEST(SurfaceMesh, livingCopyKeepsTheOrder) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include "lod/simplify/collapse.h"
 #include "lod/simplify/drawn_surface.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 //  6---7---8
@@ -119,4 +119,4 @@ TEST(WedgeModule, theSurvivorsWedgeStandsForTheFacesOfBoth) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

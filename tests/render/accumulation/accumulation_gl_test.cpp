@@ -15,7 +15,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Accumulation : public testing::Test {
@@ -405,4 +405,4 @@ TEST_F(Accumulation, aovsAreDepthBlurAndLevel) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

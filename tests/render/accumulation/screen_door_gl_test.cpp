@@ -11,7 +11,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class ScreenDoor : public testing::Test {
@@ -172,4 +172,4 @@ TEST_F(ScreenDoor, ofBlendedSurfacesLeavesNoHole) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "render/display/display_pass.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Work : public testing::Test {
@@ -165,4 +165,4 @@ TEST_F(Work, coloursAndSummaryFollowTheNumbers) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

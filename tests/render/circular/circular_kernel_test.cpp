@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Kernel = std::vector<CircularComponent>;
@@ -297,4 +297,4 @@ TEST(CircularKernel, blurIsAsWideAsTheDisk) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "render/circular/circular_kernel.h"
 #include "render/circular/complex_blur.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class ComplexBlurs : public testing::Test {
@@ -270,4 +270,4 @@ TEST_F(ComplexBlurs, publishedBracketsLoseLessThanRanges) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

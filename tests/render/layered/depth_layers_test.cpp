@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(Widened, keepsThePlacesAndTheBlursOfPixels) {
@@ -49,4 +49,4 @@ TEST(Widened, keepsThePlacesAndTheBlursOfPixels) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

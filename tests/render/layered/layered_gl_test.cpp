@@ -13,7 +13,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Layered : public testing::Test {
@@ -253,4 +253,4 @@ TEST_F(Layered, refusesByNameWhatItCannotDraw) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

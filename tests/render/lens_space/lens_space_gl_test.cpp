@@ -15,7 +15,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 RenderSettings raySettings(std::uint32_t samples) {
@@ -401,4 +401,4 @@ TEST_F(LensSpaceAlone, exactLinesFindIntersections) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double nearPlane = 0.1;
@@ -114,4 +114,4 @@ TEST(LineTriangle, facingAwayIsSeenOnlyIfItHasTwoSides) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 
 #include "render/line/line_sets.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // In the paper's terms, p from −1/2 to 1/2.
@@ -101,4 +101,4 @@ TEST(LineSets, boundAllVariants) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -16,7 +16,7 @@
 #include "render/multirate/partly_shared.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class LensCellImages : public testing::Test {
@@ -312,4 +312,4 @@ TEST_F(LensCellImages, convergesToTheReference) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -16,7 +16,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Multirate : public testing::Test {
@@ -261,4 +261,4 @@ TEST_F(Multirate, aBlurredLightKeepsItsEnergyAndItsSpread) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

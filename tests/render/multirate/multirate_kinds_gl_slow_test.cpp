@@ -8,7 +8,7 @@
 #include "image/metrics.h"
 #include "render/multirate/partly_shared.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // What isn't drawn as an opaque surface, or is seen through a limited lens, keeps its place beside what is shared.
@@ -46,4 +46,4 @@ TEST(MultirateKinds, everyKindOfSurfaceAndLensStaysWhatItWas) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline RenderSettings ratedSettings(std::uint32_t samples, LodMode lod = LodMode::off) {
     RenderSettings settings;
@@ -72,4 +72,4 @@ inline std::size_t sharingObjects(const SmallWorld& small, const RenderSettings&
         std::ranges::count_if(frameRates(plan, false).objects, [](const ObjectRates& o) { return o.lensShare > 0; }));
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 struct DepthRows {
@@ -58,4 +58,4 @@ TEST(DepthTiles, aHoleReachesNoFartherThanATile) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -7,7 +7,7 @@
 #include "plan/frame_plan.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 struct PlaceInImage {
@@ -110,4 +110,4 @@ TEST(LensSight, knowsWhereItDoesNotHold) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

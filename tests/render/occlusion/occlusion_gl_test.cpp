@@ -8,7 +8,7 @@
 #include "render/methods.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class OccludedSurfaces : public testing::Test {
@@ -155,4 +155,4 @@ TEST_F(OccludedSurfaces, ofFlightHelmet) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

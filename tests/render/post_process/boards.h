@@ -11,7 +11,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline RenderSettings settingsWithTheLens() {
     RenderSettings settings;
@@ -69,4 +69,4 @@ inline std::unique_ptr<SmallWorld> boards(const std::vector<Board>& list, const 
     return small;
 }
 
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class PostProcesses : public testing::TestWithParam<const char*> {
@@ -241,4 +241,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, PostProcesses,
                          });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

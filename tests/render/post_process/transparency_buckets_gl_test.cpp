@@ -11,7 +11,7 @@
 #include "gl/context.h"
 #include "render/post_process/boards.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class BlendedSurfaces : public testing::TestWithParam<const char*> {
@@ -204,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(Methods, BlendedSurfaces,
                          });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Objects front to back, of a blur in px each.
@@ -119,4 +119,4 @@ TEST(TransparencyBuckets, partWhatReachesTheCamera) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -11,7 +11,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class ScheuermannImage : public testing::Test {
@@ -117,4 +117,4 @@ TEST_F(ScheuermannImage, planesByHandMustBeInOrder) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

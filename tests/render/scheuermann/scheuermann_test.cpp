@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int width = 1000;
@@ -104,4 +104,4 @@ TEST(PoissonDisk, keepsItsDistanceAndLeavesNoGap) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "render/rendered.h"
 #include "small_world.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class Tiles : public testing::Test {
@@ -178,4 +178,4 @@ TEST_F(Tiles, ofSeveralCellsJoinWithoutASeam) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

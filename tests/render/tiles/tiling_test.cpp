@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TilingNeeds needsOf(int width, int height, std::uint64_t memory) {
@@ -130,4 +130,4 @@ TEST(Tiling, theSamplesAtOnceAreThoseAskedFor) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "scene/gltf/builder.h"
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using nlohmann::json;
@@ -194,4 +194,4 @@ TEST(Clips, loopInBothDirections) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

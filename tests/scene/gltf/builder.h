@@ -13,7 +13,7 @@
 #include "scene/gltf/gltf.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 
 inline const std::vector<float> unitTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};  // positions
 
@@ -101,4 +101,4 @@ private:
     std::vector<unsigned char> binary_;
 };
 
-}  // namespace defocus
+}  // namespace defocus::engine

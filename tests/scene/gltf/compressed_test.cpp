@@ -11,7 +11,7 @@
 #include "scene/gltf/gltf.h"
 #include "scene/posed_mesh.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // The first object as its pose has it, in world space.
@@ -95,4 +95,4 @@ INSTANTIATE_TEST_SUITE_P(Gltf, Compressed,
                          [](const auto& tested) { return testNameOf(tested.param.file); });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -12,7 +12,7 @@
 #include "scene/gltf/builder.h"
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using IndexList = std::vector<std::uint32_t>;
@@ -240,6 +240,17 @@ TEST(GltfMaterial, texturesWithoutAPlainImageAreLeftOut) {
     const Scene scene = builder.load();
     EXPECT_FALSE(scene.materials.at(0).emissive.used());
     EXPECT_EQ(scene.ignored.at(0).reason, "it has no plain image");
+}
+
+TEST(GltfMaterial, requiredLooksAreLeftOutWithAWarning) {
+    GltfBuilder builder;
+    builder.mesh({{{"attributes", {{"POSITION", builder.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}}});
+    builder.json["extensionsUsed"] = {"KHR_materials_iridescence"};
+    builder.json["extensionsRequired"] = {"KHR_materials_iridescence"};
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.ignored.size(), 1u);
+    EXPECT_EQ(scene.ignored[0].what, "extension KHR_materials_iridescence");
 }
 
 TEST(GltfMaterial, factorsAndModes) {
@@ -635,4 +646,4 @@ TEST(GltfFiles, dataUrisSpacesAndCodedNames) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

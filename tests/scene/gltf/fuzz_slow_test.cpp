@@ -12,7 +12,7 @@
 #include "scene/gltf/builder.h"
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr int damagedCopies = 300;  // a file
@@ -103,4 +103,4 @@ INSTANTIATE_TEST_SUITE_P(Gltf, DamagedModel,
                          [](const auto& tested) { return testNameOf(tested.param); });
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -9,7 +9,7 @@
 #include "models.h"
 #include "scene/gltf/builder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::string errorOf(const std::filesystem::path& path) {
@@ -282,4 +282,4 @@ TEST(InvalidGltf, camerasAndLightsThatAreImpossible) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "scene/gltf/gltf.h"
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 struct ModelFacts {
@@ -252,4 +252,4 @@ TEST(Models, clipsHaveTheirThreeInterpolations) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

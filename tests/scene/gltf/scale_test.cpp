@@ -11,7 +11,7 @@
 #include "scene/gltf/source.h"
 #include "scene/pose.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::string faultOf(const GltfBuilder& builder) {
@@ -127,4 +127,4 @@ TEST(UnpackBudget, morphWeightsAreOfEachNode) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

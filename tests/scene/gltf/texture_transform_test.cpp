@@ -7,7 +7,7 @@
 #include "image/png_builder.h"
 #include "scene/gltf/builder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 Scene transformed(const nlohmann::json& transform) {
@@ -54,4 +54,4 @@ TEST(GltfTextureTransform, belongsToItsTextureAndMayChooseTheSet) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

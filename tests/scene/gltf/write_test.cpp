@@ -13,7 +13,7 @@
 #include "scene/gltf/gltf.h"
 #include "scratch_folder.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Two primitives over five vertices, of which the first isn't used; values that no short decimal holds.
@@ -155,4 +155,4 @@ TEST(GltfWrite, NameThatIsNoTextIsReplaced) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class ViewHistory : public testing::Test {
@@ -117,4 +117,4 @@ TEST_F(ViewHistory, timeAndTheWayOfACameraThatIsFollowedAreNoEdits) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -13,7 +13,7 @@
 #include "lens/lens_fields.h"
 #include "view/random_view.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class WindowMemory : public testing::Test {
@@ -108,4 +108,4 @@ TEST_F(WindowMemory, viewsWithoutSenseAreLeftOutAndNoJsonIsAFault) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

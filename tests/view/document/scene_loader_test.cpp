@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 std::optional<LoadedScene> waitedFor(SceneLoader& loader) {
@@ -42,4 +42,4 @@ TEST(SceneLoader, givesUpASceneForTheNext) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "view/document/kept_files.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class ViewSettingsFile : public testing::Test {
@@ -56,4 +56,4 @@ TEST_F(ViewSettingsFile, noFileIsFineAndNoJsonIsAFault) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

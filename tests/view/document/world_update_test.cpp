@@ -7,7 +7,7 @@
 #include "scene/ground.h"
 #include "view/document/document.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class WorldUpdate : public testing::Test {
@@ -107,4 +107,4 @@ TEST_F(WorldUpdate, lightsGetTheirSize) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -14,7 +14,7 @@
 #include "frame/exposure.h"
 #include "view/random_view.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 ShotKey keyAt(const glm::dvec3& position, double focus, double fStop) {
@@ -182,4 +182,4 @@ TEST(ViewShot, ofAnyViewsIsReadBackAsThoseViews) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

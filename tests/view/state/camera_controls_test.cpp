@@ -10,7 +10,7 @@
 
 #include "near.h"
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -120,4 +120,4 @@ TEST(CameraControls, raysMeetTheCornersOfTheImage) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -54,4 +54,4 @@ TEST(RackedFocus, oppositeNotchesUndoEachOther) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

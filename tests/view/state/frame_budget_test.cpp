@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 // Milliseconds of a frame on a machine that takes `perSample` for a sample at full resolution.
@@ -61,4 +61,4 @@ TEST(FrameBudget, comesDownAtOnce) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

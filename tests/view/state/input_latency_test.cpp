@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 InputLatency::Time at(int milliseconds) {
@@ -36,4 +36,4 @@ TEST(InputLatency, whatChangesNothingIsNotCounted) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

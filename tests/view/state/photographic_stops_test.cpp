@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(PhotographicStops, areThirdsOfAStop) {
@@ -37,4 +37,4 @@ TEST(PhotographicStops, endAtTheEndsOfTheRing) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

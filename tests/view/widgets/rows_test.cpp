@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 TEST(ViewLensRows, labelsReadAsPhotographersSayThem) {
@@ -19,4 +19,4 @@ TEST(ViewLensRows, shortTimesAreFractionsOfASecond) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 using Type = WindowEvent::Type;
@@ -100,4 +100,4 @@ TEST(EventPacing, nothingIsLostNorPutOutOfOrder) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine

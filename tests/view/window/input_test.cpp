@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace defocus {
+namespace defocus::engine {
 namespace {
 
 class ViewInputKeys : public testing::Test {
@@ -71,4 +71,4 @@ TEST_F(ViewInputKeys, typingDoesNotFly) {
 }
 
 }  // namespace
-}  // namespace defocus
+}  // namespace defocus::engine
