@@ -15,7 +15,7 @@
 #include "core/file.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "frame/exposure.h"
+#include "frame/setup/exposure.h"
 #include "image/image_rows.h"
 
 namespace defocus::engine {

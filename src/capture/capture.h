@@ -13,8 +13,8 @@
 
 #include "capture/frame_sequence.h"
 #include "core/progress.h"
-#include "frame/frame_driver.h"
-#include "frame/settings_hash.h"
+#include "frame/driver/frame_driver.h"
+#include "frame/setup/settings_hash.h"
 #include "image/image_io.h"
 
 namespace defocus::engine {

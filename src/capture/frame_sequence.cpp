@@ -13,8 +13,8 @@
 #include "core/hash.h"
 #include "lens/camera_lens.h"
 #include "lens/lens_fields.h"
-#include "plan/camera_path.h"
-#include "plan/focus_depth.h"
+#include "plan/motion/camera_path.h"
+#include "plan/visible/focus_depth.h"
 #include "scene/animation.h"
 #include "scene/hidden_nodes.h"
 

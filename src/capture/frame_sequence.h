@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "capture/shot.h"
-#include "frame/frame_moment.h"
-#include "plan/shutter.h"
+#include "frame/driver/frame_moment.h"
+#include "plan/motion/shutter.h"
 
 namespace defocus::engine {
 

@@ -6,8 +6,8 @@
 
 #include "capture/frame_sequence.h"
 #include "capture/shot.h"
-#include "frame/prepared_frame.h"
 #include "frame/request.h"
+#include "frame/setup/prepared_frame.h"
 
 namespace defocus::engine {
 

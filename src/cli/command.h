@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 
 namespace defocus::engine {
 

@@ -15,12 +15,12 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/help_format.h"
-#include "cli/option_text.h"
+#include "cli/options/help_format.h"
+#include "cli/options/option_text.h"
 #include "core/error.h"
 #include "core/message.h"
 #include "core/suggestion.h"
-#include "frame/program_facts.h"
+#include "frame/report/program_facts.h"
 
 namespace defocus::engine {
 

@@ -6,10 +6,10 @@
 
 #include "defocus/request.h"
 #include "lens/lens_fields.h"
+#include "plan/motion/shutter.h"
 #include "plan/render_settings.h"
-#include "plan/shutter.h"
 #include "render/methods.h"
-#include "render/stop_settings.h"
+#include "render/sampling/stop_settings.h"
 
 namespace defocus::engine {
 

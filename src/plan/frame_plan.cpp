@@ -12,11 +12,11 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "lod/pyramid/blurred_error.h"
-#include "plan/blurred_patches.h"
-#include "plan/motion.h"
-#include "plan/object_pose.h"
-#include "plan/shadows.h"
-#include "plan/visibility.h"
+#include "plan/lens_cells/blurred_patches.h"
+#include "plan/motion/motion.h"
+#include "plan/motion/object_pose.h"
+#include "plan/visible/shadows.h"
+#include "plan/visible/visibility.h"
 #include "scene/posed_mesh.h"
 
 namespace defocus::engine {

@@ -10,8 +10,8 @@
 
 #include "lens/circle_of_confusion.h"
 #include "lens/lens_samples.h"
-#include "plan/tiles.h"
 #include "plan/view.h"
+#include "plan/visible/tiles.h"
 
 namespace defocus::engine {
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lens/lens_fields.h"
-#include "plan/rates.h"
+#include "plan/lens_cells/rates.h"
 
 namespace defocus::engine {
 

@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "render/automatic_samples.h"
-#include "render/frame_uniforms.h"
+#include "render/gpu_scene/frame_uniforms.h"
+#include "render/sampling/automatic_samples.h"
 
 namespace defocus::engine {
 

@@ -7,9 +7,9 @@
 #include <chrono>
 #include <optional>
 
-#include "plan/shutter.h"
-#include "render/block_schedule.h"
+#include "plan/motion/shutter.h"
 #include "render/methods.h"
+#include "render/sampling/block_schedule.h"
 
 namespace defocus::engine {
 

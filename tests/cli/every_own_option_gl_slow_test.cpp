@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "cli/bench_commands.h"
+#include "cli/commands/bench_commands.h"
 #include "cli/option_test.h"
 #include "cli/own_option_cases.h"
 #include "core/error.h"

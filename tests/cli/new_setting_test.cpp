@@ -9,7 +9,7 @@
 
 #include "capture/shot_json.h"
 #include "capture/shot_schema.h"
-#include "cli/request_options.h"
+#include "cli/options/request_options.h"
 #include "defocus/setting_info.h"
 #include "frame/settings/settings.h"
 

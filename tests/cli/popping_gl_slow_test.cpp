@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "eval/popping/popping.h"
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "models.h"
 

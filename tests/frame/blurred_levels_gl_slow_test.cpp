@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
+#include "frame/driver/reference_image.h"
 #include "frame/own_context.h"
-#include "frame/prepared_frame.h"
-#include "frame/reference_image.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "image/boxes.h"
 #include "models.h"

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "defocus/defocus.h"
+#include "frame/driver/reference_image.h"
 #include "frame/own_context.h"
-#include "frame/prepared_frame.h"
-#include "frame/reference_image.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/context.h"
 #include "image/metrics.h"
 #include "models.h"

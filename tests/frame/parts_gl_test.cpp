@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
-#include "frame/frame_driver.h"
+#include "frame/driver/frame_driver.h"
 #include "gl/context.h"
 #include "small_world.h"
 

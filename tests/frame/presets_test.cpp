@@ -10,10 +10,10 @@
 #include <set>
 
 #include "core/error.h"
-#include "frame/prepared_frame.h"
 #include "frame/settings/settings.h"
+#include "frame/setup/prepared_frame.h"
 #include "plan/frame_plan.h"
-#include "plan/object_pose.h"
+#include "plan/motion/object_pose.h"
 
 namespace defocus::engine {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "lens/aberrations.h"
-#include "plan/rates.h"
+#include "plan/lens_cells/rates.h"
 #include "render/methods.h"
 
 namespace defocus::engine {

@@ -4,7 +4,7 @@
 
 #include "gl/context.h"
 #include "image/metrics.h"
-#include "render/gpu_scene.h"
+#include "render/gpu_scene/gpu_scene.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"

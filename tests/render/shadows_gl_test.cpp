@@ -10,7 +10,7 @@
 
 #include "gl/context.h"
 #include "image/metrics.h"
-#include "plan/shadows.h"
+#include "plan/visible/shadows.h"
 #include "render/methods.h"
 #include "small_world.h"
 

@@ -1,6 +1,6 @@
 // The command of a view, read back by the command line, is the same view.
 
-#include "frame/render_command_text.h"
+#include "frame/report/render_command_text.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "cli/render.h"
-#include "frame/exposure.h"
+#include "cli/commands/render.h"
 #include "frame/settings/presets.h"
 #include "frame/settings/settings.h"
+#include "frame/setup/exposure.h"
 #include "lens/lens_fields.h"
 #include "lens/photographic_exposure.h"
 #include "view/random_view.h"

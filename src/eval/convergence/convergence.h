@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
 #include "image/metrics.h"
 #include "plan/view.h"
 #include "render/methods.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
 
 namespace defocus::engine {
 

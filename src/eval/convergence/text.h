@@ -11,7 +11,7 @@
 #include "eval/bench_subject.h"
 #include "eval/convergence/crops.h"
 #include "eval/convergence/rows.h"
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
 
 namespace defocus::engine {
 

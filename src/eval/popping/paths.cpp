@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/error.h"
-#include "plan/camera_path.h"
 #include "plan/frame_plan.h"
+#include "plan/motion/camera_path.h"
 
 namespace defocus::engine {
 

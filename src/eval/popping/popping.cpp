@@ -8,8 +8,8 @@
 
 #include "image/metrics.h"
 #include "image/tone_map.h"
-#include "plan/rates.h"
-#include "plan/visibility.h"
+#include "plan/lens_cells/rates.h"
+#include "plan/visible/visibility.h"
 #include "render/aov/aov.h"
 
 namespace defocus::engine {

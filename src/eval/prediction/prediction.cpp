@@ -11,7 +11,7 @@
 #include "lod/pyramid/blurred_error.h"
 #include "lod/pyramid/finish.h"
 #include "lod/pyramid/picture.h"
-#include "plan/blurred_patches.h"
+#include "plan/lens_cells/blurred_patches.h"
 #include "scene/defaults.h"
 
 namespace defocus::engine {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "render/methods.h"
 
 namespace defocus::engine {

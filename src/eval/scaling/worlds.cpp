@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "lod/pyramid/cache.h"
 
 namespace defocus::engine {

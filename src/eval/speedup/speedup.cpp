@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "core/stopwatch.h"
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
 
 namespace defocus::engine {
 

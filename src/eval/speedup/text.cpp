@@ -8,7 +8,7 @@
 #include "eval/json_number.h"
 #include "eval/seed_errors.h"
 #include "eval/spread.h"
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
 
 namespace defocus::engine {
 

@@ -1,7 +1,7 @@
 // The method "multirate" where an object shares its images and where it ceases to: what is blurred, and by how much,
 // and how bright it is.
 
-#include "plan/rates.h"
+#include "plan/lens_cells/rates.h"
 
 #include <fmt/format.h>
 

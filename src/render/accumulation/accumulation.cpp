@@ -11,12 +11,12 @@
 #include "gl/context.h"
 #include "gl/timer.h"
 #include "plan/sample_range.h"
-#include "plan/shadows.h"
+#include "plan/visible/shadows.h"
 #include "render/accumulation/layer_sum.h"
 #include "render/accumulation/shared_images.h"
-#include "render/frame_clock.h"
-#include "render/shadow_maps.h"
-#include "render/surface_pass.h"
+#include "render/gpu_scene/shadow_maps.h"
+#include "render/gpu_scene/surface_pass.h"
+#include "render/sampling/frame_clock.h"
 
 namespace defocus::engine {
 

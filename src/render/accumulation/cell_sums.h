@@ -13,7 +13,7 @@
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
-#include "plan/lens_cells.h"
+#include "plan/lens_cells/lens_cells.h"
 
 namespace defocus::engine {
 

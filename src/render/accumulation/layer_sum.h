@@ -14,10 +14,10 @@
 #include "gl/target.h"
 #include "image/image.h"
 #include "render/accumulation/cell_sums.h"
-#include "render/frame_uniforms.h"
+#include "render/gpu_scene/frame_uniforms.h"
 #include "render/layer_format.h"
-#include "render/layer_window.h"
 #include "render/renderer.h"
+#include "render/sampling/layer_window.h"
 
 namespace defocus::engine {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "plan/frame_plan.h"
-#include "plan/lens_cells.h"
+#include "plan/lens_cells/lens_cells.h"
 #include "render/accumulation/layer_sum.h"
-#include "render/surface_pass.h"
+#include "render/gpu_scene/surface_pass.h"
 
 namespace defocus::engine {
 

@@ -9,8 +9,8 @@
 
 #include "gl/read_back.h"
 #include "image/colour_map.h"
-#include "plan/rates.h"
-#include "render/colour_texture.h"
+#include "plan/lens_cells/rates.h"
+#include "render/gpu_scene/colour_texture.h"
 #include "render/post_process/pinhole_pass.h"
 
 namespace defocus::engine {

@@ -7,7 +7,7 @@
 #include "gl/target.h"
 #include "gl/texel_buffer.h"
 #include "image/image.h"
-#include "render/surface_pass.h"
+#include "render/gpu_scene/surface_pass.h"
 
 namespace defocus::engine {
 

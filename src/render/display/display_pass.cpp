@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "gl/read_back.h"
 #include "render/aov/work.h"
-#include "render/colour_texture.h"
+#include "render/gpu_scene/colour_texture.h"
 
 namespace defocus::engine {
 

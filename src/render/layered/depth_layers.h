@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "gl/target.h"
+#include "render/gpu_scene/shadow_maps.h"
+#include "render/gpu_scene/surface_pass.h"
 #include "render/layer_format.h"
-#include "render/shadow_maps.h"
-#include "render/surface_pass.h"
 
 namespace defocus::engine {
 

@@ -7,11 +7,11 @@
 
 #include "core/error.h"
 #include "render/accumulation/layer_sum.h"
-#include "render/frame_clock.h"
 #include "render/layered/depth_layers.h"
 #include "render/layered/lens_rays.h"
 #include "render/post_process/pinhole_pass.h"
 #include "render/post_process/post_process.h"
+#include "render/sampling/frame_clock.h"
 
 namespace defocus::engine {
 

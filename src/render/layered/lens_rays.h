@@ -9,7 +9,7 @@
 
 #include "gl/buffer.h"
 #include "gl/program.h"
-#include "render/frame_uniforms.h"
+#include "render/gpu_scene/frame_uniforms.h"
 #include "render/layered/depth_layers.h"
 
 namespace defocus::engine {

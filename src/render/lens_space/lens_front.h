@@ -12,7 +12,7 @@
 
 #include "gl/program.h"
 #include "gl/target.h"
-#include "render/surface_draws.h"
+#include "render/gpu_scene/surface_draws.h"
 
 namespace defocus::engine {
 

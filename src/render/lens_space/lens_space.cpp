@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "gl/read_back.h"
-#include "render/frame_clock.h"
 #include "render/lens_space/ray_sum.h"
 #include "render/lens_space/record_buffer.h"
 #include "render/lens_space/record_shading.h"
+#include "render/sampling/frame_clock.h"
 
 namespace defocus::engine {
 

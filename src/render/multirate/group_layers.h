@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gl/target.h"
-#include "plan/rates.h"
+#include "plan/lens_cells/rates.h"
 #include "render/accumulation/layer_sum.h"
 
 namespace defocus::engine {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "plan/rates.h"
+#include "plan/lens_cells/rates.h"
 #include "plan/sample_range.h"
 #include "render/accumulation/accumulation.h"
 #include "render/accumulation/shared_images.h"
+#include "render/gpu_scene/shadow_maps.h"
 #include "render/multirate/group_layers.h"
-#include "render/shadow_maps.h"
 
 namespace defocus::engine {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/layer_window.h"
+#include "render/sampling/layer_window.h"
 
 namespace defocus::engine {
 

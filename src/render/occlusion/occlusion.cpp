@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/parallel.h"
-#include "render/frame_uniforms.h"
+#include "render/gpu_scene/frame_uniforms.h"
 #include "render/occlusion/lens_sight.h"
 
 namespace defocus::engine {

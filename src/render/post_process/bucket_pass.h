@@ -6,8 +6,8 @@
 
 #include "gl/fullscreen.h"
 #include "gl/target.h"
+#include "render/gpu_scene/surface_pass.h"
 #include "render/post_process/pinhole_image.h"
-#include "render/surface_pass.h"
 
 namespace defocus::engine {
 

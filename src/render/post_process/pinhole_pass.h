@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "gl/target.h"
+#include "render/gpu_scene/shadow_maps.h"
+#include "render/gpu_scene/surface_pass.h"
 #include "render/layer_format.h"
 #include "render/post_process/bucket_pass.h"
 #include "render/post_process/pinhole_image.h"
 #include "render/post_process/transparency_buckets.h"
-#include "render/shadow_maps.h"
-#include "render/surface_pass.h"
 
 namespace defocus::engine {
 

@@ -7,8 +7,8 @@
 #include "gl/fullscreen.h"
 #include "gl/scissor.h"
 #include "render/accumulation/layer_sum.h"
-#include "render/frame_clock.h"
 #include "render/post_process/pinhole_pass.h"
+#include "render/sampling/frame_clock.h"
 
 namespace defocus::engine {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "gl/target.h"
-#include "render/frame_uniforms.h"
+#include "render/gpu_scene/frame_uniforms.h"
 #include "render/methods.h"
 #include "render/post_process/pinhole_image.h"
 

@@ -9,7 +9,7 @@
 #include <glm/vector_relational.hpp>
 #include <limits>
 
-#include "plan/visibility.h"
+#include "plan/visible/visibility.h"
 
 namespace defocus::engine {
 

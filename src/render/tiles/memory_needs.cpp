@@ -6,9 +6,9 @@
 #include "core/memory_limits.h"
 #include "gl/context.h"
 #include "gl/device_memory.h"
-#include "render/frame_uniforms.h"
+#include "render/gpu_scene/frame_uniforms.h"
+#include "render/gpu_scene/shadow_maps.h"
 #include "render/layer_format.h"
-#include "render/shadow_maps.h"
 
 namespace defocus::engine {
 

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 #include "defocus/settings.h"
-#include "render/frame_uniforms.h"
+#include "render/gpu_scene/frame_uniforms.h"
 
 namespace defocus::engine {
 

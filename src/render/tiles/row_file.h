@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "image/image_rows.h"
-#include "plan/tiles.h"
+#include "plan/visible/tiles.h"
 #include "render/tiles/part_header.h"
 
 namespace defocus::engine {

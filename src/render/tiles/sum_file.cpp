@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "render/accumulation/block_merge.h"
-#include "render/frame_uniforms.h"
+#include "render/gpu_scene/frame_uniforms.h"
 
 namespace defocus::engine {
 

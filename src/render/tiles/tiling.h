@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plan/tiles.h"
+#include "plan/visible/tiles.h"
 
 namespace defocus::engine {
 

@@ -6,8 +6,8 @@
 #include <glm/matrix.hpp>
 
 #include "core/error.h"
-#include "frame/exposure.h"
 #include "frame/settings/settings.h"
+#include "frame/setup/exposure.h"
 #include "view/document/kept_files.h"
 
 namespace defocus::engine {

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 
 namespace defocus::engine {
 

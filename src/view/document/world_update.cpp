@@ -4,8 +4,8 @@
 #include <tuple>
 
 #include "core/error.h"
-#include "frame/moment.h"
 #include "frame/settings/settings.h"
+#include "frame/setup/moment.h"
 #include "scene/ground.h"
 #include "view/document/document.h"
 

@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/stopwatch.h"
-#include "frame/render_command_text.h"
+#include "frame/report/render_command_text.h"
 #include "view/export/shot.h"
 
 namespace defocus::engine {

@@ -10,7 +10,7 @@
 #include "capture/setting_json.h"
 #include "frame/settings/settings.h"
 #include "lens/lens_fields.h"
-#include "plan/camera_path.h"
+#include "plan/motion/camera_path.h"
 #include "scene/built_in_environment.h"
 
 namespace defocus::engine {

@@ -4,7 +4,7 @@
 
 #include "core/file.h"
 #include "core/stopwatch.h"
-#include "frame/render_report.h"
+#include "frame/report/render_report.h"
 
 namespace defocus::engine {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "frame/frame_driver.h"
-#include "frame/prepared_frame.h"
+#include "frame/driver/frame_driver.h"
+#include "frame/setup/prepared_frame.h"
 #include "image/image_io.h"
 
 namespace defocus::engine {

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "frame/moment.h"
-#include "frame/plan_warnings.h"
+#include "frame/report/plan_warnings.h"
+#include "frame/setup/moment.h"
 #include "view/panels/panels.h"
 #include "view/state/key_commands.h"
 #include "view/widgets/rows.h"

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "frame/exposure.h"
-#include "frame/picture_warnings.h"
-#include "frame/plan_warnings.h"
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
+#include "frame/report/picture_warnings.h"
+#include "frame/report/plan_warnings.h"
 #include "frame/settings/settings.h"
-#include "plan/camera_path.h"
+#include "frame/setup/exposure.h"
+#include "plan/motion/camera_path.h"
 
 namespace defocus::engine {
 

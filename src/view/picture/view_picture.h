@@ -14,7 +14,7 @@
 #include "render/aov/aov.h"
 #include "render/aov/work.h"
 #include "render/display/display_pass.h"
-#include "render/progressive_image.h"
+#include "render/sampling/progressive_image.h"
 #include "view/state/frame_budget.h"
 
 namespace defocus::engine {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/camera_path.h"
+#include "plan/motion/camera_path.h"
 
 namespace defocus::engine {
 

@@ -9,8 +9,8 @@
 
 #include "core/error.h"
 #include "core/message.h"
-#include "frame/focus.h"
-#include "frame/moment.h"
+#include "frame/setup/focus.h"
+#include "frame/setup/moment.h"
 #include "lens/photographic_exposure.h"
 #include "scene/animation.h"
 #include "scene/pick.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "image/image_io.h"
 #include "render/display/display_pass.h"
 #include "view/state/camera_controls.h"

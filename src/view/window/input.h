@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "frame/prepared_frame.h"
+#include "frame/setup/prepared_frame.h"
 #include "gl/window.h"
 #include "view/state/view_state.h"
 

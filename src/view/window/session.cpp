@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/message.h"
-#include "frame/exposure.h"
+#include "frame/setup/exposure.h"
 #include "view/hud/hud.h"
 #include "view/panels/panels.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
 #include "gl/context.h"
 #include "image/image_io.h"
 #include "scratch_folder.h"

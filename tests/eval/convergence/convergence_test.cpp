@@ -14,7 +14,7 @@
 #include "eval/convergence/equal_error.h"
 #include "eval/convergence/rows.h"
 #include "eval/convergence/text.h"
-#include "frame/world_hash.h"
+#include "frame/setup/world_hash.h"
 #include "scratch_folder.h"
 #include "small_world.h"
 

@@ -6,7 +6,7 @@
 
 #include "eval/speedup/speedup.h"
 #include "eval/speedup/text.h"
-#include "frame/reference_image.h"
+#include "frame/driver/reference_image.h"
 #include "gl/context.h"
 #include "small_world.h"
 

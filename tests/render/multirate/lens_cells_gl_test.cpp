@@ -11,7 +11,7 @@
 #include "image/tone_map.h"
 #include "likeness.h"
 #include "lod/pyramid/pyramid.h"
-#include "plan/lens_cells.h"
+#include "plan/lens_cells/lens_cells.h"
 #include "plan/sample_range.h"
 #include "render/multirate/partly_shared.h"
 #include "small_world.h"

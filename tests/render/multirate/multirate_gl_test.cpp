@@ -9,7 +9,7 @@
 #include "image/metrics.h"
 #include "likeness.h"
 #include "lod/pyramid/pyramid.h"
-#include "plan/rates.h"
+#include "plan/lens_cells/rates.h"
 #include "plan/sample_range.h"
 #include "render/methods.h"
 #include "render/multirate/partly_shared.h"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "plan/rates.h"
+#include "plan/lens_cells/rates.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"

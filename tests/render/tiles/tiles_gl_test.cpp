@@ -8,7 +8,7 @@
 
 #include "gl/context.h"
 #include "likeness.h"
-#include "plan/tiles.h"
+#include "plan/visible/tiles.h"
 #include "render/methods.h"
 #include "render/rendered.h"
 #include "small_world.h"

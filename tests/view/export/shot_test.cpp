@@ -11,7 +11,7 @@
 
 #include "capture/shot_json.h"
 #include "capture/shot_options.h"
-#include "frame/exposure.h"
+#include "frame/setup/exposure.h"
 #include "view/random_view.h"
 
 namespace defocus::engine {

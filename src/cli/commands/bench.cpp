@@ -1,0 +1,202 @@
+// defocus bench: how fast and how right, measured on the machine at hand.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/commands/bench_commands.h"
+#include "cli/commands/bench_report.h"
+#include "cli/options/method_list.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "eval/speedup/text.h"
+#include "frame/report/program_facts.h"
+#include "frame/settings/presets.h"
+#include "frame/setup/prepared_frame.h"
+#include "gl/context.h"
+
+namespace defocus::engine {
+
+namespace {
+
+struct SpeedupArguments {
+    Request request = measuredRequest();
+    std::string preset;  // as it was given, whatever else was given beside it; empty: none
+    SpeedupOptions speedup;
+    std::filesystem::path folder;  // empty: only the table
+    std::filesystem::path report;  // empty: none
+    bool allowChanged = false;
+};
+
+SpeedupForm formOf(const PreparedFrame& frame, const std::string& preset) {
+    return {preset, &frame.world, frame.settings, frame.pyramidMilliseconds};
+}
+
+void runSpeedup(const SpeedupArguments& arguments, const GlobalOptions& global) {
+    const std::filesystem::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    refuseChangedSources(folder, arguments.allowChanged);
+    makeOutputFolder(folder, {"speedup.csv", "speedup.json"});
+    Progress progress = terminalProgress(global);
+    Request scene = arguments.request;
+    scene.noCache = true;  // the time that pyramids take is part of the result
+    PreparedFrame frame = placeFrame(scene, progress);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    addPyramids(frame, progress);
+    std::vector<SpeedupForm> forms = {formOf(frame, arguments.preset)};
+    PreparedFrame plain;  // what a preset is seen beside
+    if (!arguments.preset.empty()) {
+        clearPreset(presetNamed(arguments.preset), scene);
+        plain = placeFrame(frame.scene, scene, &frame.world.environment);
+        addPyramids(plain, progress);
+        forms.push_back(formOf(plain, ""));
+    }
+
+    SpeedupOptions options = arguments.speedup;
+    options.renderer.layerFormat = arguments.request.layerFormat;
+    options.renderer.wave = arguments.request.wave.value_or(0);
+    options.renderer.shaderFolder = global.shaderDir;
+    const BenchSubject subject = benchSubject(*context, global, frame, options.runs);
+    fmt::print("{}, {} x {} px, {} runs of each, on {}\n\n{}", subject.scene, subject.width, subject.height,
+               subject.runs, subject.device, speedupHeader());
+
+    // Each row is kept as it comes: a run that is cut off loses nothing.
+    std::vector<SpeedupRow> rows;
+    measureSpeedup(
+        forms, frame.view, options,
+        [&](const SpeedupRow& row) {
+            rows.push_back(row);
+            fmt::print("{}", speedupLine(row));
+            std::fflush(stdout);
+            if (folder.empty()) return;
+            writeFile(folder / "speedup.csv", speedupCsv(rows));
+            writeFile(folder / "speedup.json", speedupJson(rows, subject));
+        },
+        progress);
+    drawReport(arguments.report, arguments.report);
+}
+
+void addSpeedup(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<SpeedupArguments>();
+    CLI::App* command = bench.add_subcommand(
+        "speedup", "A fixed camera: frame time and image of full detail, nearest and fractional levels");
+    const char* group = "Measurement";
+    SpeedupOptions& options = arguments->speedup;
+    addIntegers(*command, "--counts", options.sampleCounts, 1, maxSamples, "Numbers of lens samples")->group(group);
+    addNumbers(*command, "--fstops", options.fStops, {0.001, 1e6}, "N,N,…", "Further f-numbers, at 64 samples")
+        ->group(group);
+    addNumbers(*command, "--focus-distances", options.focusDistances, {1e-6, 1e12}, "M,M,…",
+               "Further focus distances, at 64 samples")
+        ->group(group);
+    addParsed(*command, "--methods", "NAME,NAME,…",
+              "Further methods, each with its settings, as in scheuermann,circular:far-components=2",
+              [&options](const std::string& text) { options.methods = parseMethods(text); })
+        ->group(group);
+    addInteger(*command, "--runs", options.runs, 1, 1000, "Runs of each mode; the median counts")->group(group);
+    addInteger(*command, "--seeds", options.seeds, 1, 1000,
+               "Seeds that the runs go through, so that errors have a spread, too; at most as many as runs")
+        ->group(group);
+    addParsed(*command, "--reference-samples", "N",
+              "Lens samples of the converged reference that each lens is compared with; without it, eight times the "
+              "most that are measured with the lens; 0: no reference",
+              [&options](const std::string& text) {
+                  options.referenceSamples = static_cast<std::uint32_t>(parseInteger(text, 0, maxSamples));
+              })
+        ->group(group);
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->folder, "Folder for speedup.csv and speedup.json")
+            ->type_name("FOLDER")
+            ->group("Output");
+    addReport(*command, output, arguments->report);
+    addAllowChanged(*command, arguments->allowChanged);
+    // Not what the bench goes through by itself. The time that pyramids take is part of the result, and images are
+    // compared at EV 0.
+    addSettings(*command, arguments->request,
+                settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "cacheFolder",
+                                         "noCache", "exposureTime", "iso"}));
+    addDeveloperSettings(*command, arguments->request, {"memory"});
+    command->footer(
+        "Examples:\n"
+        "  defocus bench speedup --counts 16,64 -o bench-fish\n"
+        "  defocus bench speedup scene.glb --fstops 1.4,2.8,5.6 --reference-samples 1024\n"
+        "  defocus bench speedup --preset jeong2011 --report figure-2\n"
+        "With a preset, all is measured twice: with what the preset sets, and with what a call without it has.");
+    command->callback([arguments, command, &global] {
+        const CLI::Option& preset = *command->get_option("--preset");
+        if (!preset.empty()) arguments->preset = preset.results().front();
+        runSpeedup(*arguments, global);
+    });
+}
+
+}  // namespace
+
+Request measuredRequest() {
+    Request request;
+    request.units = 1;
+    return request;
+}
+
+void makeOutputFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files) {
+    if (folder.empty()) return;
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+    for (const char* name : files) checkWritable(folder / name);
+}
+
+void addAllowChanged(CLI::App& command, bool& allowed) {
+    advanced(command
+                 .add_flag("--allow-changed", allowed,
+                           "Write results even if the program was built from sources that differ from their commit")
+                 ->group("Output"));
+}
+
+void refuseChangedSources(const std::filesystem::path& output, bool allowed, const std::string& commit) {
+    if (output.empty() || allowed || !commit.ends_with("-changed")) return;
+    fail(
+        "{}: the program was built from changed sources ({}), so nobody could repeat these results; commit the sources "
+        "and build again, or pass --allow-changed",
+        output.string(), commit);
+}
+
+BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global) {
+    BenchSubject subject;
+    subject.program = "defocus " + programVersion();
+    subject.commit = programCommit();
+    subject.commands = {commandLine(global.words)};
+    subject.machine = thisMachine();
+    subject.device = context.device();
+    subject.driver = context.driver();
+    subject.software = context.software();
+    return subject;
+}
+
+BenchSubject benchSubject(const GlContext& context, const GlobalOptions& global, const PreparedFrame& frame, int runs) {
+    BenchSubject subject = benchSubject(context, global);
+    subject.scene = frame.sceneName;
+    subject.camera = frame.cameraName;
+    subject.lens = frame.view.lens;
+    subject.width = frame.view.width;
+    subject.height = frame.view.height;
+    subject.runs = runs;
+    subject.pyramidMilliseconds = frame.pyramidMilliseconds;
+    return subject;
+}
+
+void addBenchCommand(CLI::App& program, const GlobalOptions& global) {
+    CLI::App* bench = program.add_subcommand("bench", "Measure time and image error on this machine");
+    bench->require_subcommand(1);
+    addSpeedup(*bench, global);
+    addConvergenceCommand(*bench, global);
+    addStabilityCommand(*bench, global);
+    addPoppingCommand(*bench, global);
+    addScalingCommand(*bench, global);
+    addPredictionCommand(*bench, global);
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,127 @@
+// defocus bench popping: what levels of detail add to the change from frame to frame.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "cli/commands/bench_commands.h"
+#include "cli/commands/bench_report.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "eval/popping/text.h"
+#include "frame/setup/prepared_frame.h"
+#include "gl/context.h"
+#include "scene/animation.h"
+
+namespace defocus::engine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PoppingArguments {
+    Request request = measuredRequest();
+    PoppingOptions options;
+    fs::path folder;  // empty: only the table
+    fs::path report;  // empty: none
+    bool allowChanged = false;
+};
+
+void runPopping(const PoppingArguments& arguments, const GlobalOptions& global) {
+    if (arguments.options.frames > arguments.options.pathFrames)
+        fail("--frames {}: the whole movement has {} (--path-frames)", arguments.options.frames,
+             arguments.options.pathFrames);
+    const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    refuseChangedSources(folder, arguments.allowChanged);
+    makeOutputFolder(folder, {"popping.csv", "popping.json"});
+    Progress progress = terminalProgress(global);
+    PreparedFrame frame = placeFrame(arguments.request, progress);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    addPyramids(frame, progress);
+    printCacheUse(frame, global);
+    WarningPrinter(global).print(frameWarnings(frame));
+
+    PoppingOptions options = arguments.options;
+    options.plan = frame.settings;
+    if (!frame.scene->clips.empty()) {
+        options.movements.push_back(Movement::clip);
+        if (!arguments.request.clip.empty()) options.clip = clipNamed(*frame.scene, arguments.request.clip);
+    }
+    options.renderer.layerFormat = arguments.request.layerFormat;
+    options.renderer.shaderFolder = global.shaderDir;
+    const BenchSubject subject = benchSubject(*context, global, frame, 0);
+    fmt::print("{}, {} x {} px, {} of {} frames of each movement, on {}\n\n", subject.scene, subject.width,
+               subject.height, options.frames, options.pathFrames, subject.device);
+
+    // Whatever is measured is kept as it comes: a run that is cut off loses little.
+    std::vector<PoppingFrame> frames;
+    std::vector<SampleStep> steps;
+    const auto write = [&] {
+        std::fflush(stdout);
+        if (folder.empty()) return;
+        writeFile(folder / "popping.csv", poppingCsv(frames));
+        writeFile(folder / "popping.json", poppingJson(frames, steps, subject, options));
+    };
+    bool hasHeader = false;
+    PoppingVisitor visitor;
+    visitor.sampleStep = [&](const SampleStep& step) {
+        steps.push_back(step);
+        fmt::print("{}", sampleStepLine(step));
+        write();
+    };
+    visitor.frames = [&](std::span<const PoppingFrame> added) {
+        if (!hasHeader) fmt::print("{}{}", steps.empty() ? "" : "\n", poppingHeader());
+        hasHeader = true;
+        frames.insert(frames.end(), added.begin(), added.end());
+        for (const PoppingRow& row : poppingRows(added)) fmt::print("{}", poppingLine(row));
+        write();
+    };
+    measurePopping(frame.world, frame.view, options, visitor, progress);
+    fmt::print("{}", poppingSummary(poppingRows(frames)));
+    drawReport(arguments.report, arguments.report);
+}
+
+}  // namespace
+
+void addPoppingCommand(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<PoppingArguments>();
+    arguments->request.size = {320, 240};
+    CLI::App* command = bench.add_subcommand(
+        "popping",
+        "A focus pull, a dolly, a turntable and the scene's clip: what levels add to the change from frame to frame");
+    // Not what the bench goes through by itself; and images are compared at EV 0.
+    addSettings(
+        *command, arguments->request,
+        settingsOf(frameGroups, {"samples", "targetError", "timeLimit", "lod", "method", "exposureTime", "iso"}));
+    const char* group = "Measurement";
+    PoppingOptions& options = arguments->options;
+    addIntegers(*command, "--counts", options.sampleCounts, 1, 4096, "Numbers of lens samples")->group(group);
+    addInteger(*command, "--frames", options.frames, 2, 10'000,
+               "Frames of each movement: the stretch of it over which levels change most often")
+        ->group(group);
+    addInteger(*command, "--path-frames", options.pathFrames, 2, 100'000,
+               "Frames that a whole movement takes (focus from the nearest to the farthest object, dolly over half the "
+               "focus distance, once around, the clip once): its speed")
+        ->group(group);
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->folder, "Folder for popping.csv and popping.json")
+            ->type_name("FOLDER")
+            ->group("Output");
+    addReport(*command, output, arguments->report);
+    addAllowChanged(*command, arguments->allowChanged);
+    addDeveloperSettings(*command, arguments->request,
+                         {"keepAll", "memory", "wave"});  // nothing that is measured depends on it
+    command->footer(
+        "Examples:\n"
+        "  defocus bench popping --fish 6 --fish-triangles 20000 -o popping\n"
+        "  defocus bench popping scene.glb --counts 32 --frames 96 --path-frames 96");
+    command->callback([arguments, &global] { runPopping(*arguments, global); });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,80 @@
+// defocus bench prediction: the error that a pyramid expects of its levels against the rendered one.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "cli/commands/bench_commands.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "core/file.h"
+#include "eval/prediction/text.h"
+#include "gl/context.h"
+
+namespace defocus::engine {
+
+namespace {
+
+struct PredictionArguments {
+    Request request = measuredRequest();
+    PredictionOptions options;
+    std::filesystem::path folder;  // empty: only the table
+    bool allowChanged = false;
+};
+
+void runPrediction(const PredictionArguments& arguments, const GlobalOptions& global) {
+    refuseChangedSources(arguments.folder, arguments.allowChanged);
+    makeOutputFolder(arguments.folder, {"prediction.csv", "prediction.json"});
+    const Progress progress = terminalProgress(global);
+    const PreparedFrame frame = placeFrame(arguments.request, progress);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    PredictionOptions options = arguments.options;
+    options.width = arguments.request.size.width;
+    options.height = arguments.request.size.height;
+    options.renderer.shaderFolder = global.shaderDir;
+    BenchSubject subject = benchSubject(*context, global);
+    subject.scene = frame.sceneName;
+    fmt::print("{}, {} x {} px, on {}: errors of linear light, its mean 1\n\n{}", frame.sceneName, options.width,
+               options.height, subject.device, predictionHeader());
+    std::fflush(stdout);
+    std::vector<PredictionRow> rows;
+    measurePrediction(
+        frame, options,
+        [&](const PredictionRow& row) {
+            rows.push_back(row);
+            fmt::print("{}", predictionLine(row));
+            std::fflush(stdout);
+            if (arguments.folder.empty()) return;
+            writeFile(arguments.folder / "prediction.csv", predictionCsv(rows));
+            writeFile(arguments.folder / "prediction.json", predictionJson(rows, subject));
+        },
+        progress);
+    fmt::print("{}", predictionSummary(rows));
+}
+
+}  // namespace
+
+void addPredictionCommand(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<PredictionArguments>();
+    arguments->request.size = {arguments->options.width, arguments->options.height};
+    CLI::App* command = bench.add_subcommand(
+        "prediction",
+        "A scene's largest mesh alone, level by level under growing blur: the error that its pyramid "
+        "expects against the rendered one");
+    addNumbers(*command, "--cocs", arguments->options.cocs, {0.01, 1e4}, "PX,PX,…", "Blur of the mesh's centre")
+        ->group("Measurement");
+    addSettings(*command, arguments->request, {"scene", "fishCount", "trianglesPerFish", "size"});
+    command->add_option("-o,--output", arguments->folder, "Folder for prediction.csv and prediction.json")
+        ->type_name("FOLDER")
+        ->group("Output");
+    addAllowChanged(*command, arguments->allowChanged);
+    command->footer(
+        "Examples:\n"
+        "  defocus bench prediction\n"
+        "  defocus bench prediction scene.glb --cocs 2,8,32 -o prediction");
+    command->callback([arguments, &global] { runPrediction(*arguments, global); });
+}
+
+}  // namespace defocus::engine

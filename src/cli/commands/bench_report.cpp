@@ -1,0 +1,77 @@
+#include "cli/commands/bench_report.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/message.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// Another python3 without Debian's packages may come first on the path.
+constexpr const char* interpreters[] = {"python3", "/usr/bin/python3"};
+
+// Exit codes for an interpreter that isn't installed, and for one without matplotlib (report_script.cpp.in).
+constexpr int notInstalled = 127;
+constexpr int withoutMatplotlib = 3;
+
+// Runs a program from the path and returns its exit code, -1 if it was killed. Its output goes to stderr.
+int exitCodeOf(std::vector<std::string> words) {
+    std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    const pid_t child = ::fork();
+    if (child < 0) return -1;
+    if (child == 0) {
+        ::dup2(STDERR_FILENO, STDOUT_FILENO);
+        ::execvp(pointers[0], pointers.data());
+        ::_exit(notInstalled);
+    }
+    int status = 0;
+    if (::waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
+    return WEXITSTATUS(status);
+}
+
+// Returns whether there is a Python with matplotlib. Throws Error if it cannot draw the report.
+bool runScript(const std::filesystem::path& results, const std::filesystem::path& report) {
+    for (const char* python : interpreters) {
+        const int code = exitCodeOf({python, "-c", reportScript(), results.string(), report.string()});
+        if (code == 0) return true;
+        if (code != notInstalled && code != withoutMatplotlib)
+            fail("{}: the report could not be drawn (exit code {}); the results beside it are complete",
+                 (report / "index.html").string(), code);
+    }
+    return false;
+}
+
+}  // namespace
+
+void addReport(CLI::App& command, CLI::Option* output, std::filesystem::path& report) {
+    command
+        .add_option("--report", report,
+                    "Folder for the same files and index.html, which has plots and tables of all benches with results "
+                    "there (needs python3-matplotlib); instead of --output")
+        ->type_name("FOLDER")
+        ->excludes(output)
+        ->group("Output");
+}
+
+void drawReport(const std::filesystem::path& results, const std::filesystem::path& report) {
+    if (report.empty()) return;
+    if (runScript(results, report))
+        fmt::print("\nreport: {}\n", (report / "index.html").string());
+    else
+        printMessage(
+            "no report: python3 with matplotlib is missing (Debian: python3-matplotlib); the results are in {}\n",
+            report.string());
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,125 @@
+// defocus bench scaling: how a frame's time and memory grow.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <vector>
+
+#include "cli/commands/bench_commands.h"
+#include "cli/commands/bench_report.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "eval/scaling/text.h"
+#include "gl/context.h"
+#include "lod/pyramid/cache.h"
+
+namespace defocus::engine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScalingArguments {
+    ScalingOptions options;
+    Request request;      // its cache folder alone
+    fs::path folder;      // empty: only the table
+    fs::path report;      // empty: none
+    bool scenes = false;  // the two large ones too
+    bool allowChanged = false;
+};
+
+void runScaling(const ScalingArguments& arguments, const GlobalOptions& global) {
+    if (arguments.options.large &&
+        std::ranges::find(arguments.options.axes, ScalingAxis::triangles) == arguments.options.axes.end())
+        throw UsageError("--large is for triangles, which are not among --axes");
+    const fs::path& folder = arguments.report.empty() ? arguments.folder : arguments.report;
+    refuseChangedSources(folder, arguments.allowChanged);
+    makeOutputFolder(folder, {"scaling.csv", "scaling.json"});
+    const Progress progress = terminalProgress(global);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    ScalingOptions options = arguments.options;
+    options.cacheFolder = arguments.request.cacheFolder.empty() ? defaultCacheFolder() : arguments.request.cacheFolder;
+    options.renderer.shaderFolder = global.shaderDir;
+    BenchSubject subject = benchSubject(*context, global);
+    subject.runs = options.runs;
+    fmt::print("{} runs of each, on {}\n\n{}", subject.runs, subject.device, scalingHeader());
+    std::fflush(stdout);
+
+    // Each row is kept as it comes: a run that is cut off loses nothing.
+    std::vector<ScalingRow> rows;
+    std::vector<ScalingLeftOut> leftOut;
+    std::vector<LargeSceneRow> scenes;
+    const auto write = [&] {
+        std::fflush(stdout);
+        if (folder.empty()) return;
+        writeFile(folder / "scaling.csv", scalingCsv(rows));
+        writeFile(folder / "scaling.json", scalingJson(rows, leftOut, scenes, subject));
+    };
+    const ScalingVisitor visitor = {[&](const ScalingRow& row) {
+                                        rows.push_back(row);
+                                        fmt::print("{}", scalingLine(row));
+                                        write();
+                                    },
+                                    [&](const ScalingPoint& point, const std::string& reason) {
+                                        leftOut.push_back({point, reason});
+                                        fmt::print("{}", scalingLine(leftOut.back()));
+                                        write();
+                                    }};
+    measureScaling(options, visitor, progress);
+    fmt::print("{}", scalingSummary(rows));
+    if (arguments.scenes) fmt::print("{}", largeSceneHeader());
+    for (const LargeScene& scene : arguments.scenes ? largeScenes() : std::vector<LargeScene>()) {
+        scenes.push_back(measureLargeScene(scene, {options.runs, options.cacheFolder, options.renderer}, progress));
+        fmt::print("{}", largeSceneLine(scenes.back()));
+        write();
+    }
+    drawReport(arguments.report, arguments.report);
+}
+
+}  // namespace
+
+void addScalingCommand(CLI::App& bench, const GlobalOptions& global) {
+    auto arguments = std::make_shared<ScalingArguments>();
+    CLI::App* command = bench.add_subcommand(
+        "scaling", "Time and memory against triangles, instances, samples, pixels and blur, with fitted exponents");
+    const char* group = "Measurement";
+    ScalingOptions& options = arguments->options;
+    const std::vector<ScalingAxis> all = options.axes;
+    std::vector<std::string> names;
+    for (const ScalingAxis axis : all) names.emplace_back(scalingAxisName(axis));
+    addList(*command, "--axes", "AXIS,AXIS,…", options.axes, "What grows: triangles, instances, samples, pixels, blur",
+            [all, names](const std::string& part) { return all[parseChoice(part, names)]; })
+        ->default_str(fmt::format("{}", fmt::join(names, ",")))
+        ->group(group);
+    command
+        ->add_flag("--large", options.large,
+                   "Triangles up to 50 million instead of 10, as far as memory allows; their pyramids take minutes")
+        ->group(group);
+    command
+        ->add_flag(
+            "--scenes", arguments->scenes,
+            "Also two large scenes, 100 million triangles in instances and 10,000 different objects: time of the "
+            "plan, memory, and the first image; their pyramids take minutes")
+        ->group(group);
+    addInteger(*command, "--runs", options.runs, 1, 1000, "Runs of each frame; the median counts")->group(group);
+    addSettings(*command, arguments->request, {"cacheFolder"});
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->folder, "Folder for scaling.csv and scaling.json")
+            ->type_name("FOLDER")
+            ->group("Output");
+    addReport(*command, output, arguments->report);
+    addAllowChanged(*command, arguments->allowChanged);
+    command->footer(
+        "Examples:\n"
+        "  defocus bench scaling -o scaling\n"
+        "  defocus bench scaling --axes triangles --large");
+    command->callback([arguments, &global] { runScaling(*arguments, global); });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,180 @@
+#include "cli/commands/camera_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "cli/options/option_text.h"
+#include "lens/circle_of_confusion.h"
+#include "lens/depth_of_field.h"
+#include "lens/photographic_exposure.h"
+
+namespace defocus::engine {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Blur {
+    double depth = 0;      // m
+    double pixels = 0;     // signed, > 0 behind the focus
+    double onSensor = 0;   // mm, ≥ 0
+    bool inFocus = false;  // no larger than the acceptable circle
+};
+
+// The answers.
+struct CameraFacts {
+    Lens lens;
+    glm::dvec2 sensor{0};       // mm
+    glm::dvec2 fieldOfView{0};  // degrees
+    double acceptable = 0;      // mm
+    bool customary = false;     // the sensor's diagonal over 1500
+    DepthOfField depth;
+    bool plain = true;  // none of the controls of C is in use: the limits are the image's own
+    std::vector<Blur> blurs;
+};
+
+std::vector<double> depthsAround(const Lens& lens) {
+    if (std::isinf(lens.focusDistance)) return {0.5, 1, 2, 5, 10, 20, 50, 100, infinity};
+    std::vector<double> depths;
+    for (const double factor : {0.25, 0.5, 0.75, 0.9, 1.0, 1.1, 1.25, 1.5, 2.0, 4.0, 10.0})
+        depths.push_back(factor * lens.focusDistance);
+    depths.push_back(infinity);
+    return depths;
+}
+
+CameraFacts factsOf(const PreparedFrame& frame, const CameraQuestion& question) {
+    const View& view = frame.view;
+    CameraFacts facts;
+    facts.lens = view.lens;
+    facts.sensor = sensorSize(view.lens, view.width, view.height);
+    const double tanX = tanHalfHorizontalFov(view.lens);
+    facts.fieldOfView = glm::degrees(2.0 * glm::dvec2(std::atan(tanX), std::atan(tanX * view.height / view.width)));
+    facts.customary = !question.acceptableCoc;
+    facts.acceptable = question.acceptableCoc.value_or(customaryCircleOfConfusion(view.lens, view.width, view.height));
+    facts.depth = depthOfField(view.lens, facts.acceptable);
+    const ClipCircleOfConfusion coc = clipCircleOfConfusion(view.lens, view.width, view.height);
+    facts.plain = coc.thinLens();
+    for (const double depth : question.depths.empty() ? depthsAround(view.lens) : question.depths) {
+        const double pixels = circleOfConfusion(coc, depth, view.width);
+        const double onSensor = std::abs(pixels) * facts.sensor.x / view.width;
+        facts.blurs.push_back({depth, pixels, onSensor, onSensor <= facts.acceptable * (1 + 1e-9)});
+    }
+    return facts;
+}
+
+std::string inMetres(double distance) {
+    return std::isinf(distance) ? "infinity" : fmt::format("{:.4g} m", distance);
+}
+
+Json orNull(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+// What is in focus behind the focus distance, m.
+double behindFocus(const CameraFacts& facts) {
+    return std::isinf(facts.lens.focusDistance) ? 0 : facts.depth.far - facts.lens.focusDistance;
+}
+
+// "1/125 s", "2.5 s"
+std::string shutterText(double seconds) {
+    return seconds < 0.4 ? fmt::format("1/{:.4g} s", 1 / seconds) : fmt::format("{:.3g} s", seconds);
+}
+
+const char* const plainLensNote =
+    "The limits are those of the plain lens: its limits, range, tilt or curvature of the blur count in the table only";
+
+}  // namespace
+
+std::vector<double> parseDepths(const std::string& text) {
+    std::vector<double> depths;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string part = text.substr(begin, end - begin);
+        depths.push_back(part == "inf" ? infinity : parseNumber(part, {0, 1e12, true}));
+        begin = end + 1;
+    }
+    return depths;
+}
+
+std::string cameraTable(const PreparedFrame& frame, const CameraQuestion& question) {
+    const CameraFacts facts = factsOf(frame, question);
+    const Lens& lens = facts.lens;
+    std::string text;
+    const auto line = [&](const char* label, const std::string& value) {
+        text += fmt::format("{:<18}{}\n", label, value);
+    };
+    line("camera", fmt::format("{} of {}", frame.cameraName, frame.sceneName));
+    line("lens", fmt::format("{:.4g} mm, f/{:.3g}{}", lens.focalLength, lens.fStop,
+                             apertureDiameter(lens) > 0 ? "" : ", depth of field off"));
+    line("sensor", fmt::format("{:.4g} x {:.4g} mm, as wide as its image of {}x{} px", facts.sensor.x, facts.sensor.y,
+                               frame.view.width, frame.view.height));
+    line("field of view", fmt::format("{:.4g} x {:.4g} degrees", facts.fieldOfView.x, facts.fieldOfView.y));
+    line("focus",
+         fmt::format("{}{}", inMetres(lens.focusDistance), lens.focusBreathing ? ", with focus breathing" : ""));
+    line("acceptable blur",
+         fmt::format("{:.3g} mm on the sensor{}", facts.acceptable, facts.customary ? ", its diagonal over 1500" : ""));
+    line("in focus", fmt::format("{} to {}", inMetres(facts.depth.near), inMetres(facts.depth.far)));
+    line("depth of field",
+         fmt::format("{}: {} in front of the focus, {} behind", inMetres(facts.depth.far - facts.depth.near),
+                     inMetres(lens.focusDistance - facts.depth.near), inMetres(behindFocus(facts))));
+    line("hyperfocal", inMetres(facts.depth.hyperfocal));
+    if (lens.exposureTime > 0)
+        line("exposure",
+             fmt::format("{} at ISO {:.4g}: EV100 {:.2f}, {:+.2f} EV on the scene's cd/m2",
+                         shutterText(lens.exposureTime), lens.iso, exposureValue100(lens), photographicExposure(lens)));
+    if (!facts.plain) text += fmt::format("{}.\n", plainLensNote);
+    text += fmt::format("\n{:>12} {:>12} {:>14}\n", "depth", "blur, px", "on sensor, mm");
+    for (const Blur& blur : facts.blurs)
+        text += fmt::format("{:>12} {:>12.2f} {:>14.4f}{}\n", inMetres(blur.depth), blur.pixels, blur.onSensor,
+                            blur.inFocus ? "  in focus" : "");
+    text += "\nThe blur is that of the image's middle, < 0 in front of the focus.\n";
+    return text;
+}
+
+std::string cameraJson(const PreparedFrame& frame, const CameraQuestion& question) {
+    const CameraFacts facts = factsOf(frame, question);
+    const Lens& lens = facts.lens;
+    Json json = {{"camera", frame.cameraName},
+                 {"scene", frame.sceneName},
+                 {"width", frame.view.width},
+                 {"height", frame.view.height},
+                 {"focalLength", lens.focalLength},
+                 {"fStop", lens.fStop},
+                 {"apertureDiameter", apertureDiameter(lens)},
+                 {"focusDistance", orNull(lens.focusDistance)},
+                 {"focusBreathing", lens.focusBreathing},
+                 {"sensorSize", {facts.sensor.x, facts.sensor.y}},
+                 {"horizontalFieldOfView", facts.fieldOfView.x},
+                 {"verticalFieldOfView", facts.fieldOfView.y},
+                 {"acceptableCoc", facts.acceptable},
+                 {"near", facts.depth.near},
+                 {"far", orNull(facts.depth.far)},
+                 {"depthOfField", orNull(facts.depth.far - facts.depth.near)},
+                 {"inFrontOfFocus", orNull(lens.focusDistance - facts.depth.near)},
+                 {"behindFocus", orNull(behindFocus(facts))},
+                 {"hyperfocal", facts.depth.hyperfocal},
+                 {"plainLens", facts.plain}};
+    if (!facts.plain) json["note"] = plainLensNote;
+    if (lens.exposureTime > 0)
+        json["exposure"] = {{"exposureTime", lens.exposureTime},
+                            {"iso", lens.iso},
+                            {"ev100", exposureValue100(lens)},
+                            {"exposure", photographicExposure(lens)}};
+    json["blur"] = Json::array();
+    for (const Blur& blur : facts.blurs)
+        json["blur"].push_back({{"depth", orNull(blur.depth)},
+                                {"pixels", blur.pixels},
+                                {"millimetres", blur.onSensor},
+                                {"inFocus", blur.inFocus}});
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,389 @@
+// defocus capture: a shot to frames and film.
+
+#include "capture/capture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "capture/frame_files.h"
+#include "capture/shot_json.h"
+#include "capture/shot_options.h"
+#include "capture/video.h"
+#include "cli/command.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "cli/terminal/stop_signal.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/message.h"
+#include "core/stopwatch.h"
+#include "frame/report/picture_warnings.h"
+#include "frame/report/plan_warnings.h"
+#include "frame/report/render_report.h"
+#include "frame/setup/exposure.h"
+#include "frame/setup/prepared_frame.h"
+#include "gl/context.h"
+#include "render/methods.h"
+
+namespace defocus::engine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Shard {
+    int index = 0;
+    int count = 1;
+};
+
+struct CaptureArguments {
+    std::vector<ShotOverride> overrides;
+    Shot shot;
+    Request request;
+    std::optional<FrameRange> range;
+    Shard shard;
+    std::optional<SampleRange> sampleRange;
+    std::vector<std::string> outputs;  // empty: the shot's
+    bool resume = false;
+    bool overwrite = false;
+    bool dryRun = false;
+};
+
+// ---- the work
+// --------------------------------------------------------------------------------------------------------
+
+// Faults of outputs and of options that don't go together, before anything long.
+void checkArguments(const CaptureArguments& arguments) {
+    for (const std::string& pattern : arguments.shot.outputs) {
+        checkFramePattern(pattern);
+        const fs::path folder = fs::path(pattern).parent_path();
+        std::error_code fault;
+        if (!folder.empty() && !arguments.dryRun) fs::create_directories(folder, fault);
+        if (fault) fail("{}: the folder cannot be made: {}", folder.string(), fault.message());
+        if (!arguments.dryRun) checkWritable(framePath(pattern, 0));
+    }
+    const bool part = arguments.shard.count > 1 || arguments.sampleRange;
+    if (!arguments.shot.video.empty()) {
+        if (part)
+            fail(
+                "--video needs all frames: run the shards first, then the command without --shard and with --resume "
+                "--video {}",
+                arguments.shot.video.string());
+        checkVideo(arguments.shot.video);
+    }
+    if (!arguments.sampleRange) return;
+    if (arguments.request.targetError)
+        throw UsageError("--sample-range needs a number of samples, which --target-error leaves open");
+    checkSampleRange(*arguments.sampleRange, arguments.request.samples.value_or(maxSamples));
+    if (arguments.shot.outputs.size() != 1 || fs::path(arguments.shot.outputs.front()).extension() != ".exr")
+        fail("--sample-range writes the sums of samples to one EXR pattern, such as -o frames/####.exr");
+}
+
+FilmOptions filmOptions(const CaptureArguments& arguments, const FilmSettings& settings) {
+    const Shot& shot = arguments.shot;
+    FilmOptions options;
+    options.outputs = shot.outputs;
+    options.sampleRange = arguments.sampleRange;
+    options.settings = settings;
+    options.timings = timingsPath(shot.outputs.front(), arguments.shard.index, arguments.shard.count);
+    options.resume = arguments.resume;
+    return options;
+}
+
+void printPlan(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
+               const std::vector<FilmFrame>& film) {
+    const StopSettings stop = stopSettings(arguments.request);
+    const std::string samples = stop.targetError ? fmt::format("samples until the error is {:g}", *stop.targetError)
+                                : stop.automatic ? "as many samples as each frame asks for"
+                                                 : fmt::format("{} samples", base.settings.sampleCount);
+    fmt::print("{}, camera '{}', {}x{}, {}, {:g} frames a second\n", prepared.sceneName, prepared.cameraName,
+               base.view.width, base.view.height, samples, arguments.shot.frameRate);
+    fmt::print("{:>7} {:>9} {:>10} {:>8} {:>8} {:>12}  {}\n", "frame", "time, s", "focus, m", "f-stop", "mm",
+               "triangles", "file");
+    for (const FilmFrame& each : film) {
+        const FrameMoment frame = frameAt(arguments.shot, base, each.frame);
+        applyMoment(frame, prepared.world);
+        const FramePlan plan = planFrame(prepared.world, frame.view, frame.settings);
+        const Lens& lens = frame.view.lens;
+        fmt::print("{:>7} {:>9.3f} {:>10.4g} {:>8.3g} {:>8.4g} {:>12}  {}{}\n", each.frame, frame.time,
+                   lens.focusDistance, lens.fStop, lens.focalLength, plan.trianglesDrawn, each.files.front().string(),
+                   each.finished        ? " (is there)"
+                   : each.other.empty() ? ""
+                                        : " (other settings)");
+    }
+}
+
+// Metadata as of `render`, less what differs from run to run. `exposure`: of all frames; none: their lens's.
+FilmMetadata metadataOf(const CaptureArguments& arguments, const PreparedFrame& prepared, const std::string& method,
+                        std::optional<double> exposure) {
+    return [&arguments, &prepared, method, exposure](const FrameMoment& frame, const FramePlan& plan,
+                                                     const RenderStats& stats) {
+        Request options = arguments.request;
+        options.time = frame.time;
+        options.timeLimit.reset();
+        options.seed = frame.settings.seed;
+        Metadata metadata = renderMetadata({options, method, prepared, plan, stats, false, 0, exposure});
+        metadata.erase("defocus:seconds");
+        metadata["capDate"] = std::string();  // else the library puts the time of writing there
+        metadata["defocus:frame"] = frame.frame;
+        metadata["defocus:frameRate"] = arguments.shot.frameRate;
+        return metadata;
+    };
+}
+
+// Plans the first frame for its warnings.
+void printPlanWarnings(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
+                       const std::vector<FilmFrame>& film, const MethodUse& use, WarningPrinter& warnings) {
+    const FrameMoment frame = frameAt(arguments.shot, base, film.front().frame);
+    applyMoment(frame, prepared.world);
+    warnings.print(planWarnings(planFrame(prepared.world, frame.view, frame.settings), use));
+}
+
+// All frames are exposed as the shot's first one is metered, whichever of them this run renders.
+void meterFilm(const CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
+               std::vector<FilmFrame>& film, const GlobalOptions& global) {
+    const FrameMoment frame = frameAt(arguments.shot, base, arguments.shot.range.first);
+    applyMoment(frame, prepared.world);
+    const double exposure = meteredExposure(prepared.world, frame.view, frame.settings, global.shaderDir);
+    for (FilmFrame& each : film) each.write.exposure = exposure;
+}
+
+void printFigures(const FilmFigures& figures, std::size_t frames) {
+    const double render = figures.renderMilliseconds / 1000;
+    const double total = figures.totalMilliseconds / 1000;
+    std::string text = fmt::format("{} frame{}", frames, frames == 1 ? "" : "s");
+    if (figures.finishedBefore > 0) text += fmt::format(", {} of them there before", figures.finishedBefore);
+    if (figures.rendered > 0)
+        text += fmt::format(
+            ": {} rendered in {:.1f} s, {:.2f} times the sum of their render times ({:.1f} s, {:.0f} ms "
+            "and {:.2f} M triangles a frame)",
+            figures.rendered, total, total / render, render, 1000 * render / figures.rendered,
+            static_cast<double>(figures.triangles) * 1e-6 / figures.rendered);
+    if (figures.tiles > 1) text += fmt::format(", each in {} tiles", figures.tiles);
+    printMessage("{}\n", text);
+}
+
+FilmFigures renderFrames(CaptureArguments& arguments, PreparedFrame& prepared, const SequenceBase& base,
+                         const std::vector<FilmFrame>& film, FilmOptions& options, const MethodUse& use,
+                         const GlobalOptions& global, const Progress& progress) try {
+    const Request& request = arguments.request;
+    FrameDriver driver(
+        prepared.world,
+        {use, {request.memory, request.wave.value_or(0), request.layerFormat}, global.shaderDir, filmPixelBytes});
+    const std::optional<double> exposure =
+        options.metered ? std::optional(film.front().write.exposure) : exposureOf(request);
+    stopWhenAsked();
+    // With a time limit at least one frame is rendered, so that run after run ends some day.
+    const Clock::time_point start = Clock::now();
+    bool first = true;
+    const auto stop = [&] {
+        const std::optional<double> limit = arguments.request.timeLimit;
+        const bool late = limit && !std::exchange(first, false) && millisecondsSince(start) > 1000 * *limit;
+        return stopAsked() || late;
+    };
+    return renderFilm(arguments.shot, base, prepared.world, driver, film, options,
+                      metadataOf(arguments, prepared, use.text(), exposure), stop, progress);
+} catch (const Error& error) {
+    fail("{} (frames that are finished are kept; the same command with --resume goes on)", error.what());
+}
+
+// Work of hours may lie under these names.
+void refuseToReplace(const std::vector<FilmFrame>& film) {
+    const auto replaced = [](const FilmFrame& frame) { return !frame.other.empty(); };
+    const auto first = std::ranges::find_if(film, replaced);
+    if (first == film.end()) return;
+    const auto more = std::ranges::count_if(film, replaced) - 1;
+    fail("{}{} made with other settings: --overwrite renders anew, -o writes elsewhere", first->other.string(),
+         more > 0 ? fmt::format(" and {} more frame{} were", more, more > 1 ? "s" : "") : " was");
+}
+
+PreparedFrame placedFrame(const CaptureArguments& arguments, const Progress& progress) try {
+    return placeFrame(arguments.request, progress);
+} catch (const MissingName& missing) {
+    failForName(arguments.shot, missing);
+}
+
+void runCapture(CaptureArguments& arguments, const GivenOptions& given, const GlobalOptions& global) {
+    // Faults first: options, outputs, scene, every frame's camera and lens, device; only then the long work.
+    Shot& shot = arguments.shot;
+    settleShot(shot, arguments.request, given);
+    if (!arguments.outputs.empty()) shot.outputs = arguments.outputs;
+    checkArguments(arguments);
+    const MethodUse use = chosenMethod(arguments.request);
+    if (arguments.request.targetError) checkStop(arguments.request);
+    Progress progress = terminalProgress(global);
+    PreparedFrame prepared = placedFrame(arguments, progress);
+    const SequenceBase base = sequenceBase(prepared, arguments.request);
+    FilmOptions options = filmOptions(arguments, filmSettings(prepared, arguments.request, global.shaderDir));
+    options.metered = metersExposure(arguments.request, *prepared.scene, prepared.view.lens);
+    const std::vector<int> frames =
+        shardFrames(arguments.range.value_or(shot.range), arguments.shard.index, arguments.shard.count);
+    std::vector<FilmFrame> film = filmFrames(shot, base, frames, options, progress);
+    if (arguments.resume && !arguments.overwrite && !arguments.dryRun) refuseToReplace(film);
+    const bool allThere = std::ranges::all_of(film, &FilmFrame::finished);
+
+    // The frames.
+    std::unique_ptr<GlContext> context;
+    const bool meters = options.metered && (!allThere || !shot.video.empty());
+    if (((!allThere && use.method->needsGl) || meters) && !arguments.dryRun) context = createHeadlessContext();
+    if (!allThere || meters || arguments.dryRun) addPyramids(prepared, progress);
+    progress = {};
+    printCacheUse(prepared, global);
+    WarningPrinter warnings(global);
+    warnings.print(requestWarnings(arguments.request, prepared));
+    if (!allThere) printPlanWarnings(arguments, prepared, base, film, use, warnings);
+    if (arguments.dryRun) return printPlan(arguments, prepared, base, film);
+    if (meters) meterFilm(arguments, prepared, base, film, global);
+    progress = terminalProgress(global);
+    const auto hasCurve = [](const std::string& pattern) {
+        const std::string ending = fs::path(pattern).extension().string();
+        return ending != ".exr" && ending != ".EXR";
+    };
+    if (!shot.video.empty() || std::ranges::any_of(shot.outputs, hasCurve))
+        options.firstDrawn = [&](const Image& image, const WriteOptions& write) {
+            progress = {};  // the line of the progress makes room
+            warnings.print(clippingWarnings(image, write));
+            progress = terminalProgress(global);
+        };
+    FilmFigures figures;
+    figures.finishedBefore = static_cast<int>(film.size());
+    if (!allThere) figures = renderFrames(arguments, prepared, base, film, options, use, global, progress);
+    if (figures.stoppedBefore)
+        fail("stopped before frame {}: {} of {} frames are finished; the same command with --resume goes on",
+             *figures.stoppedBefore, figures.rendered + figures.finishedBefore, film.size());
+
+    // The film.
+    std::vector<VideoFrame> pictures;
+    for (const FilmFrame& frame : film) pictures.push_back({frame.files.front(), frame.write});
+    if (!shot.video.empty()) writeVideo(shot.video, pictures, shot.frameRate, progress);
+    progress = {};
+    if (!global.quiet) printFigures(figures, film.size());
+}
+
+// ---- options
+// ---------------------------------------------------------------------------------------------------------
+
+void parseShard(const std::string& text, Shard& shard) {
+    const std::size_t slash = text.find('/');
+    try {
+        if (slash == std::string::npos) throw Error("");
+        shard.count = static_cast<int>(parseInteger(text.substr(slash + 1), 1, 1'000'000));
+        shard.index = static_cast<int>(parseInteger(text.substr(0, slash), 0, 999'999));
+    } catch (const Error&) {
+        fail("'{}' is not I/N, such as 0/4: part I, from 0 to N-1, of N", text);
+    }
+    if (shard.index >= shard.count)
+        fail("'{}': the parts of {} are 0 to {} (of a Slurm job: --array=0-{})", text, shard.count, shard.count - 1,
+             shard.count - 1);
+}
+
+// The shot is read when its option is, before those that replace parts of it: CLI11 calls options in the order in which
+// they were added.
+void addShot(CLI::App& command, CaptureArguments& arguments) {
+    const char* group = "Shot";
+    advanced(command
+                 .add_option_function<std::vector<std::string>>(
+                     "--set",
+                     [&arguments](const std::vector<std::string>& texts) {
+                         try {
+                             for (const std::string& text : texts)
+                                 arguments.overrides.push_back(parseShotOverride(text));
+                         } catch (const Error& error) {
+                             throw CLI::ValidationError(error.what());  // a fault of the command line
+                         }
+                     },
+                     "Replaces a value of the shot, by its place: --set /lens/fStop=1.4. Can be given several times")
+                 ->allow_extra_args(false)
+                 ->type_name("/PLACE=VALUE")
+                 ->group(group));
+    command
+        .add_option_function<std::string>(
+            "SHOT",
+            [&arguments](const std::string& path) {
+                arguments.shot = loadShot(path, arguments.overrides);
+                applyShot(arguments.shot, arguments.request);
+            },
+            "Shot file (JSON; docs/shot.schema.json)")
+        ->required()
+        ->type_name("FILE");
+    addParsed(command, "--range", "FIRST:LAST", "Frames to render, or one; movements keep the shot's range",
+              [&arguments](const std::string& text) { arguments.range = parseFrameRange(text); })
+        ->group(group);
+    addNumber(command, "--frame-rate", arguments.shot.frameRate, {1e-3, 1e6}, "FPS", "Frames a second")->group(group);
+    advanced(addNumber(command, "--speed", arguments.shot.animationSpeed, {-1e3, 1e3}, "R", "Of the scene's animation")
+                 ->group(group));
+    advanced(command
+                 .add_flag("--animate-seed", arguments.shot.animateSeed,
+                           "Other sample positions in each frame, so that the noise moves like film grain")
+                 ->group(group));
+}
+
+void addOutputs(CLI::App& command, CaptureArguments& arguments) {
+    const char* group = "Output";
+    command
+        .add_option("-o,--output", arguments.outputs,
+                    "Pattern of the frames, #### being the number: .exr, .png or .jpg. Can be given several times. "
+                    "Without it, the shot's, else frames/####.exr")
+        ->allow_extra_args(false)
+        ->type_name("PATTERN")
+        ->group(group);
+    command
+        .add_option("--video", arguments.shot.video, "Also make a film with ffmpeg: .mp4, .mov, .mkv, .webm or .gif")
+        ->type_name("FILE")
+        ->group(group);
+    CLI::Option* resume =
+        command.add_flag("--resume", arguments.resume, "Keep frames that are finished and of the same settings")
+            ->group(group);
+    command
+        .add_flag("--overwrite", arguments.overwrite,
+                  "With --resume: render frames anew that were made with other settings")
+        ->needs(resume)
+        ->group(group);
+    advanced(addParsed(command, "--shard", "I/N", "Render part I (0 to N-1) of the frames; N machines share a film",
+                       [&arguments](const std::string& text) { parseShard(text, arguments.shard); })
+                 ->group(group));
+    advanced(
+        addParsed(
+            command, "--sample-range", "FIRST:END",
+            "Of each frame, sum up only these samples (multiples of 64) to #.partFIRST-END.exr, for 'defocus merge'",
+            [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
+            ->group(group));
+    command.add_flag("--dry-run", arguments.dryRun, "Print what each frame would be, and render nothing")->group(group);
+}
+
+}  // namespace
+
+void addCaptureCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<CaptureArguments>();
+    arguments->request = shotDefaults();
+    CLI::App* command = program.add_subcommand("capture", "Render a shot (keyframes, focus pulls) to frames and film");
+    addShot(*command, *arguments);
+    addOutputs(*command, *arguments);
+    addSettings(*command, arguments->request, settingsOf(pictureGroups, {"scene"}));
+    command->add_option("--scene", arguments->request.scene, "glTF file, instead of the shot's")
+        ->type_name("FILE")
+        ->group("Scene");
+    addMethodSettings(*command, arguments->request);
+    addDeveloperSettings(*command, arguments->request);
+    command->footer(
+        "Options replace what the shot says.\n\n"
+        "Examples:\n"
+        "  defocus capture shots/fish-pull.json --video fish.mp4\n"
+        "  defocus capture shot.json --range 0:48 --samples 16 --size 320x240 -o preview/####.png\n"
+        "  defocus capture shot.json --shard 2/8 --resume");
+    command->callback([arguments, command, &global] {
+        const auto given = [command](const char* name) { return command->get_option(name)->count() > 0; };
+        runCapture(*arguments, {given("--camera"), given("--shutter")}, global);
+    });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,184 @@
+// defocus compare: how different two images are.
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/options/option_text.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "image/colour_map.h"
+#include "image/image_io.h"
+#include "image/metrics.h"
+
+namespace defocus::engine {
+
+namespace {
+
+struct CompareArguments {
+    std::filesystem::path reference;
+    std::filesystem::path test;
+    std::filesystem::path errorMap;
+    bool json = false;
+    bool hdr = false;
+    HdrFlipOptions hdrFlip;
+    std::vector<std::string> failAbove;  // METRIC=VALUE, checked while parsing
+};
+
+struct Metric {
+    std::string_view name;
+    double (*value)(const Difference&);
+    bool largerIsBetter;
+};
+constexpr std::array<Metric, 7> metrics = {{
+    {"mae", [](const Difference& d) { return d.mae; }, false},
+    {"rmse", [](const Difference& d) { return d.rmse; }, false},
+    {"psnr", [](const Difference& d) { return d.psnr; }, true},
+    {"ssim", [](const Difference& d) { return d.ssim; }, true},
+    {"flip", [](const Difference& d) { return d.flip; }, false},
+    {"maxError", [](const Difference& d) { return d.maxError; }, false},
+    {"nonFinite", [](const Difference& d) { return static_cast<double>(d.nonFinite); }, false},
+}};
+
+struct Limit {
+    const Metric* metric = nullptr;
+    double value = 0;
+};
+
+// The parsed METRIC=VALUE; metric is null when it isn't one.
+Limit limitOf(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) return {};
+    Limit limit;
+    for (const Metric& metric : metrics)
+        if (metric.name == std::string_view(text).substr(0, equals)) limit.metric = &metric;
+    if (!CLI::detail::lexical_cast(text.substr(equals + 1), limit.value) || !std::isfinite(limit.value)) return {};
+    return limit;
+}
+
+std::string limitFault(const std::string& text) {
+    if (limitOf(text).metric != nullptr) return {};
+    return fmt::format("\"{}\" is not METRIC=VALUE with mae, rmse, psnr, ssim, flip, maxError or nonFinite", text);
+}
+
+void printJson(const Difference& difference) {
+    nlohmann::ordered_json json;
+    for (const Metric& metric : metrics) {
+        if (metric.name == "nonFinite") continue;
+        const double value = metric.value(difference);
+        json[std::string(metric.name)] = std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
+    }
+    json["maxErrorPixel"] = {difference.maxErrorPixel.column, difference.maxErrorPixel.row};
+    json["nonFinite"] = difference.nonFinite;
+    json["pixelCount"] = difference.pixelCount;
+    fmt::print("{}\n", json.dump(2));
+}
+
+void printTable(const CompareArguments& arguments, const Difference& difference) {
+    const auto row = [](std::string_view name, const std::string& value) { fmt::print("{:<12}{}\n", name, value); };
+    row("reference", arguments.reference.string());
+    row("test", arguments.test.string());
+    row("mae", fmt::format("{:.6f}", difference.mae));
+    row("rmse", fmt::format("{:.6f}", difference.rmse));
+    row("psnr",
+        std::isfinite(difference.psnr) ? fmt::format("{:.2f} dB", difference.psnr) : "infinite (no difference)");
+    row("ssim", fmt::format("{:.6f}", difference.ssim));
+    row("flip", fmt::format("{:.6f} ({})", difference.flip, arguments.hdr ? "HDR" : "LDR"));
+    row("max error", fmt::format("{:.6f} at pixel {},{}", difference.maxError, difference.maxErrorPixel.column,
+                                 difference.maxErrorPixel.row));
+    row("non-finite", fmt::format("{} of {} pixels", difference.nonFinite, difference.pixelCount));
+}
+
+// Coloured for people, or the plain values where the file holds floats.
+void writeErrorMap(const std::filesystem::path& path, const Image& flip) {
+    writeImage(path, path.extension() == ".exr" ? flip : colourMapped(flip));
+}
+
+void checkLimits(const CompareArguments& arguments, const Difference& difference) {
+    std::string faults;
+    for (const std::string& text : arguments.failAbove) {
+        const Limit limit = limitOf(text);
+        const double value = limit.metric->value(difference);
+        if (limit.metric->largerIsBetter ? value >= limit.value : value <= limit.value) continue;
+        faults += fmt::format("{}{} {:.6g} is {} {:g}", faults.empty() ? "" : ", ", limit.metric->name, value,
+                              limit.metric->largerIsBetter ? "below" : "above", limit.value);
+    }
+    if (!faults.empty())
+        fail("{}: differs too much from {}: {}", arguments.test.string(), arguments.reference.string(), faults);
+}
+
+void runCompare(const CompareArguments& arguments) {
+    // Faults of the output first, before any work.
+    if (!arguments.errorMap.empty()) {
+        checkImageExtension(arguments.errorMap);
+        checkWritable(arguments.errorMap);
+    }
+
+    // Compare.
+    const Image reference = readImage(arguments.reference);
+    const Image test = readImage(arguments.test);
+    if (reference.width != test.width || reference.height != test.height)
+        fail("{} is {}x{}, but {} is {}x{}: only images of one size can be compared", arguments.reference.string(),
+             reference.width, reference.height, arguments.test.string(), test.width, test.height);
+    Image flip;
+    CompareOptions options;
+    if (arguments.hdr) options.hdrFlip = arguments.hdrFlip;
+    options.flipMap = &flip;
+    const Difference difference = compareImages(reference, test, options);
+
+    // Report.
+    if (!arguments.errorMap.empty()) writeErrorMap(arguments.errorMap, flip);
+    if (arguments.json)
+        printJson(difference);
+    else
+        printTable(arguments, difference);
+    checkLimits(arguments, difference);
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& program, const GlobalOptions&) {
+    auto arguments = std::make_shared<CompareArguments>();
+    CLI::App* command = program.add_subcommand("compare", "Measure the difference between two images");
+    command->add_option("A", arguments->reference, "Reference image (EXR, PNG, JPEG, HDR or TIFF)")->required();
+    command->add_option("B", arguments->test, "Image to judge, of the same size")->required();
+    command->add_flag("--json", arguments->json,
+                      "Print JSON: mae, rmse, psnr (dB; null for equal images, whose PSNR is infinite), ssim, flip, "
+                      "maxError, maxErrorPixel [column, row], nonFinite, pixelCount");
+    command->add_option("--error-map", arguments->errorMap,
+                        "Write FLIP per pixel: .png and .jpg through the magma colour map, .exr as plain values");
+    CLI::Option* hdr = command->add_flag("--hdr", arguments->hdr,
+                                         "FLIP for HDR images: the worst over several exposures, instead of at EV 0");
+    const Range exposures = {-60, 60};
+    advanced(addNumber(*command, "--start-exposure", arguments->hdrFlip.startExposure, exposures, "EV",
+                       "First exposure of --hdr")
+                 ->needs(hdr));
+    advanced(addNumber(*command, "--stop-exposure", arguments->hdrFlip.stopExposure, exposures, "EV",
+                       "Last exposure of --hdr")
+                 ->needs(hdr));
+    advanced(addInteger(*command, "--exposures", arguments->hdrFlip.exposures, 1, 64, "Number of exposures of --hdr")
+                 ->needs(hdr));
+    command
+        ->add_option("--fail-above", arguments->failAbove,
+                     "METRIC=VALUE: exit with 1 when a metric is worse than VALUE: above it, or below it for psnr "
+                     "and ssim, which are better when larger. Can be given several times")
+        ->allow_extra_args(false)
+        ->check(CLI::Validator(limitFault, ""));
+    command->footer(
+        "All but HDR FLIP is measured on sRGB-encoded values in [0, 1] at EV 0. A pixel that is NaN or infinite in "
+        "one\n"
+        "image counts as the largest difference, in both as equal.\n\n"
+        "Example:\n"
+        "  defocus compare reference.exr out.exr --error-map error.png --fail-above flip=0.015 --fail-above psnr=42");
+    command->callback([arguments] { runCompare(*arguments); });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,106 @@
+// defocus merge: parts of a frame, of its samples or of its rows, to the frame.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/options/image_output.h"
+#include "cli/options/option_text.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/message.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+#include "render/tiles/row_file.h"
+#include "render/tiles/sum_file.h"
+
+namespace defocus::engine {
+
+namespace {
+
+struct MergeArguments {
+    std::vector<std::filesystem::path> parts;
+    std::vector<std::filesystem::path> outputs = {"out.exr"};
+    ToneMap toneMap = Request{}.toneMap;
+    std::optional<double> exposure;  // EV; none: the parts'
+};
+
+// That of the lens, where it has one.
+double ownExposure(const Metadata& metadata) {
+    const auto found = metadata.find("defocus:exposure");
+    const double* value = found == metadata.end() ? nullptr : std::get_if<double>(&found->second);
+    return value != nullptr ? *value : 0;
+}
+
+std::string shownOutputs(const MergeArguments& arguments) {
+    std::string names;
+    for (const std::filesystem::path& path : arguments.outputs)
+        names += (names.empty() ? "" : ", ") + shownOutput(path);
+    return names;
+}
+
+void mergeTiles(const MergeArguments& arguments, const GlobalOptions& global) {
+    const std::vector<RowFile> tiles = completeRows(arguments.parts);
+    Metadata metadata = tiles.front().header.metadata;
+    metadata.try_emplace("capDate", std::string());  // as the frames of a film: no time of writing
+    std::vector<JoinedOutput> outputs;
+    for (const std::filesystem::path& path : arguments.outputs) {
+        if (isStandardOutput(path)) throw UsageError("tiles are joined to files alone");
+        outputs.push_back({path, {arguments.toneMap, arguments.exposure.value_or(ownExposure(metadata))}});
+    }
+    joinRows(tiles, outputs, metadata);
+    if (!global.quiet)
+        printMessage("{}: {}x{}, {} tiles\n", shownOutputs(arguments), tiles.front().header.width,
+                     tiles.front().header.height, tiles.size());
+}
+
+void runMerge(const MergeArguments& arguments, const GlobalOptions& global) {
+    checkImageOutputs(arguments.outputs, {}, arguments.parts);
+    if (isRowFile(arguments.parts.front())) return mergeTiles(arguments, global);
+    const std::unique_ptr<GlContext> context = createHeadlessContext();
+    const MergedFrame merged = mergeParts(arguments.parts);
+    const WriteOptions write{arguments.toneMap, arguments.exposure.value_or(ownExposure(merged.metadata))};
+    for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, merged.image, merged.metadata, write);
+    if (!global.quiet)
+        printMessage("{}: {}x{}, {} parts\n", shownOutputs(arguments), merged.image.width, merged.image.height,
+                     arguments.parts.size());
+}
+
+}  // namespace
+
+void addMergeCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<MergeArguments>();
+    CLI::App* command = program.add_subcommand(
+        "merge", "Put a frame together from its parts (render or capture with --sample-range, render with --tile)");
+    command->add_option("PART", arguments->parts, "The parts of one frame, in any order")
+        ->required()
+        ->type_name("FILE…");
+    command
+        ->add_option("-o,--output", arguments->outputs,
+                     fmt::format("Image to write: .exr, .png or .jpg; several times. {}", standardOutputHelp))
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->default_str("out.exr");
+    addNumber(*command, "--exposure", arguments->exposure, {-60, 60}, "EV",
+              "Of .png and .jpg; without it, what the lens's exposure time makes, else 0");
+    addChoice<ToneMap>(
+        *command, "--tonemap", arguments->toneMap,
+        {{"none", ToneMap::none}, {"aces", ToneMap::aces}, {"agx", ToneMap::agx}, {"neutral", ToneMap::neutral}},
+        "Film curve of .png and .jpg");
+    command->footer(
+        "The result has the same bits as a single run on a machine of the same kind.\n\n"
+        "Example:\n"
+        "  defocus render scene.glb --samples 256 --sample-range 0:128 -o a.exr\n"
+        "  defocus render scene.glb --samples 256 --sample-range 128:256 -o b.exr\n"
+        "  defocus merge a.exr b.exr -o out.exr\n"
+        "  defocus render scene.glb --tile 0/2 -o upper.exr\n"
+        "  defocus render scene.glb --tile 1/2 -o lower.exr\n"
+        "  defocus merge upper.exr lower.exr -o out.exr");
+    command->callback([arguments, &global] { runMerge(*arguments, global); });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,106 @@
+// defocus new-shot: a shot file to begin with.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+#include "cli/command.h"
+#include "cli/options/request_options.h"
+#include "cli/options/shot_schema_text.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/message.h"
+#include "frame/setup/prepared_frame.h"
+
+namespace defocus::engine {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int frameRate = 24;
+constexpr int stillSeconds = 5;  // of a film of a scene that doesn't move
+constexpr const char* schemaName = "shot.schema.json";
+
+struct NewShotArguments {
+    Request request;
+    fs::path output;  // empty: named after the scene
+    bool overwrite = false;
+};
+
+// Three digits are enough to begin with.
+double rounded(double value) {
+    const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
+    return std::isfinite(step) && step > 0 ? std::stod(fmt::format("{:.3g}", value)) : value;
+}
+
+// What can be seen at once and is worth a change: the camera's lens, a focus that is found anew, and a movement where
+// the scene has none.
+Json shotOf(const PreparedFrame& frame, const fs::path& scene, const std::string& stem) {
+    const Scene& file = *frame.scene;
+    Json shot = {{"$schema", schemaName}};
+    if (!scene.empty()) shot["scene"] = scene.generic_string();
+    double seconds = stillSeconds;
+    if (!file.clips.empty()) {
+        const AnimationClip& clip = file.clips.front();
+        seconds = std::max(1.0 / frameRate, static_cast<double>(clip.duration));
+        shot["animation"] = {{"clip", clip.name.empty() ? Json(0) : Json(clip.name)}, {"loop", true}};
+    }
+    shot["range"] = {0, std::max(0, static_cast<int>(std::lround(seconds * frameRate)) - 1)};
+    shot["frameRate"] = frameRate;
+    shot["size"] = {1280, 720};
+    if (file.clips.empty()) shot["camera"] = {{"turntable", {{"turns", 1}}}};
+    shot["focus"] = {{"auto", true}};
+    shot["lens"] = {{"fStop", rounded(frame.view.lens.fStop)}};
+    shot["output"] = stem + "/####.exr";
+    return shot;
+}
+
+void refuseToReplace(const fs::path& path) {
+    if (fs::exists(path)) fail("{}: is there already; --overwrite replaces it, -o names another", path.string());
+}
+
+void runNewShot(const NewShotArguments& arguments, const GlobalOptions& global) {
+    const fs::path& scene = arguments.request.scene;
+    const fs::path stem = scene.empty() ? fs::path("fish") : scene.stem();
+    const fs::path output = arguments.output.empty() ? fs::path(stem.string() + ".json") : arguments.output;
+    if (!arguments.overwrite) refuseToReplace(output);
+    checkWritable(output);
+    const PreparedFrame frame = placeFrame(arguments.request, terminalProgress(global));
+    const fs::path folder = output.parent_path();
+    const fs::path fromShot = scene.empty() ? scene : fs::proximate(scene, folder.empty() ? "." : folder);
+    static const std::regex pair("\\[\\s+(\\d+),\\s+(\\d+)\\s+\\]");  // on one line, as people write it
+    const std::string text = shotOf(frame, fromShot, stem.string()).dump(2);
+    writeFile(output, std::regex_replace(text, pair, "[$1, $2]") + "\n");
+
+    // Beside it, what its first line names.
+    if (!fs::exists(folder / schemaName)) writeFile(folder / schemaName, shotSchemaText());
+    if (!global.quiet) printMessage("{0}: defocus capture {0} renders it\n", output.string());
+}
+
+}  // namespace
+
+void addNewShotCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<NewShotArguments>();
+    CLI::App* command = program.add_subcommand("new-shot", "Write a shot file for a scene, to change and to capture");
+    addSettings(*command, arguments->request, {"scene"});
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "Shot to write; without it, SCENE.json here. Its schema comes to lie beside it, for editors")
+        ->type_name("FILE");
+    command->add_flag("--overwrite", arguments->overwrite, "Replace a shot that is there");
+    command->footer(
+        "Example:\n"
+        "  defocus new-shot scene.glb\n"
+        "  defocus capture scene.json --video scene.mp4");
+    command->callback([arguments, &global] { runNewShot(*arguments, global); });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,56 @@
+// defocus plan: what a render would draw, without drawing it.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/options/request_options.h"
+#include "frame/report/plan_warnings.h"
+#include "frame/setup/prepared_frame.h"
+#include "plan/frame_plan.h"
+#include "plan/plan_text.h"
+#include "render/sampling/automatic_samples.h"
+
+namespace defocus::engine {
+
+namespace {
+
+struct PlanArguments {
+    Request request;
+    bool json = false;
+};
+
+void runPlan(const PlanArguments& arguments, const GlobalOptions& global) {
+    const PreparedFrame frame = prepareFrame(arguments.request, terminalProgress(global));
+    FramePlan plan = planFrame(frame.world, frame.view, frame.settings);
+    if (stopSettings(arguments.request).automatic) {  // as a render begins, which may go on by what it sees
+        RenderSettings settings = frame.settings;
+        settings.sampleCount = samplesForBlur(plan);
+        plan = planFrame(frame.world, frame.view, settings);
+    }
+    fmt::print("{}", arguments.json ? planJson(plan) : planTable(plan));
+    printCacheUse(frame, global);
+    WarningPrinter warnings(global);
+    warnings.print(requestWarnings(arguments.request, frame));
+    warnings.print(planWarnings(plan, parseMethodUse("accumulation")));
+}
+
+}  // namespace
+
+void addPlanCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<PlanArguments>();
+    CLI::App* command = program.add_subcommand(
+        "plan", "Print what a render would draw: blur, level and samples of each object, and what is left out");
+    command->add_flag("--json", arguments->json, "JSON for programs instead of a table")->group("Output");
+    // A plan is of lens samples and levels, whatever draws them, in whatever light and however bright.
+    addSettings(*command, arguments->request,
+                settingsOf(frameGroups, {"environment", "environmentRotation", "targetError", "timeLimit", "method",
+                                         "layerFormat", "exposureTime", "iso"}));
+    addDeveloperSettings(*command, arguments->request, {"memory", "wave"});
+    command->footer("Example:\n  defocus plan scene.glb --fstop 1.4 --focus-node Bottle --json");
+    command->callback([arguments, &global] { runPlan(*arguments, global); });
+}
+
+}  // namespace defocus::engine

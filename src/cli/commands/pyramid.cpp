@@ -1,0 +1,411 @@
+// defocus pyramid: the levels of each mesh, how far they really are from it, and their export.
+
+#include "lod/pyramid/pyramid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/commands/level_export.h"
+#include "cli/commands/turntable.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/number_text.h"
+#include "core/parallel.h"
+#include "core/suggestion.h"
+#include "frame/setup/prepared_frame.h"
+#include "gl/context.h"
+#include "image/image_io.h"
+#include "lod/pyramid/cache.h"
+#include "lod/pyramid/finish.h"
+#include "lod/pyramid/surface_distance.h"
+#include "scene/defaults.h"
+#include "scene/gltf/gltf.h"
+#include "scene/gltf/write.h"
+
+namespace defocus::engine {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct PyramidArguments {
+    Request request;        // its scene alone
+    std::string mesh;       // empty: all
+    fs::path exportFolder;  // empty: no export
+    fs::path turntable;     // empty: none
+    fs::path cacheFolder;   // empty: none is used
+    std::size_t points = 16'384;
+    bool noMeasure = false;
+    bool json = false;
+};
+
+struct LevelReport {
+    std::optional<SurfaceDistance> measured;  // from level 0 and back; not of level 0 itself
+    fs::path file;                            // empty: not exported
+};
+
+struct MeshReport {
+    std::size_t mesh = 0;  // into Scene::meshes
+    Pyramid pyramid;
+    std::optional<double> seconds;  // of the build; none where the cache had it
+    std::vector<LevelReport> levels;
+    fs::path turntable;  // empty: none was drawn
+};
+
+// As `defocus info` calls it.
+std::string shownName(const Scene& scene, std::size_t mesh) {
+    return scene.meshes[mesh].name.empty() ? fmt::format("(mesh {})", mesh) : scene.meshes[mesh].name;
+}
+
+std::vector<MeshReport> chooseMeshes(const Scene& scene, const std::string& name) {
+    std::vector<MeshReport> chosen;
+    std::vector<std::string> names;
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        names.push_back(shownName(scene, m));
+    }
+    const auto named = placeOfName(name, names);
+    for (std::size_t m = 0; m < names.size(); ++m)
+        if (name.empty() || (named && names[m] == names[*named])) chosen.emplace_back().mesh = m;
+    if (named || name.empty()) return chosen;
+    const std::string nearest = nearestWord(name, names);
+    if (!nearest.empty()) fail("there is no mesh '{}'; did you mean '{}'?", name, nearest);
+    fail("there is no mesh '{}' among {}; defocus info lists them", name, names.size());
+}
+
+// ---- work ---------------------------------------------------------------------------------------
+
+void buildOne(const Mesh& mesh, const PyramidOptions& options, std::size_t helpers, MeshReport& report) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    report.pyramid = buildPyramid(mesh, options, helpers);
+    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// As cachedPyramids does it, mesh by mesh. Returns why one couldn't be stored; empty where nothing went wrong.
+std::string buildOrLoad(const Mesh& mesh, const fs::path& folder, const PyramidOptions& options, std::size_t helpers,
+                        MeshReport& report) {
+    if (folder.empty() || mesh.triangleCount() <= options.leastTriangles) {
+        buildOne(mesh, options, helpers, report);
+        return {};
+    }
+    if (std::optional<Pyramid> loaded = loadPyramid(mesh, folder, options)) {
+        report.pyramid = std::move(*loaded);
+        return {};
+    }
+    buildOne(mesh, options, helpers, report);
+    try {
+        storePyramid(report.pyramid, mesh, folder, options);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+// Returns why a pyramid couldn't be stored; empty where nothing went wrong.
+std::string buildAll(const Scene& scene, const fs::path& folder, const PyramidOptions& options,
+                     std::vector<MeshReport>& reports, const Progress& progress) {
+    std::uint64_t all = 0;
+    for (const MeshReport& report : reports) all += scene.meshes[report.mesh].triangleCount();
+    std::mutex mutex;
+    std::uint64_t done = 0;
+    std::string failure;
+    parallelFor(reports.size(), [&](std::size_t i) {
+        const Mesh& mesh = scene.meshes[reports[i].mesh];
+        const std::size_t helpers = pyramidHelpers(mesh, all);
+        std::string failed = buildOrLoad(mesh, folder, options, helpers, reports[i]);
+        reports[i].levels.resize(reports[i].pyramid.levels.size());
+        const std::scoped_lock lock(mutex);
+        if (failure.empty()) failure = std::move(failed);
+        report(progress, "pyramids", ++done, reports.size());
+    });
+    return failure;
+}
+
+Surface surfaceOf(const Pyramid& pyramid, std::size_t level) {
+    std::vector<std::uint32_t> indices;
+    for (const IndexRange& range : pyramid.levels[level].primitives) {
+        const auto first = pyramid.indices.begin() + static_cast<std::ptrdiff_t>(range.first);
+        indices.insert(indices.end(), first, first + static_cast<std::ptrdiff_t>(range.count));
+    }
+    return prepareSurface(pyramid.levels[level].positions, indices);
+}
+
+void measureAll(std::vector<MeshReport>& reports, std::size_t points, const Progress& progress) {
+    struct Job {
+        MeshReport* report;
+        const Surface* mesh;
+        std::size_t level;
+    };
+    std::vector<Surface> surfaces(reports.size());
+    parallelFor(reports.size(), [&](std::size_t i) { surfaces[i] = surfaceOf(reports[i].pyramid, 0); });
+    std::vector<Job> jobs;
+    for (std::size_t i = 0; i < reports.size(); ++i)
+        for (std::size_t l = 1; l < reports[i].levels.size(); ++l) jobs.push_back({&reports[i], &surfaces[i], l});
+
+    std::mutex mutex;
+    std::uint64_t done = 0;
+    parallelFor(jobs.size(), [&](std::size_t j) {
+        const Job& job = jobs[j];
+        job.report->levels[job.level].measured =
+            surfaceDistance(*job.mesh, surfaceOf(job.report->pyramid, job.level), points);
+        const std::scoped_lock lock(mutex);
+        report(progress, "measuring", ++done, jobs.size());
+    });
+}
+
+// ---- files --------------------------------------------------------------------------------------
+
+// Returns how many files were written; levels without triangles have none.
+std::size_t exportAll(const Scene& scene, std::vector<MeshReport>& reports, const fs::path& folder,
+                      const std::vector<std::string>& stems) {
+    std::size_t files = 0;
+    for (MeshReport& report : reports)
+        for (std::size_t l = 0; l < report.levels.size(); ++l) {
+            if (report.pyramid.levels[l].triangleCount == 0) continue;
+            report.levels[l].file = levelFile(folder, stems[report.mesh], l);
+            writeGlb(report.levels[l].file, levelMesh(report.pyramid, l, shownName(scene, report.mesh)));
+            ++files;
+        }
+    return files;
+}
+
+// ---- turntables ---------------------------------------------------------------------------------
+
+// sheet.png; of several meshes sheet-STEM.png each.
+fs::path turntableFile(const fs::path& file, const std::string& stem, bool several) {
+    if (!several) return file;
+    fs::path named = file;
+    return named.replace_filename(fmt::format("{}-{}{}", file.stem().string(), stem, file.extension().string()));
+}
+
+// The mesh as the scene has it first; as it is where the scene doesn't show it.
+Object shownObject(const Scene& scene, const Pose& pose, std::size_t mesh) {
+    for (const Object& object : pose.objects)
+        if (object.mesh == static_cast<int>(mesh)) return object;
+    Object object;
+    object.mesh = static_cast<int>(mesh);
+    object.name = scene.meshes[mesh].name;
+    object.morphWeights.assign(scene.meshes[mesh].morphTargets.size(), 0);
+    return object;
+}
+
+// Meshes without triangles have no sheet.
+void drawTurntables(const std::shared_ptr<const Scene>& drawn, std::vector<MeshReport>& reports, const fs::path& file,
+                    const std::vector<std::string>& stems, const GlobalOptions& global, const Progress& progress) {
+    const Scene& scene = *drawn;
+    const Pose pose = poseAt(scene, 0, -1);
+    World world;
+    world.scene = drawn;
+    world.environment = environmentOrDefault(scene);
+    world.pyramids.resize(scene.meshes.size());
+    for (MeshReport& report : reports) {
+        if (report.pyramid.levels.front().triangleCount == 0) continue;
+        Pyramid& lent = world.pyramids[report.mesh];
+        lent = std::move(report.pyramid);
+        const TurntableSheet sheet = turntableSheet(world, shownObject(scene, pose, report.mesh),
+                                                    shownName(scene, report.mesh), global.shaderDir, progress);
+        report.pyramid = std::move(lent);
+        report.turntable = turntableFile(file, stems[report.mesh], reports.size() > 1);
+        writeImage(report.turntable, sheet.image);
+    }
+}
+
+// ---- what is said -------------------------------------------------------------------------------
+
+struct EndText {
+    const char* name;
+    const char* reason;
+};
+
+EndText endText(const Pyramid& pyramid) {
+    switch (pyramid.end) {
+        case PyramidEnd::leastTriangles:
+            return {"leastTriangles", "this is as small as levels get"};
+        case PyramidEnd::smallSaving:
+            return {"smallSaving", "it would save less than a quarter of the triangles"};
+        case PyramidEnd::topology:
+            return {"topology", "handles, cuts and borders need the triangles that are left"};
+        case PyramidEnd::largestParts:
+            return {"largestParts", "it would be at the cost of the largest parts"};
+        case PyramidEnd::noSurface:
+            return {"noSurface", "no triangle has corners apart from each other"};
+        case PyramidEnd::mostLevels:
+            return {"mostLevels", "there are as many as a pyramid may have"};
+    }
+    fail("unknown end of a pyramid");
+}
+
+Json distancesJson(const Distances& distances) {
+    return {{"mean", distances.mean}, {"percentile99", distances.percentile99}, {"maximum", distances.maximum}};
+}
+
+Json levelJson(const PyramidLevel& level, const LevelReport& report) {
+    Json json = {{"triangles", level.triangleCount},
+                 {"vertices", level.vertexCount},
+                 {"meanEdge", level.meanEdge},
+                 {"error", level.error}};
+    if (report.measured) {
+        json["measured"] = distancesJson(report.measured->both);
+        json["measured"]["fromLevel0"] = distancesJson(report.measured->forward);
+        json["measured"]["toLevel0"] = distancesJson(report.measured->backward);
+    }
+    if (!report.file.empty()) json["file"] = report.file.string();
+    return json;
+}
+
+Json reportJson(const PyramidArguments& arguments, const Scene& scene, const std::vector<MeshReport>& reports) {
+    Json json = {{"file", arguments.request.scene}};
+    if (!arguments.noMeasure) json["points"] = arguments.points;
+    json["meshes"] = Json::array();
+    for (const MeshReport& report : reports) {
+        Json mesh = {{"name", scene.meshes[report.mesh].name},
+                     {"index", report.mesh},
+                     {"buildSeconds", report.seconds ? Json(*report.seconds) : Json()},
+                     {"diagonal", glm::length(report.pyramid.bounds.size())},
+                     {"repairedFaces", report.pyramid.repairedFaces},
+                     {"end", endText(report.pyramid).name},
+                     {"levels", Json::array()}};
+        if (!report.turntable.empty()) mesh["turntable"] = report.turntable.string();
+        for (std::size_t l = 0; l < report.levels.size(); ++l)
+            mesh["levels"].push_back(levelJson(report.pyramid.levels[l], report.levels[l]));
+        json["meshes"].push_back(std::move(mesh));
+    }
+    return json;
+}
+
+// "0.52 s", "3.1 ms".
+std::string timeText(double seconds) {
+    return seconds >= 0.1 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.1f} ms", 1000 * seconds);
+}
+
+void printLevels(const MeshReport& report) {
+    const bool measured = report.levels.back().measured.has_value();
+    if (measured) fmt::print("{:>60}  {:>34}\n", "stored", "measured distance to level 0");
+    fmt::print("{:>7}  {:>12}  {:>11}  {:>12}  {:>10}", "level", "triangles", "vertices", "mean edge", "error");
+    fmt::print("{}\n", measured ? fmt::format("  {:>10}  {:>10}  {:>10}", "mean", "99 %", "max") : "");
+    for (std::size_t l = 0; l < report.levels.size(); ++l) {
+        const PyramidLevel& level = report.pyramid.levels[l];
+        fmt::print("{:>7}  {:>12}  {:>11}  {:>12.4g}  {:>10.3g}", l, grouped(level.triangleCount),
+                   grouped(level.vertexCount), level.meanEdge, level.error);
+        if (const auto& d = report.levels[l].measured)
+            fmt::print("  {:>10.3g}  {:>10.3g}  {:>10.3g}", d->both.mean, d->both.percentile99, d->both.maximum);
+        fmt::print("\n");
+    }
+}
+
+void printReport(const Scene& scene, const std::vector<MeshReport>& reports) {
+    if (reports.empty()) fmt::print("the scene has no meshes\n");
+    for (const MeshReport& report : reports) {
+        const Pyramid& pyramid = report.pyramid;
+        if (&report != &reports.front()) fmt::print("\n");
+        fmt::print("{}: {} triangle{}, box diagonal {:.4g}", shownName(scene, report.mesh),
+                   grouped(pyramid.levels[0].triangleCount), pyramid.levels[0].triangleCount == 1 ? "" : "s",
+                   glm::length(pyramid.bounds.size()));
+        fmt::print("; {} {}",
+                   report.levels.size() == 1 ? "one level only" : fmt::format("{} levels", report.levels.size()),
+                   report.seconds ? "in " + timeText(*report.seconds) : "from the cache");
+        if (pyramid.repairedFaces > 0)
+            fmt::print("; {} face{} repaired", grouped(pyramid.repairedFaces), pyramid.repairedFaces == 1 ? "" : "s");
+        fmt::print("\n");
+        if (report.levels.size() > 1) printLevels(report);
+        fmt::print("  no further level: {}\n", endText(pyramid).reason);
+    }
+}
+
+void runPyramid(const PyramidArguments& arguments, const GlobalOptions& global) {
+    if (!global.shaderDir.empty() && arguments.turntable.empty())
+        throw UsageError("--shader-dir: nothing is drawn without --turntable");
+    const Progress progress = terminalProgress(global);
+    const auto loaded = std::make_shared<const Scene>(loadScene(arguments.request, progress));
+    const Scene& scene = *loaded;
+    std::vector<MeshReport> reports = chooseMeshes(scene, arguments.mesh);
+    const std::vector<std::string> stems = fileStems(scene);
+    if (!arguments.exportFolder.empty() && !reports.empty())
+        prepareFolder(arguments.exportFolder, levelFile(arguments.exportFolder, stems[reports.front().mesh], 0));
+
+    std::unique_ptr<GlContext> context;
+    if (!arguments.turntable.empty() && !reports.empty()) {
+        checkImageExtension(arguments.turntable);
+        checkWritable(turntableFile(arguments.turntable, stems[reports.front().mesh], reports.size() > 1));
+        context = createHeadlessContext();
+    }
+
+    WarningPrinter(global).print(damageWarnings(scene));
+    PyramidOptions options;
+    options.vertices = arguments.request.levelVertices;
+    const Finishes finishes(scene);
+    options.finishes = &finishes;
+    if (const std::string failure = buildAll(scene, arguments.cacheFolder, options, reports, progress);
+        !failure.empty())
+        WarningPrinter(global).print({"a pyramid was not stored: " + failure});
+    if (!arguments.noMeasure) measureAll(reports, arguments.points, progress);
+    std::size_t files = 0;
+    if (!arguments.exportFolder.empty()) files = exportAll(scene, reports, arguments.exportFolder, stems);
+    if (context) drawTurntables(loaded, reports, arguments.turntable, stems, global, progress);
+
+    if (arguments.json) {
+        fmt::print("{}\n", reportJson(arguments, scene, reports).dump(2, ' ', false, Json::error_handler_t::replace));
+    } else {
+        printReport(scene, reports);
+        if (!arguments.exportFolder.empty())
+            fmt::print("\n{} file{} in {}\n", files, files == 1 ? "" : "s", arguments.exportFolder.string());
+        if (context) fmt::print("\n");
+        for (const MeshReport& report : reports)
+            if (!report.turntable.empty()) fmt::print("{}\n", report.turntable.string());
+    }
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+void addPyramidCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<PyramidArguments>();
+    CLI::App* command = program.add_subcommand(
+        "pyramid", "Simplify each mesh, and say what its levels of detail are and how far they are from it");
+    addSettings(*command, arguments->request, sceneSettings);
+    command->add_option("--mesh", arguments->mesh, "Only the mesh of this name, as defocus info lists it")
+        ->type_name("NAME");
+    CLI::Option* points = advanced(addInteger(*command, "--points", arguments->points, 100, 100'000'000,
+                                              "Points on each of two surfaces at which their distance is measured"));
+    command->add_flag("--no-measure", arguments->noMeasure, "Don't measure distances, which takes longer than the rest")
+        ->excludes(points);
+    command->add_option("--export", arguments->exportFolder, "Write each level into this folder as a .glb of its own")
+        ->type_name("FOLDER");
+    command
+        ->add_option("--turntable", arguments->turntable,
+                     "Render all levels from all sides onto one sheet (.png, .jpg or .exr); of several meshes a sheet "
+                     "each, FILE-MESH.png")
+        ->type_name("FILE");
+    command
+        ->add_option("--cache-dir", arguments->cacheFolder,
+                     "Take the levels from this folder where it has them, and keep them there; without it, they are "
+                     "built anew")
+        ->type_name("FOLDER");
+    command->add_flag("--json", arguments->json,
+                      "JSON for programs, with distances in both directions, instead of text");
+    addSettings(*command, arguments->request, {"levelVertices"});
+    command->footer(
+        "Lengths are in the mesh's own units. A level's error is the 99th percentile of its distance from level 0 or\n"
+        "back, whichever is larger, on the safe side; the measured figures are the larger of the two as well.\n\n"
+        "Examples:\n"
+        "  defocus pyramid scene.glb --mesh Body --export levels\n"
+        "  defocus pyramid scene.glb --mesh Body --no-measure --turntable levels.png");
+    command->callback([arguments, &global] { runPyramid(*arguments, global); });
+}
+
+}  // namespace defocus::engine

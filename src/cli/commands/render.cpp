@@ -1,0 +1,257 @@
+// defocus render: a scene to images.
+
+#include "cli/commands/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/options/image_output.h"
+#include "cli/options/option_text.h"
+#include "cli/terminal/stop_signal.h"
+#include "core/error.h"
+#include "core/message.h"
+#include "core/stopwatch.h"
+#include "frame/driver/frame_output.h"
+#include "frame/report/picture_warnings.h"
+#include "frame/report/program_facts.h"
+#include "image/image_io.h"
+#include "plan/lens_cells/swept_work.h"
+#include "render/aov/work.h"
+
+namespace defocus::engine {
+
+namespace {
+
+void parseAovs(const std::string& text, AovRequest& aovs) {
+    const std::vector<std::string> names = {"depth", "coc", "level", "rate", "work", "swept-work"};
+    const std::array<bool*, 6> wanted = {&aovs.depth, &aovs.coc, &aovs.level, &aovs.rate, &aovs.work, &aovs.sweptWork};
+    for (const std::string& part : partsOf(text)) *wanted[parseChoice(part, names)] = true;
+}
+
+void addOutputs(CLI::App& command, RenderArguments& arguments) {
+    const char* group = "Output";
+    arguments.outputs = {"out.exr"};
+    command
+        .add_option(
+            "-o,--output", arguments.outputs,
+            fmt::format("Image to write: .exr is linear float with metadata, .png and .jpg are tone-mapped. {}. "
+                        "Can be given several times",
+                        standardOutputHelp))
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->default_str("out.exr")
+        ->group(group);
+    advanced(
+        addParsed(
+            command, "--aov", "depth,coc,level,rate,work,swept-work",
+            "Also write, beside the first output, out.depth.exr (m), out.coc.exr (signed px), out.level.exr with "
+            "out.level.png (level of detail), out.rate.exr with out.rate.png (images that method multirate draws of an "
+            "object for a lens sample), out.work.exr with out.work.png (triangles that touch each pixel, "
+            "summed over the lens samples of the accumulation, hidden ones too) and out.swept-work.exr with "
+            "out.swept-work.png (triangles whose bounds over all of the lens cover each pixel: what a stochastic "
+            "rasteriser tests there)",
+            [&arguments](const std::string& text) { parseAovs(text, arguments.aovs); })
+            ->group(group));
+    advanced(
+        addParsed(command, "--sample-range", "FIRST:END",
+                  "Sum up only these samples (multiples of 64) of the --samples, to an EXR file for 'defocus merge'",
+                  [&arguments](const std::string& text) { arguments.sampleRange = parseSampleRange(text); })
+            ->group(group));
+    advanced(addParsed(command, "--tile", "I/N",
+                       "Render part I (0 to N-1) of the image's rows, to an EXR file for 'defocus merge'",
+                       [&arguments](const std::string& text) { arguments.tile = parseTileShare(text); })
+                 ->group(group));
+    command
+        .add_flag(
+            "--resume", arguments.resume,
+            "Keep what an interrupted run of the same settings has finished: tiles of an image that doesn't fit into "
+            "memory, which lie beside the first output in out.tiles, or the file of a --tile")
+        ->group(group);
+    advanced(addParsed(command, "--stats", "FILE",
+                       "Write times, triangles, memory and what was asked for as JSON; - is standard output",
+                       [&arguments](const std::string& text) { arguments.stats = text; })
+                 ->group(group));
+}
+
+// out.exr and "depth.exr" → out.depth.exr
+std::filesystem::path derivedPath(const std::filesystem::path& output, const std::string& ending) {
+    std::filesystem::path path = output;
+    path.replace_extension(ending);
+    return path;
+}
+
+std::vector<std::filesystem::path> aovPaths(const RenderArguments& arguments) {
+    std::vector<std::filesystem::path> paths;
+    const std::filesystem::path& output = arguments.outputs.front();
+    if (arguments.aovs.depth) paths.push_back(derivedPath(output, "depth.exr"));
+    if (arguments.aovs.coc) paths.push_back(derivedPath(output, "coc.exr"));
+    if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.exr"));
+    if (arguments.aovs.level) paths.push_back(derivedPath(output, "level.png"));
+    if (arguments.aovs.rate) paths.push_back(derivedPath(output, "rate.exr"));
+    if (arguments.aovs.rate) paths.push_back(derivedPath(output, "rate.png"));
+    if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.exr"));
+    if (arguments.aovs.work) paths.push_back(derivedPath(output, "work.png"));
+    if (arguments.aovs.sweptWork) paths.push_back(derivedPath(output, "swept-work.exr"));
+    if (arguments.aovs.sweptWork) paths.push_back(derivedPath(output, "swept-work.png"));
+    return paths;
+}
+
+FrameFiles filesOf(const RenderArguments& arguments) {
+    FrameFiles files{arguments.outputs, arguments.sampleRange, arguments.tile, arguments.resume, {}};
+    if (arguments.aovs.any())
+        files.whole = "--aov shows the whole image";
+    else if (std::ranges::any_of(arguments.outputs, isStandardOutput))
+        files.whole = "tiles are joined to files alone";
+    return files;
+}
+
+void checkOutputs(const RenderArguments& arguments) {
+    std::vector<std::filesystem::path> more = aovPaths(arguments);
+    if (!arguments.stats.empty()) more.push_back(arguments.stats);
+    const Request& request = arguments.request;
+    checkImageOutputs(arguments.outputs, more, {request.scene, request.environment, request.lens.apertureImage});
+    if (arguments.aovs.any() && isStandardOutput(arguments.outputs.front()))
+        fail("--aov writes files beside the first output, which must be a file");
+    FrameOutput::check(filesOf(arguments), request);
+}
+
+void writeAovs(const RenderArguments& arguments, const AovImages& images, const Metadata& metadata) {
+    const std::filesystem::path& output = arguments.outputs.front();
+    if (arguments.aovs.depth) writeImage(derivedPath(output, "depth.exr"), images.depth, metadata);
+    if (arguments.aovs.coc) writeImage(derivedPath(output, "coc.exr"), images.coc, metadata);
+    if (arguments.aovs.level) {
+        writeImage(derivedPath(output, "level.exr"), images.level, metadata);
+        writeImage(derivedPath(output, "level.png"), levelColourMap(images.level));
+    }
+    if (!arguments.aovs.rate) return;
+    writeImage(derivedPath(output, "rate.exr"), images.rate, metadata);
+    writeImage(derivedPath(output, "rate.png"), rateColourMap(images.rate));
+}
+
+void writeWork(const RenderArguments& arguments, const FramePlan& plan, const Image& work, const Metadata& metadata,
+               bool quiet) {
+    const std::filesystem::path& output = arguments.outputs.front();
+    const auto samples = static_cast<std::uint32_t>(plan.samples.size());
+    writeImage(derivedPath(output, "work.exr"), work, metadata);
+    writeImage(derivedPath(output, "work.png"), workColourMap(work, samples));
+    const WorkSummary summary = workSummary(work, samples);
+    if (!quiet)
+        printMessage("work: {:.2f} triangles a pixel and lens sample, at most {:.1f}\n", summary.mean, summary.most);
+}
+
+void writeSweptWork(const RenderArguments& arguments, const Image& work, const Metadata& metadata, bool quiet) {
+    const std::filesystem::path& output = arguments.outputs.front();
+    writeImage(derivedPath(output, "swept-work.exr"), work, metadata);
+    writeImage(derivedPath(output, "swept-work.png"), sweptWorkColourMap(work));
+    const WorkSummary summary = workSummary(work, 1);
+    if (!quiet) printMessage("swept work: {:.1f} triangles a pixel, at most {:.0f}\n", summary.mean, summary.most);
+}
+
+void printSummary(const RenderArguments& arguments, const RenderReport& report, int rowsKept) {
+    std::string names;
+    for (const std::filesystem::path& path : arguments.outputs)
+        names += (names.empty() ? "" : ", ") + shownOutput(path);
+    for (const std::filesystem::path& path : aovPaths(arguments)) names += ", " + path.string();
+    printMessage("{}: {}\n", names, summary(report));
+    if (rowsKept > 0) printMessage("{} of {} rows there before\n", rowsKept, report.plan.view.height);
+}
+
+void printChoices(const GlContext& context, const RenderReport& report) {
+    for (const std::string& line : context.log()) printMessage("{}\n", line);
+    printMessage("{} layers of {} at once\n", report.stats.wave, report.stats.layerFormat);
+    for (const LeftOut& entry : report.plan.leftOut) printMessage("left out: {}: {}\n", entry.what, entry.reason);
+    printMessage("load {:.0f} ms, pyramids {:.0f} ms, set-up {:.0f} ms, render {:.0f} ms\n",
+                 report.frame.loadMilliseconds, report.frame.pyramidMilliseconds, report.stats.setupMilliseconds,
+                 report.stats.renderMilliseconds);
+}
+
+// Draws the frame; what goes to files in parts is written meanwhile.
+void draw(FrameOutput& output, const SceneDriver& driver, const Progress& progress) {
+    const FrameDriver& frame = driver.driver();
+    const auto step = [&] {
+        if (stopAsked()) fail("{}", output.stopMessage());
+        if (frame.inTiles())
+            report(progress, "rows", static_cast<std::uint64_t>(1000 * output.share()), 1000);
+        else
+            report(progress, "samples", frame.samples(), frame.sampleTotal());
+    };
+    stopWhenAsked();
+    do step();
+    while (output.advance());
+}
+
+void writeImages(const RenderArguments& arguments, const Image& image, SceneDriver& driver, WarningPrinter& warnings) {
+    const WriteOptions options = driver.writeOptions();
+    const auto hasCurve = [](const std::filesystem::path& path) {
+        return !path.string().starts_with("exr:") && path.extension() != ".exr";
+    };
+    if (std::ranges::any_of(arguments.outputs, hasCurve)) warnings.print(clippingWarnings(image, options));
+    const Metadata metadata = driver.metadata();
+    for (const std::filesystem::path& path : arguments.outputs) writeOutput(path, image, metadata, options);
+}
+
+void writeAllAovs(const RenderArguments& arguments, SceneDriver& driver, bool quiet) {
+    if (!arguments.aovs.any()) return;
+    const Metadata metadata = driver.metadata();
+    if (arguments.aovs.surfaces()) writeAovs(arguments, driver.aovs(), metadata);
+    if (arguments.aovs.work) writeWork(arguments, driver.driver().plan(), driver.work(), metadata, quiet);
+    if (arguments.aovs.sweptWork) writeSweptWork(arguments, driver.sweptWork(), metadata, quiet);
+}
+
+void runRender(const RenderArguments& arguments, const GlobalOptions& global) {
+    const Clock::time_point start = Clock::now();
+    checkOutputs(arguments);
+    Progress progress = terminalProgress(global);
+    SceneDriver driver(nullptr, arguments.request, global.shaderDir, progress);
+    FrameOutput output(driver, filesOf(arguments));
+    output.start(progress);
+
+    // Warnings come before the work, as far as they are known.
+    progress = {};  // ends the progress line
+    WarningPrinter warnings(global);
+    printCacheUse(driver.frame(), global);
+    warnings.print(driver.warnings());
+    progress = terminalProgress(global);
+    draw(output, driver, progress);
+    progress = {};
+    warnings.print(driver.warnings());
+
+    if (const std::optional<Image> image = output.finish()) writeImages(arguments, *image, driver, warnings);
+    writeAllAovs(arguments, driver, global.quiet);
+    const RenderReport report = driver.report(commandLine(global.words), millisecondsSince(start));
+    if (!arguments.stats.empty()) writeOutput(arguments.stats, statsJson(report));
+    if (global.verbose) printChoices(driver.context(), report);
+    if (!global.quiet) printSummary(arguments, report, output.rowsKept());
+}
+
+}  // namespace
+
+void addRenderOptions(CLI::App& command, RenderArguments& arguments) {
+    addOutputs(command, arguments);
+    addSettings(command, arguments.request, settingsOf(pictureGroups));
+    addMethodSettings(command, arguments.request);
+    addDeveloperSettings(command, arguments.request);
+}
+
+void addRenderCommand(CLI::App& program, const GlobalOptions& global) {
+    auto arguments = std::make_shared<RenderArguments>();
+    CLI::App* command = program.add_subcommand("render", "Render a glTF scene with the depth of field of a real lens");
+    addRenderOptions(*command, *arguments);
+    command->footer(
+        "Examples:\n"
+        "  defocus render -o fish.exr -o fish.png\n"
+        "  defocus render scene.glb -o out.exr --fstop 1.4 --focus-distance 2.5 --samples 256\n"
+        "  defocus render scene.glb -o out.png --tonemap agx --focus-pixel 512,384 --blades 7 --aov depth,coc\n"
+        "  defocus render scene.glb -o out.exr --target-error 0.003 --time-limit 600\n"
+        "  defocus render scene.glb -o out.png --method circular --far-components 5");
+    command->callback([arguments, &global] { runRender(*arguments, global); });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,65 @@
+// defocus view: a scene in a window.
+
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/options/option_text.h"
+#include "cli/options/request_options.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "view/window/session.h"
+
+namespace defocus::engine {
+
+namespace {
+
+void runView(const SessionOptions& options) {
+    checkStop(options.request);
+    if (shutterSettings(options.request).exactMotion())
+        fail("--motion-segments exact: a window shows any number of samples; give a number, such as 16");
+    if (!options.screenshot.empty()) {
+        checkImageExtension(options.screenshot);
+        checkWritable(options.screenshot);
+    }
+    if (!options.stats.empty()) checkWritable(options.stats);
+    runSession(options);
+}
+
+}  // namespace
+
+void addViewCommand(CLI::App& program, const GlobalOptions& global) {
+    auto options = std::make_shared<SessionOptions>();
+    CLI::App* command = program.add_subcommand("view", "Look around in a scene, focus and compare, in a window");
+    const char* group = "Window";
+    addInteger(*command, "--frames", options->frames, 1, 1'000'000,
+               "Close after as many frames with the scene; without it, when the window is closed")
+        ->default_str("")
+        ->group(group);
+    command->add_option("--screenshot", options->screenshot, "Write the last of --frames as an image (1 if not given)")
+        ->type_name("FILE")
+        ->group(group);
+    advanced(
+        command
+            ->add_option(
+                "--stats", options->stats,
+                "Keep the state of the view in this file, as JSON, several times a second: focus, samples, times …")
+            ->type_name("FILE")
+            ->group(group));
+    addSettings(*command, options->request, settingsOf(pictureGroups, {"timeLimit"}));
+    addMethodSettings(*command, options->request);
+    addDeveloperSettings(*command, options->request, {"memory"});
+    command->footer(
+        "Press ? in the window for the keys.\n\nExamples:\n"
+        "  defocus view scene.glb --fstop 1.4\n"
+        "  defocus view --screenshot window.png --frames 60");
+    command->callback([options, &global] {
+        if (!options->screenshot.empty() && options->frames == 0) options->frames = 1;
+        options->shaderFolder = global.shaderDir;
+        options->quiet = global.quiet;
+        // The window adds blocks as long as it is looked at; this is for stills that it exports.
+        if (!options->request.samples) options->request.samples = RenderSettings{}.sampleCount;
+        runView(*options);
+    });
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,112 @@
+#include "cli/options/image_output.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <set>
+#include <span>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace defocus::engine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// ".exr" of "exr:-".
+std::string streamExtension(const fs::path& output) {
+    const std::string text = output.string();
+    return text == "-" ? ".png" : "." + text.substr(0, text.find(':'));
+}
+
+void writeToStandardOutput(std::span<const std::byte> bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+        fail("standard output cannot be written: {}", std::strerror(errno));
+}
+
+// A file of one's own that is gone afterwards: image writers go back and forth in theirs.
+class ScratchFile {
+public:
+    explicit ScratchFile(const std::string& extension) {
+        std::string pattern = (fs::temp_directory_path() / ("defocus-XXXXXX" + extension)).string();
+        const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(extension.size()));
+        if (descriptor < 0) fail("{}: cannot be written: {}", pattern, std::strerror(errno));
+        ::close(descriptor);
+        path_ = pattern;
+    }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    ~ScratchFile() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+}  // namespace
+
+bool isStandardOutput(const fs::path& output) {
+    const std::string text = output.string();
+    return text == "-" || (text.ends_with(":-") && text.find(':') == text.size() - 2);
+}
+
+std::string shownOutput(const fs::path& output) {
+    return isStandardOutput(output) ? "standard output" : output.string();
+}
+
+namespace {
+
+// No output replaces another one, nor what is read.
+void checkDistinct(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
+    std::set<fs::path> files;
+    for (const fs::path& output : outputs) {
+        if (isStandardOutput(output)) continue;
+        std::error_code missing;
+        const fs::path file = fs::weakly_canonical(fs::absolute(output, missing), missing);
+        const bool regular = !fs::exists(file, missing) || fs::is_regular_file(file, missing);
+        if (regular && !files.insert(file).second) fail("{}: two outputs have this name", output.string());
+        for (const fs::path& input : inputs)
+            if (!input.empty() && fs::equivalent(input, output, missing))
+                fail("{}: it is read too, and would be replaced", output.string());
+    }
+}
+
+}  // namespace
+
+void checkImageOutputs(const std::vector<fs::path>& images, const std::vector<fs::path>& more,
+                       const std::vector<fs::path>& inputs) {
+    std::vector<fs::path> all = images;
+    all.insert(all.end(), more.begin(), more.end());
+    if (std::ranges::count_if(all, isStandardOutput) > 1) fail("only one output can go to standard output");
+    for (const fs::path& path : all)
+        if (!isStandardOutput(path)) checkWritable(path);
+    checkDistinct(all, inputs);
+    for (const fs::path& path : images) {
+        checkImageExtension(isStandardOutput(path) ? "standard output" + streamExtension(path) : path.string());
+        if (isStandardOutput(path) && ::isatty(STDOUT_FILENO) == 1)
+            fail("an image is nothing for a terminal to show; send standard output to a file or a program");
+    }
+}
+
+void writeOutput(const fs::path& output, const Image& image, const Metadata& metadata, const WriteOptions& options) {
+    if (!isStandardOutput(output)) return writeImage(output, image, metadata, options);
+    const ScratchFile scratch(streamExtension(output));
+    writeImage(scratch.path(), image, metadata, options);
+    writeToStandardOutput(readFile(scratch.path()));
+}
+
+void writeOutput(const fs::path& output, const std::string& text) {
+    if (!isStandardOutput(output)) return writeFile(output, text);
+    writeToStandardOutput(std::as_bytes(std::span(text)));
+}
+
+}  // namespace defocus::engine

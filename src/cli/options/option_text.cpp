@@ -1,0 +1,56 @@
+#include "cli/options/option_text.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace defocus::engine {
+
+CLI::Option* addParsed(CLI::App& command, const std::string& names, const std::string& type,
+                       const std::string& description, std::function<void(const std::string&)> parse) {
+    const std::string shown = names.substr(0, names.find(','));
+    return command
+        .add_option_function<std::string>(
+            names,
+            [parse = std::move(parse), shown](const std::string& text) {
+                try {
+                    parse(text);
+                } catch (const Error& error) {
+                    throw CLI::ValidationError(shown, error.what());
+                }
+            },
+            description)
+        ->type_name(type);
+}
+
+CLI::Option* addNumber(CLI::App& command, const std::string& names, std::optional<double>& target, const Range& range,
+                       const std::string& type, const std::string& description) {
+    return addParsed(command, names, type, description,
+                     [&target, range](const std::string& text) { target = parseNumber(text, range); });
+}
+
+CLI::Option* addNumber(CLI::App& command, const std::string& names, double& target, const Range& range,
+                       const std::string& type, const std::string& description) {
+    return addParsed(command, names, type, description,
+                     [&target, range](const std::string& text) { target = parseNumber(text, range); })
+        ->default_str(fmt::format("{:g}", target));
+}
+
+std::vector<std::string> partsOf(const std::string& text) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+CLI::Option* addNumbers(CLI::App& command, const std::string& names, std::vector<double>& target, const Range& range,
+                        const std::string& type, const std::string& description) {
+    return addList(command, names, type, target, description,
+                   [range](const std::string& part) { return parseNumber(part, range); })
+        ->default_str(fmt::format("{:g}", fmt::join(target, ",")));
+}
+
+}  // namespace defocus::engine

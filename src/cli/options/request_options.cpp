@@ -1,0 +1,101 @@
+#include "cli/options/request_options.h"
+
+#include <algorithm>
+#include <map>
+
+#include "cli/options/option_text.h"
+#include "core/error.h"
+
+namespace defocus::engine {
+
+namespace {
+
+CLI::Option* addBoolean(CLI::App& command, Request& request, const Setting& setting) {
+    // A camera of the file may have it on or off, so both can be said.
+    std::string names = setting.option;
+    if (setting.lensField) names += ",!--no-" + setting.option.substr(2);
+    return command
+        .add_flag_function(
+            names, [&request, &setting](std::int64_t count) { setting.set(request, count > 0 ? "true" : "false"); },
+            setting.help)
+        ->disable_flag_override();
+}
+
+CLI::Option* addRepeated(CLI::App& command, Request& request, const Setting& setting) {
+    return command
+        .add_option_function<std::vector<std::string>>(
+            setting.option,
+            [&request, &setting](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) try {
+                        setting.set(request, text);
+                    } catch (const Error& error) {
+                        throw CLI::ValidationError(setting.option, error.what());
+                    }
+            },
+            setting.help)
+        ->allow_extra_args(false)
+        ->type_name(setting.metavar);
+}
+
+CLI::Option* addRow(CLI::App& command, Request& request, const Setting& setting) {
+    if (setting.kind == SettingKind::boolean) return addBoolean(command, request, setting);
+    if (setting.repeated) return addRepeated(command, request, setting);
+    CLI::Option* option = addParsed(command, setting.option, setting.metavar, setting.help,
+                                    [&request, &setting](const std::string& text) { setting.set(request, text); });
+    if (const std::optional<std::string> standard = setting.text(request)) option->default_str(*standard);
+    return option;
+}
+
+std::string valuesOf(const MethodSetting& setting) {
+    if (!setting.choices.empty()) return fmt::format("{}", fmt::join(setting.choices, "|"));
+    return setting.whole ? "N" : "R";
+}
+
+}  // namespace
+
+void addSettings(CLI::App& command, Request& request, const std::vector<std::string>& names) {
+    std::map<std::string, CLI::Option*> added;
+    for (const Setting& setting : settings())
+        if (std::ranges::find(names, setting.name) != names.end())
+            added[setting.name] =
+                addRow(command, request, setting)->group(groupTitle(setting.group))->configurable(setting.everyday);
+    for (const auto& [name, option] : added)
+        for (const std::string& other : settingNamed(name)->excludes)
+            if (added.contains(other)) option->excludes(added[other]);
+}
+
+std::vector<std::string> settingsOf(const std::vector<SettingGroup>& groups, const std::vector<std::string>& without) {
+    std::vector<std::string> names;
+    for (const Setting& setting : settings())
+        if (std::ranges::find(groups, setting.group) != groups.end() &&
+            std::ranges::find(without, setting.name) == without.end())
+            names.push_back(setting.name);
+    return names;
+}
+
+void addDeveloperSettings(CLI::App& command, Request& request, const std::vector<std::string>& without) {
+    addSettings(command, request, settingsOf({SettingGroup::developer}, without));
+}
+
+void addMethodSettings(CLI::App& command, Request& request) {
+    std::map<std::string, std::string> owners;
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings)
+            owners[setting.name] += (owners[setting.name].empty() ? "" : ", ") + method.name;
+    for (const Method& method : methods())
+        for (const MethodSetting& setting : method.settings) {
+            const auto owner = owners.extract(setting.name);
+            if (owner.empty()) continue;  // added with an earlier method
+            command
+                .add_option_function<std::string>(
+                    "--" + setting.name,
+                    [&request, name = setting.name](const std::string& text) { request.methodSettings[name] = text; },
+                    setting.description)
+                ->type_name(valuesOf(setting))
+                ->default_str(setting.standard)
+                ->configurable(false)
+                ->group("Method " + owner.mapped());
+        }
+}
+
+}  // namespace defocus::engine

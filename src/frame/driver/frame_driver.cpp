@@ -1,0 +1,318 @@
+#include "frame/driver/frame_driver.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "core/stopwatch.h"
+#include "plan/sample_range.h"
+#include "render/frame_run.h"
+#include "render/gpu_scene/frame_uniforms.h"
+#include "render/sampling/automatic_samples.h"
+#include "render/tiles/tile_walk.h"
+#include "scene/ground.h"
+
+namespace defocus::engine {
+
+// ---- three ways of drawing a frame ----------------------------------------------------------------------------------
+
+class FrameDriver::Drawing {
+public:
+    Drawing() = default;
+    virtual ~Drawing() = default;
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    virtual bool advance() = 0;
+    [[nodiscard]] virtual std::uint32_t samples() const = 0;
+    [[nodiscard]] virtual std::uint32_t sampleTotal() const = 0;
+    [[nodiscard]] virtual double share() const { return static_cast<double>(samples()) / sampleTotal(); }
+    [[nodiscard]] virtual const FramePlan& plan() const = 0;
+    [[nodiscard]] virtual RenderStats stats() const = 0;
+    [[nodiscard]] virtual double planMilliseconds() const = 0;
+    [[nodiscard]] virtual Image image() = 0;
+    [[nodiscard]] virtual std::optional<FramePart> sums() { return {}; }
+    [[nodiscard]] virtual int tiles() const { return 1; }
+};
+
+class FrameDriver::Whole : public Drawing {
+public:
+    Whole(const World& world, Renderer& renderer, const FrameOrder& order)
+        : renderer_(renderer), run_(world, renderer) {
+        run_.start(order.view, order.settings, order.stop);
+    }
+    bool advance() override { return run_.advance(); }
+    [[nodiscard]] std::uint32_t samples() const override { return run_.samples(); }
+    [[nodiscard]] std::uint32_t sampleTotal() const override { return run_.sampleTotal(); }
+    [[nodiscard]] const FramePlan& plan() const override { return run_.plan(); }
+    [[nodiscard]] RenderStats stats() const override { return run_.stats(); }
+    [[nodiscard]] double planMilliseconds() const override { return run_.planMilliseconds(); }
+    [[nodiscard]] Image image() override { return renderer_.image(); }
+
+private:
+    Renderer& renderer_;
+    FrameRun run_;
+};
+
+class FrameDriver::Tiled : public Drawing {
+public:
+    Tiled(const World& world, Renderer& renderer, FrameOrder order, const std::vector<Band>& bands)
+        : begin_(Clock::now()),
+          plan_(planOfTiles(world, order.view, order.settings, order.stop.automatic)),
+          planMilliseconds_(millisecondsSince(begin_)),
+          takeRows_(std::move(order.takeRows)),
+          bands_(bands),
+          walk_(renderer, plan_, bands_, [this](const Tile& tile, Image&& pixels) { take(tile, std::move(pixels)); }) {
+        if (!takeRows_) kept_ = Image(plan_.view.width, plan_.view.height, 4);
+        for (const Band& band : bands_) rows_ += band.rows.end - band.rows.first;
+    }
+
+    bool advance() override { return walk_.advance(); }
+    // Fractions of rows are added up with rounding errors, which must not cost the last sample.
+    [[nodiscard]] std::uint32_t samples() const override {
+        return static_cast<std::uint32_t>(sampleTotal() * share() + 1e-6);
+    }
+    [[nodiscard]] std::uint32_t sampleTotal() const override {
+        return static_cast<std::uint32_t>(plan_.samples.size());
+    }
+    [[nodiscard]] double share() const override { return rows_ > 0 ? walk_.rowsDone() / rows_ : 1; }
+    [[nodiscard]] const FramePlan& plan() const override { return plan_; }
+    [[nodiscard]] RenderStats stats() const override {
+        RenderStats stats = walk_.stats();
+        stats.samples = sampleTotal();  // each finished tile has all of them
+        return stats;
+    }
+    [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
+    [[nodiscard]] Image image() override { return kept_; }
+    [[nodiscard]] int tiles() const override { return walk_.tiles(); }
+
+private:
+    // Copies a finished tile into its band, and hands the band on once its last tile is in.
+    void take(const Tile& tile, Image&& pixels) {
+        if (!takeRows_) return placeTile(kept_, 0, tile, pixels);
+        const Band& band = bands_[band_];
+        if (band.tiles.size() == 1) {
+            rowsOfBand_ = std::move(pixels);
+        } else {
+            if (rowsOfBand_.empty()) rowsOfBand_ = Image(plan_.view.width, pixels.height, pixels.channels);
+            placeTile(rowsOfBand_, band.rows.first, tile, pixels);
+        }
+        if (tile != band.tiles.back()) return;
+        takeRows_(band.rows, std::exchange(rowsOfBand_, {}));
+        ++band_;
+    }
+
+    std::chrono::steady_clock::time_point begin_;
+    FramePlan plan_;
+    double planMilliseconds_;
+    RowSink takeRows_;
+    std::vector<Band> bands_;
+    std::size_t band_ = 0;  // in which tiles are drawn
+    Image rowsOfBand_;
+    Image kept_;  // the whole frame, without a sink
+    int rows_ = 0;
+    TileWalk walk_;
+};
+
+class FrameDriver::Summed : public Drawing {
+public:
+    Summed(const World& world, Renderer& renderer, const FrameOrder& order)
+        : begin_(Clock::now()),
+          renderer_(renderer),
+          plan_(planFrame(world, order.view, order.settings)),
+          planMilliseconds_(millisecondsSince(begin_)) {
+        part_.frameSamples = static_cast<std::uint32_t>(plan_.samples.size());
+        part_.range = {std::min(order.samples->first, part_.frameSamples),
+                       std::min(order.samples->end, part_.frameSamples)};
+        part_.width = plan_.view.width;
+        part_.height = plan_.view.height;
+        if (count() == 0) return;  // a frame that needs fewer samples than the request has
+        // Both weigh a frame's samples against each other, which a part of them cannot do.
+        const Lens& lens = plan_.view.lens;
+        if (plan_.usesLens && (lens.catEye > 0 || lens.axialChromaticAberration != 0))
+            fail(
+                "--sample-range: a frame with a cat's eye or axial chromatic aberration cannot be parted; render it "
+                "whole");
+        renderer.start(samplesOf(plan_, part_.range.first, count()));
+    }
+
+    bool advance() override {
+        if (count() == 0) return false;
+        const bool more = renderer_.advance();
+        if (more && renderer_.samples() % blockSamples != 0) return true;
+        std::optional<BlockSum> block = renderer_.blockSum();
+        if (!block) fail("only the method 'accumulation' can render a part of a frame's samples");
+        part_.blocks.push_back(std::move(*block));
+        return more;
+    }
+    [[nodiscard]] std::uint32_t samples() const override { return count() == 0 ? 0 : renderer_.samples(); }
+    [[nodiscard]] std::uint32_t sampleTotal() const override { return count(); }
+    [[nodiscard]] double share() const override { return count() == 0 ? 1 : Drawing::share(); }
+    [[nodiscard]] const FramePlan& plan() const override { return plan_; }
+    [[nodiscard]] RenderStats stats() const override { return renderer_.stats(); }
+    [[nodiscard]] double planMilliseconds() const override { return planMilliseconds_; }
+    [[nodiscard]] Image image() override { return renderer_.image(); }
+    [[nodiscard]] std::optional<FramePart> sums() override { return std::move(part_); }
+
+private:
+    [[nodiscard]] std::uint32_t count() const { return part_.range.end - part_.range.first; }
+
+    std::chrono::steady_clock::time_point begin_;
+    Renderer& renderer_;
+    FramePlan plan_;
+    double planMilliseconds_;
+    FramePart part_;
+};
+
+// ---- the driver -----------------------------------------------------------------------------------------------------
+
+FrameDriver::FrameDriver(const World& world, DriverOptions options) : world_(&world), options_(std::move(options)) {}
+
+FrameDriver::~FrameDriver() = default;
+FrameDriver::FrameDriver(FrameDriver&&) noexcept = default;
+FrameDriver& FrameDriver::operator=(FrameDriver&&) noexcept = default;
+
+void FrameDriver::makeRenderer() {
+    RendererOptions options;
+    options.layerFormat = options_.limits.layerFormat;
+    options.wave = options_.limits.wave;
+    options.waveBytes = waveBytesWithin(limit_);
+    options.shaderFolder = options_.shaderFolder;
+    options.settings = options_.method.settings;
+    renderer_ = options_.method.method->make(*world_, options);
+}
+
+FrameDriver::Fit FrameDriver::fitOf(const FrameOrder& order) {
+    return {order.view.width,
+            order.view.height,
+            order.settings.shadows,
+            order.stop.given(),
+            order.samples.has_value(),
+            static_cast<bool>(order.takeRows),
+            order.whole,
+            order.rows};
+}
+
+// Chooses between one piece and tiles, and how many layers are drawn at once.
+void FrameDriver::fit(const FrameOrder& order) {
+    const Method& method = *options_.method.method;
+    const DrawLimits& limits = options_.limits;
+    bands_.reset();
+    crowded_ = false;
+    limit_ = engine::memoryLimit(limits);
+    if (!method.needsGl) {
+        if (!renderer_) makeRenderer();
+        return;
+    }
+    const Shadows shadows = order.settings.shadows;
+    const bool mapsPossible = shadows == Shadows::on || (shadows == Shadows::automatic && hasGround(*world_->scene));
+    if (!order.rows && surelyFits(order.view.width, order.view.height, mapsPossible, limits, limit_)) {
+        if (!renderer_) makeRenderer();
+        return renderer_->setWave(0);
+    }
+
+    // The previous frame's memory is given back before the rest is measured.
+    renderer_.reset();
+    giveBackFreedMemory();
+    const FramePlan plan = planOfTiles(*world_, order.view, order.settings, order.stop.automatic);
+    const bool tiles = mustDrawInTiles(*world_, plan, limits, method, limit_);
+    if (tiles && order.stop.given())
+        refuseTiles(plan, limit_, "--target-error and --time-limit judge the whole image; give --samples");
+    if (tiles && order.samples)
+        refuseTiles(plan, limit_, "--sample-range keeps sums of the whole image; --tile shares its rows instead");
+    if (tiles && !order.whole.empty()) refuseTiles(plan, limit_, order.whole);
+    if (tiles || order.rows)
+        return fitTiles(order, plan, order.rows.value_or(std::vector<RowRange>{{0, plan.view.height}}));
+    TilingNeeds needs = needsBeforeUpload(*world_, plan, limits, limit_);
+    makeRenderer();
+    if (!limits.memory) return;
+    renderer_->setWave(waveWithin(needs));
+    needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
+    crowded_ = !fitsInOnePiece(needs);
+}
+
+void FrameDriver::fitTiles(const FrameOrder& order, const FramePlan& plan, const std::vector<RowRange>& rows) {
+    makeRenderer();
+    bands_.emplace();
+    if (rows.empty()) return;
+    TilingNeeds needs = measuredNeeds(*world_, plan, options_.limits, *renderer_, limit_);
+    if (!order.takeRows)
+        needs.keptBytes = std::uint64_t(needs.width) * std::uint64_t(needs.height) * options_.keptPixelBytes;
+    for (const RowRange& range : rows) {
+        needs.rows = range;
+        Tiling tiling = chosenTiling(needs);
+        renderer_->setWave(tiling.wave);
+        bands_->insert(bands_->end(), tiling.bands.begin(), tiling.bands.end());
+    }
+}
+
+void FrameDriver::start(FrameOrder order) {
+    drawing_.reset();
+    Fit wanted = fitOf(order);
+    if (fitted_ != wanted) {
+        fitted_.reset();
+        fit(order);
+        fitted_ = std::move(wanted);
+    }
+    if (bands_)
+        drawing_ = std::make_unique<Tiled>(*world_, *renderer_, std::move(order), *bands_);
+    else if (order.samples)
+        drawing_ = std::make_unique<Summed>(*world_, *renderer_, order);
+    else
+        drawing_ = std::make_unique<Whole>(*world_, *renderer_, order);
+}
+
+bool FrameDriver::advance() {
+    return drawing_->advance();
+}
+
+std::uint32_t FrameDriver::samples() const {
+    return drawing_->samples();
+}
+
+std::uint32_t FrameDriver::sampleTotal() const {
+    return drawing_->sampleTotal();
+}
+
+double FrameDriver::share() const {
+    return drawing_->share();
+}
+
+const FramePlan& FrameDriver::plan() const {
+    return drawing_->plan();
+}
+
+RenderStats FrameDriver::stats() const {
+    return drawing_->stats();
+}
+
+double FrameDriver::planMilliseconds() const {
+    return drawing_->planMilliseconds();
+}
+
+int FrameDriver::tiles() const {
+    return drawing_->tiles();
+}
+
+bool FrameDriver::inTiles() const {
+    return bands_.has_value();
+}
+
+Image FrameDriver::image() {
+    return drawing_->image();
+}
+
+FramePart FrameDriver::sums() {
+    std::optional<FramePart> part = drawing_->sums();
+    if (!part) fail("the frame was not started for a range of its samples");
+    return std::move(*part);
+}
+
+FramePlan planOfTiles(const World& world, const View& view, RenderSettings settings, bool automaticSamples) {
+    if (!automaticSamples) return planFrame(world, view, settings);
+    settings.sampleCount = blockSamples;
+    settings.sampleCount = samplesForBlur(planFrame(world, view, settings));
+    return planFrame(world, view, settings);
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,219 @@
+#include "frame/driver/frame_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "frame/setup/settings_hash.h"
+
+namespace defocus::engine {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path rowsPath(const fs::path& folder, const RowRange& rows) {
+    return folder / fmt::format("rows-{:05}-{:05}.exr", rows.first, rows.end);
+}
+
+bool namesRows(const fs::path& path) {
+    return path.filename().string().starts_with("rows-");
+}
+
+struct FoundTiles {
+    std::vector<RowFile> fitting;  // of the wanted settings, in order and without overlap
+    std::vector<fs::path> all;
+};
+
+// Looks through the folder of an earlier run, and removes what a killed process left half written.
+FoundTiles tilesIn(const fs::path& folder, const RowFileHeader& wanted) {
+    FoundTiles found;
+    std::error_code none;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+        if (entry.path().filename().string().starts_with(".rows-")) removeAbandoned(entry.path());
+        if (!namesRows(entry.path()) || !isRowFile(entry.path())) continue;
+        found.all.push_back(entry.path());
+        const RowFileHeader header = readRowHeader(entry.path());
+        if (header.settings == wanted.settings && header.width == wanted.width && header.height == wanted.height)
+            found.fitting.push_back({entry.path(), header});
+    }
+    std::ranges::sort(found.fitting, {}, [](const RowFile& file) { return file.header.rows.first; });
+    std::erase_if(found.fitting, [end = 0](const RowFile& file) mutable {
+        const bool overlaps = file.header.rows.first < end;
+        if (!overlaps) end = file.header.rows.end;
+        return overlaps;
+    });
+    return found;
+}
+
+}  // namespace
+
+void FrameOutput::check(const FrameFiles& files, const Request& request) {
+    const bool oneExr = files.outputs.size() == 1 && files.outputs.front().extension() == ".exr";
+    if (files.samples) {
+        if (stopSettings(request).given())
+            throw UsageError(
+                "--sample-range needs a number of samples, which --target-error and --time-limit leave open");
+        if (!request.samples) throw UsageError("--sample-range is a part of a number of samples: give --samples N too");
+        checkSampleRange(*files.samples, *request.samples);
+        if (!oneExr || !files.whole.empty())
+            fail("--sample-range writes the sums of samples to one EXR file, such as -o part.exr, and nothing else");
+    }
+    if (!files.share && !files.resume) return;
+    const std::string option = files.share ? "--tile" : "--resume";
+    const Method& method = *chosenMethod(request).method;
+    if (!method.drawsTiles)
+        throw UsageError(fmt::format("{}: method '{}' needs the whole image at once; 'accumulation' draws tiles",
+                                     option, method.name));
+    if (files.samples) throw UsageError(option + " and --sample-range don't go together: share one or the other");
+    if (stopSettings(request).given())
+        throw UsageError(option + " needs a number of samples, which --target-error and --time-limit leave open");
+    if (!files.whole.empty()) throw UsageError(fmt::format("{} cannot be used here: {}", option, files.whole));
+    if (files.share && !oneExr) throw UsageError("--tile writes to one EXR file, such as -o tile.exr");
+}
+
+// out.exr → out.tiles
+fs::path FrameOutput::tilesFolder() const {
+    fs::path folder = files_.outputs.front();
+    folder.replace_extension("tiles");
+    return folder;
+}
+
+RowFileHeader FrameOutput::header() const {
+    const Request& request = driver_.request();
+    RowFileHeader header;
+    header.width = request.size.width;
+    header.height = request.size.height;
+    header.rows = wanted_;
+    header.settings = settings_;
+    if (files_.share) header.share = fmt::format("{}/{}", files_.share->index, files_.share->count);
+    return header;
+}
+
+// Keeps the finished tiles of an earlier run where they are to be resumed, and removes all others.
+void FrameOutput::findTiles() {
+    const FoundTiles found = tilesIn(tilesFolder(), header());
+    std::vector<RowRange> missing = {wanted_};
+    std::vector<fs::path> kept;
+    if (files_.resume) {
+        missing = missingRows(found.fitting, wanted_.end);
+        for (const RowFile& file : found.fitting) kept.push_back(file.path);
+    }
+    for (const fs::path& path : found.all)
+        if (std::ranges::find(kept, path) == kept.end()) fs::remove(path);
+    rowsKept_ = wanted_.end;
+    for (const RowRange& rows : missing) rowsKept_ -= rows.end - rows.first;
+    if (files_.resume) parts_.rows = missing;
+}
+
+void FrameOutput::findShare() {
+    const int height = wanted_.end;
+    if (files_.share->count > height)
+        fail("--tile {}/{}: the image has {} rows", files_.share->index, files_.share->count, height);
+    wanted_ = rowsOfPart(height, files_.share->index, files_.share->count);
+    parts_.rows = {wanted_};
+    if (!files_.resume || !isRowFile(files_.outputs.front())) return;
+    const RowFileHeader before = readRowHeader(files_.outputs.front());
+    if (before.settings != settings_ || !(before.rows == wanted_) || before.height != height) return;
+    parts_.rows = std::vector<RowRange>();
+    rowsKept_ = wanted_.end - wanted_.first;
+}
+
+void FrameOutput::start(const Progress& progress) {
+    const Request& request = driver_.request();
+    check(files_, request);
+    static_cast<void>(driver_.writeOptions());  // meters the exposure before the frame takes memory
+    wanted_ = {0, request.size.height};
+    parts_ = {.samples = files_.samples, .whole = files_.whole};
+    if (files_.whole.empty() && !files_.samples)
+        parts_.takeRows = [this](const RowRange& rows, Image&& pixels) { takeRows(rows, std::move(pixels)); };
+    const bool resumesTiles = files_.resume && fs::is_directory(tilesFolder());
+    if (files_.samples || files_.share || resumesTiles) settings_ = driver_.settingsHash();
+    if (files_.share)
+        findShare();
+    else if (resumesTiles)
+        findTiles();
+    driver_.start(Request(request), parts_, progress);
+    if (!driver_.driver().inTiles()) {
+        if (files_.resume)
+            throw UsageError("--resume goes on with tiles, and this frame fits into memory in one piece");
+    } else if (settings_.empty()) {
+        settings_ = driver_.settingsHash();
+        findTiles();
+    }
+}
+
+void FrameOutput::takeRows(const RowRange& rows, Image&& pixels) {
+    if (files_.share) {
+        if (!writer_) {
+            RowFileHeader own = header();
+            own.metadata = driver_.metadata();
+            writer_.emplace(rowFileWriter(files_.outputs.front(), own, pixels.channels));
+        }
+        writer_->write(pixels);
+    } else {
+        fs::create_directories(tilesFolder());
+        RowFileHeader own = header();
+        own.rows = rows;
+        own.metadata = driver_.metadata();
+        ImageRowWriter writer = rowFileWriter(rowsPath(tilesFolder(), rows), own, pixels.channels);
+        writer.write(pixels);
+        writer.finish();
+    }
+    rowsDone_ += rows.end - rows.first;
+}
+
+bool FrameOutput::advance() {
+    return driver_.advance();
+}
+
+double FrameOutput::share() const {
+    const double rows = wanted_.end - wanted_.first;
+    return (rowsKept_ + driver_.driver().share() * (rows - rowsKept_)) / rows;
+}
+
+std::string FrameOutput::stopMessage() const {
+    const FrameDriver& driver = driver_.driver();
+    if (files_.share) return fmt::format("stopped: nothing of tile {} is kept", header().share);
+    if (driver.inTiles())
+        return fmt::format("stopped: {} of {} rows are kept in {}; the same command with --resume goes on",
+                           rowsKept_ + rowsDone_, wanted_.end, tilesFolder().string());
+    return fmt::format("stopped after {} of {} samples: nothing is written", driver.samples(), driver.sampleTotal());
+}
+
+// Joins the tiles to the outputs, and removes them.
+void FrameOutput::join() {
+    const fs::path folder = tilesFolder();
+    std::vector<fs::path> paths;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (namesRows(entry.path())) paths.push_back(entry.path());
+    std::vector<JoinedOutput> outputs;
+    for (const fs::path& path : files_.outputs) outputs.push_back({path, driver_.writeOptions()});
+    joinRows(completeRows(paths), outputs, driver_.metadata());
+    for (const fs::path& path : paths) fs::remove(path);
+    std::error_code notEmpty;
+    fs::remove(folder, notEmpty);
+}
+
+std::optional<Image> FrameOutput::finish() {
+    if (files_.samples) {
+        FramePart part = driver_.driver().sums();
+        part.settings = settings_;
+        part.metadata = driver_.metadata();
+        part.metadata["defocus:samples"] = static_cast<int>(part.frameSamples);
+        writePart(files_.outputs.front(), part);
+        return {};
+    }
+    if (files_.share) {
+        if (writer_) writer_->finish();
+        return {};
+    }
+    if (!driver_.driver().inTiles()) return driver_.image();
+    join();
+    return {};
+}
+
+}  // namespace defocus::engine

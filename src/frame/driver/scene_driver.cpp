@@ -1,0 +1,270 @@
+#include "frame/driver/scene_driver.h"
+
+#include <utility>
+
+#include "core/error.h"
+#include "core/stopwatch.h"
+#include "frame/report/picture_warnings.h"
+#include "frame/report/plan_warnings.h"
+#include "frame/setup/exposure.h"
+#include "frame/setup/scene_scale.h"
+#include "frame/setup/settings_hash.h"
+#include "plan/lens_cells/swept_work.h"
+#include "render/aov/aov.h"
+#include "render/aov/work.h"
+#include "scene/ground.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// Bytes a pixel of images in main memory: the one that is kept, the one that is handed out, and its encoded copy.
+constexpr std::uint64_t keptPixelBytes = 3 * 16;
+
+bool sameScene(const Request& a, const Request& b) {
+    return a.scene == b.scene &&
+           (!a.scene.empty() || (a.fishCount == b.fishCount && a.trianglesPerFish == b.trianglesPerFish));
+}
+
+bool sameSurroundings(const Request& a, const Request& b) {
+    return a.environment == b.environment && a.environmentRotation == b.environmentRotation &&
+           a.background == b.background;
+}
+
+DrawLimits limitsOf(const Request& request) {
+    return {request.memory, request.wave.value_or(0), request.layerFormat};
+}
+
+// Returns whether one FrameDriver can draw both.
+bool sameDriver(const Request& a, const Request& b) {
+    return chosenMethod(a).text() == chosenMethod(b).text() && a.layerFormat == b.layerFormat && a.wave == b.wave &&
+           a.memory == b.memory && sameSurroundings(a, b);
+}
+
+std::size_t pyramidKind(const Request& request) {
+    if (request.lod == LodMode::off) return 0;
+    return 1 + static_cast<std::size_t>(request.levelVertices);
+}
+
+// Explains why a frame in tiles may have more samples than in one piece.
+std::vector<std::string> tiledSamplesNote(const FramePlan& plan) {
+    if (plan.samples.size() <= blockSamples) return {};
+    return {
+        fmt::format("{} lens samples, as many as the blur may need: an image in one piece ends earlier where its "
+                    "error is small, which tiles can't know before all are drawn",
+                    plan.samples.size())};
+}
+
+}  // namespace
+
+SceneDriver::SceneDriver(std::shared_ptr<const Scene> scene, const Request& request, std::filesystem::path shaderFolder,
+                         const Progress& progress)
+    : named_(scene == nullptr), shaderFolder_(std::move(shaderFolder)), first_(request), request_(request) {
+    const Clock::time_point begin = Clock::now();
+    checkRequest(request);
+    scene_ = named_ ? std::make_shared<Scene>(loadScene(request, progress))
+                    : std::const_pointer_cast<Scene>(std::move(scene));
+    if (named_) setScale(request, *scene_);
+    frame_ = placeFrame(scaledScene(request), request);
+    loadMilliseconds_ = millisecondsSince(begin);
+    {
+        const CurrentContextKeeper callers;
+        context_ = createHeadlessContext();
+    }
+    addPyramids(frame_, progress);
+    pyramidMilliseconds_ = frame_.pyramidMilliseconds;
+}
+
+SceneDriver::~SceneDriver() {
+    try {
+        const InContext use(*context_);
+        driver_.reset();
+        context_.reset();
+    } catch (const Error&) {  // another thread has the context: its resources go with the process
+        if (driver_) static_cast<void>(new FrameDriver(std::move(*driver_)));
+        static_cast<void>(context_.release());
+    }
+}
+
+// Returns the scene with the request's units, node blur and ground: a copy if any differs, as others may use the scene.
+std::shared_ptr<Scene> SceneDriver::scaledScene(const Request& request) const {
+    const double metresPerUnit = request.units.value_or(scene_->metresPerUnit);
+    if (request.nodeBlur.empty() && metresPerUnit == scene_->metresPerUnit && !request.ground) return scene_;
+    if (frame_.scene && frame_.scene != scene_ && request.nodeBlur == request_.nodeBlur &&
+        request.ground == request_.ground && metresPerUnit == frame_.scene->metresPerUnit)
+        return frame_.scene;
+    auto scaled = std::make_shared<Scene>(*scene_);
+    setNodeBlur(request, *scaled);
+    scaled->metresPerUnit = metresPerUnit;
+    setGround(request, *scaled);
+    return scaled;
+}
+
+// Moves the pyramids of the frame before to `next`, or keeps them if `next` needs another kind. Never throws.
+void SceneDriver::handOnPyramids(PreparedFrame& next, std::size_t kind) {
+    if (kind == pyramidKind(request_)) {
+        next.world.pyramids = std::move(frame_.world.pyramids);
+        next.pyramidsLoaded = frame_.pyramidsLoaded;
+        next.cacheFailure = std::move(frame_.cacheFailure);
+        return;
+    }
+    if (next.world.pyramids.empty()) next.world.pyramids = std::move(otherPyramids_[kind]);
+    otherPyramids_[kind].clear();
+    otherPyramids_[pyramidKind(request_)] = std::move(frame_.world.pyramids);
+}
+
+void SceneDriver::start(const Request& request, const FrameParts& parts, const Progress& progress) {
+    // All that may fail because of the request comes first.
+    checkRequest(request);
+    if (named_ && !sameScene(request, first_))
+        throw UsageError("the request is of another scene; make a SceneRenderer of its own for it");
+    const Environment* known = sameSurroundings(request, request_) ? &frame_.world.environment : nullptr;
+    PreparedFrame next = placeFrame(scaledScene(request), request, known);
+    const std::size_t kind = pyramidKind(request);
+    const bool sameGround = hasGround(*next.scene) == hasGround(*frame_.scene);
+    const bool samePyramids = kind == pyramidKind(request_) && sameGround;
+    const bool same = samePyramids && sameDriver(request, request_);
+    if (!samePyramids && (!sameGround || otherPyramids_[kind].empty())) {
+        addPyramids(next, progress);
+        pyramidMilliseconds_ += next.pyramidMilliseconds;
+    }
+    Request asked = request;
+    const InContext use(*context_);
+
+    // From here on the frame is the request's.
+    if (!same) driver_.reset();
+    if (sameGround)
+        handOnPyramids(next, kind);
+    else  // the scene has one mesh more or less than theirs
+        otherPyramids_ = {};
+    next.loadMilliseconds = loadMilliseconds_;
+    next.pyramidMilliseconds = pyramidMilliseconds_;
+    frame_ = std::move(next);
+    request_ = std::move(asked);
+    try {
+        if (!driver_)
+            driver_.emplace(frame_.world,
+                            DriverOptions{chosenMethod(request_), limitsOf(request_), shaderFolder_, keptPixelBytes});
+        driver_->start({frame_.view, frame_.settings, stopSettings(request_), parts.samples, parts.rows, parts.takeRows,
+                        parts.whole});
+    } catch (...) {
+        driver_.reset();
+        throw;
+    }
+}
+
+bool SceneDriver::advance() {
+    FrameDriver& driver = this->driver();
+    const InContext use(*context_);
+    return driver.advance();
+}
+
+FrameDriver& SceneDriver::driver() {
+    if (!driver_) fail("no frame was started; call start() first");
+    return *driver_;
+}
+
+const FrameDriver& SceneDriver::driver() const {
+    if (!driver_) fail("no frame was started; call start() first");
+    return *driver_;
+}
+
+Image SceneDriver::image() {
+    if (driver().samples() == 0) fail("the image has no sample yet; call advance() first");
+    const InContext use(*context_);
+    return driver_->image();
+}
+
+AovImages SceneDriver::aovs() {
+    if (driver().inTiles())
+        fail("the image is drawn in tiles, as it doesn't fit into memory, and AOVs show the whole image");
+    const InContext use(*context_);
+    return renderAovs(frame_.world, driver_->plan(), shaderFolder_, driver_->method().sharesImages());
+}
+
+Image SceneDriver::work() {
+    const FramePlan& plan = driver().plan();
+    const InContext use(*context_);
+    return renderWork(frame_.world, plan, shaderFolder_);
+}
+
+Image SceneDriver::sweptWork() const {
+    return engine::sweptWork(driver().plan(), frame_.world);
+}
+
+std::vector<std::string> SceneDriver::warnings() const {
+    std::vector<std::string> lines = requestWarnings(request_, frame_);
+    const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
+    // Where the image decides how many samples there are, their number is known only at the end.
+    const StopSettings stop = stopSettings(request_);
+    const bool counted = !stop.given() && !stop.automatic;
+    if (driver_ && (counted || driver_->samples() > 0)) {
+        add(planWarnings(driver_->plan(), driver_->method(), counted ? 0 : driver_->samples()));
+        if (driver_->inTiles() && stop.automatic) add(tiledSamplesNote(driver_->plan()));
+    }
+    add(clipped_);
+    return lines;
+}
+
+std::string SceneDriver::settingsHash() const {
+    return engine::settingsHash(filmSettings(frame_, request_, shaderFolder_), momentOf(frame_, request_));
+}
+
+WriteOptions SceneDriver::writeOptions() {
+    const InContext use(*context_);
+    const bool meters = metersExposure(request_, *frame_.scene, frame_.view.lens);
+    const double exposure = meters && metered_
+                                ? *metered_
+                                : chosenExposure(request_, frame_.world, frame_.view, frame_.settings, shaderFolder_);
+    if (meters) metered_ = exposure;
+    return {request_.toneMap, exposure};
+}
+
+RenderReport SceneDriver::report(std::string command, double milliseconds) {
+    const double exposure = writeOptions().exposure;
+    const InContext use(*context_);
+    const FrameDriver& driver = this->driver();
+    return {.options = request_,
+            .method = driver.method().text(),
+            .frame = frame_,
+            .plan = driver.plan(),
+            .stats = driver.stats(),
+            .softwareDriver = context_->software(),
+            .totalMilliseconds = milliseconds,
+            .exposure = exposure,
+            .command = std::move(command),
+            .memoryLimit = driver.memoryLimit(),
+            .tiles = driver.tiles()};
+}
+
+RenderStatistics SceneDriver::statistics() const {
+    RenderStatistics statistics;
+    statistics.loadMilliseconds = loadMilliseconds_;
+    statistics.pyramidMilliseconds = pyramidMilliseconds_;
+    statistics.device = context_->device();
+    if (!driver_) return statistics;
+    const InContext use(*context_);
+    const RenderStats stats = driver_->stats();
+    statistics.samples = driver_->samples();
+    statistics.setupMilliseconds = stats.setupMilliseconds;
+    statistics.renderMilliseconds = stats.renderMilliseconds;
+    statistics.trianglesDrawn = stats.trianglesDrawn;
+    statistics.trianglesAtFullDetail = driver_->plan().trianglesAtFullDetail;
+    statistics.stopped = stats.stopped;
+    statistics.estimatedError = stats.estimatedError;
+    statistics.gpuBytes = stats.peakBytes;
+    return statistics;
+}
+
+Metadata SceneDriver::metadata() {
+    return renderMetadata(report());
+}
+
+void SceneDriver::write(const std::filesystem::path& path, const ImageView& image) {
+    const WriteOptions options = writeOptions();
+    writeImage(path, image, metadata(), options);
+    const std::string ending = path.extension().string();
+    if (ending != ".exr" && ending != ".EXR") clipped_ = clippingWarnings(image, options);
+}
+
+}  // namespace defocus::engine

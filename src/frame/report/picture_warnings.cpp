@@ -1,0 +1,64 @@
+#include "frame/report/picture_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "image/tone_map.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr float white = 254.5f / 255;  // display-encoded
+constexpr float black = 0.5f / 255;
+constexpr double mostWhite = 0.5;  // of the pixels
+constexpr double mostBlack = 0.95;
+constexpr double wantedMedian = 0.18;  // middle grey
+constexpr double leastLuminance = 1e-6;
+
+// In which the median luminance of what isn't empty is middle grey.
+double helpfulExposure(const ImageView& image) {
+    std::vector<double> luminances;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const float* pixel = image.at(x, y);
+            const double luminance = 0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2];
+            if (luminance > leastLuminance && std::isfinite(luminance)) luminances.push_back(luminance);
+        }
+    if (luminances.empty()) return 0;
+    const auto middle = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() / 2);
+    std::ranges::nth_element(luminances, middle);
+    return std::log2(wantedMedian / *middle);
+}
+
+}  // namespace
+
+std::vector<std::string> clippingWarnings(const ImageView& image, const WriteOptions& write) {
+    const Image display = displayEncoded(image, write.toneMap, write.exposure);
+    if (display.channels < 3) return {};
+    std::size_t shown = 0, whites = 0, blacks = 0;
+    for (int y = 0; y < display.height; ++y)
+        for (int x = 0; x < display.width; ++x) {
+            const float* pixel = display.at(x, y);
+            if (display.channels > 3 && !(pixel[3] > 0)) continue;
+            const auto [least, most] = std::minmax({pixel[0], pixel[1], pixel[2]});
+            ++shown;
+            whites += least >= white ? 1 : 0;
+            blacks += most <= black ? 1 : 0;
+        }
+    const auto share = [&](std::size_t count) { return static_cast<double>(count) / static_cast<double>(shown); };
+    const auto line = [&](std::size_t count, const char* what) {
+        return std::vector{
+            fmt::format("{:.0f} % of the picture is {} at an exposure of {:.2g} EV: try --exposure auto, or "
+                        "--exposure {:.2g}",
+                        100 * share(count), what, write.exposure, helpfulExposure(image))};
+    };
+    if (shown > 0 && share(whites) > mostWhite) return line(whites, "white");
+    if (shown > 0 && share(blacks) > mostBlack && helpfulExposure(image) > write.exposure) return line(blacks, "black");
+    return {};
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,119 @@
+#include "frame/report/plan_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/number_text.h"
+#include "defocus/settings.h"
+#include "frame/settings/unused_settings.h"
+#include "lens/lens_fields.h"
+#include "plan/lens_cells/lens_cells.h"
+#include "render/sampling/automatic_samples.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr double visibleShare = 0.02;    // of the image's width: a blur that shows at a glance
+constexpr std::size_t mostIgnored = 20;  // lines
+
+// 1, 2 or 5 times a power of ten, near `value`.
+double roundNumber(double value) {
+    const double power = std::pow(10, std::floor(std::log10(value)));
+    const double digit = value / power;
+    return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
+}
+
+std::string nothingBlurred(const FramePlan& plan) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const ObjectPlan& object : plan.objects) nearest = std::min(nearest, object.nearestDepth);
+    const double scale = roundNumber(plan.view.lens.blurScale * visibleShare * plan.view.width / plan.largestBlur);
+    const std::string help = scale <= lensFieldNamed("blurScale")->most
+                                 ? fmt::format("try --blur-scale {:g}, or a wider aperture", scale)
+                                 : "are the scene's units metres?";
+    return fmt::format(
+        "nothing is blurred: at most {:.2g} px, as what is seen lies {:.3g} m away or farther (focus at {:.3g} m, "
+        "f/{:g}); {}",
+        plan.largestBlur, nearest, plan.view.lens.focusDistance, plan.view.lens.fStop, help);
+}
+
+bool blursCells(const MethodUse& use) {
+    const auto cells = use.settings.find("cells");
+    return cells != use.settings.end() && cells->second == "on";
+}
+
+// How far apart the images of a point lie, px; of lens cells, the σ that fills it.
+struct Gaps {
+    double size = 0;
+    double most = 16;  // that a disk may show
+    double good = 8;
+};
+
+Gaps gapsOf(const FramePlan& plan, const MethodUse& use, double blur, std::uint64_t samples) {
+    if (const LensCells cells = blursCells(use) ? lensCells(plan) : LensCells{}; cells.blur > 0) {
+        const double widest = std::sqrt(cellClassVariance(mostCellClasses - 1));  // σ, px
+        return {cells.blur * blur, widest, 0.7 * widest};
+    }
+    return {blur * std::sqrt(std::numbers::pi / (4.0 * static_cast<double>(samples)))};
+}
+
+std::string copiesShow(const FramePlan& plan, double blur, const Gaps& gaps, std::uint64_t samples) {
+    const double needed = static_cast<double>(samples) * std::pow(gaps.size / gaps.good, 2);
+    const double scale = plan.view.lens.blurScale * gaps.good / gaps.size;
+    const std::string more = needed <= maxSamples
+                                 ? fmt::format("about {} samples fill it, ",
+                                               grouped(64 * static_cast<std::uint64_t>(std::ceil(needed / 64))))
+                                 : std::string();
+    return fmt::format(
+        "up to {:.0f} px of blur from {} samples: points may show as copies; {}--blur-scale {:g} narrows it", blur,
+        grouped(samples), more, roundNumber(scale));
+}
+
+}  // namespace
+
+std::vector<std::string> planWarnings(const FramePlan& plan, const MethodUse& use, std::uint64_t samples) {
+    const Method& method = *use.method;
+    if (samples == 0) samples = plan.samples.size();
+    std::vector<std::string> lines;
+    if (plan.usesTransmission && !method.showsThrough)
+        lines.push_back(
+            fmt::format("method {}: materials that transmit are drawn opaque; choose accumulation", method.name));
+    if (!plan.shadows.maps.empty() && !method.drawsShadows)
+        lines.push_back(fmt::format("method {}: nothing casts a shadow; choose accumulation", method.name));
+    if (plan.objects.empty() || !plan.view.lens.dofEnabled) return lines;
+    if (plan.largestBlur > 0 && plan.largestBlur < leastBlur) lines.push_back(nothingBlurred(plan));
+    const double blur = largestBoundedBlur(plan);
+    if (!method.usesLensSamples || !std::isfinite(blur)) return lines;
+    if (const Gaps gaps = gapsOf(plan, use, blur, samples); gaps.size > gaps.most)
+        lines.push_back(copiesShow(plan, blur, gaps, samples));
+    return lines;
+}
+
+std::vector<std::string> ignoredWarnings(const Scene& scene) {
+    std::vector<std::string> lines;
+    std::uint64_t more = 0;
+    for (const Ignored& ignored : scene.ignored) {
+        if (ignored.damage) continue;
+        if (lines.size() == mostIgnored)
+            ++more;
+        else
+            lines.push_back(fmt::format("{}{}: {}", ignored.count > 1 ? grouped(ignored.count) + " x " : "",
+                                        ignored.what, ignored.reason));
+    }
+    if (more > 0) lines.push_back(fmt::format("{} more kinds of things are ignored", grouped(more)));
+    return lines;
+}
+
+std::vector<std::string> requestWarnings(const Request& request, const PreparedFrame& frame) {
+    std::vector<std::string> lines = frameWarnings(frame);
+    const auto add = [&](const std::vector<std::string>& more) { lines.insert(lines.end(), more.begin(), more.end()); };
+    add(ignoredWarnings(*frame.scene));
+    add(unusedSettings(request, *frame.scene, frame.view.lens));
+    return lines;
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,133 @@
+#include "frame/report/render_command_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+#include "frame/settings/settings.h"
+#include "lens/lens_fields.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// With '=' where the value would be taken for an option.
+void addWords(std::string& command, std::string_view option, const std::string& value) {
+    command += fmt::format(" {}{}{}", option, value.starts_with('-') ? '=' : ' ', shellWord(value));
+}
+
+std::string pathWord(const std::string& path) {
+    return shellWord(path.starts_with('-') ? fmt::format("./{}", path) : path);
+}
+
+void addSetting(std::string& command, const Setting& setting, const Request& request) {
+    const std::optional<std::string> text = setting.text(request);
+    if (!text) return;
+    if (setting.repeated) {
+        for (const std::string& each : setting.texts(request)) addWords(command, setting.option, each);
+    } else if (setting.kind == SettingKind::boolean) {
+        if (*text == "true")
+            command += fmt::format(" {}", setting.option);
+        else if (setting.lensField)
+            command += fmt::format(" --no-{}", setting.option.substr(2));
+    } else if (setting.kind == SettingKind::path) {
+        command += fmt::format(" {}{}", setting.option.starts_with('-') ? setting.option + " " : "", pathWord(*text));
+    } else {
+        addWords(command, setting.option, *text);
+    }
+}
+
+// The view's camera, unless only the file can say how it moves.
+void placeCameraOf(const RenderCommandText& text, Request& request) {
+    if (!text.view.shutterCameras.empty()) return;
+    const glm::dmat4& camera = text.view.worldFromCamera;
+    const glm::dvec3 position(camera[3]);
+    request.cameraPosition = asArray(position);
+    request.cameraTarget = asArray(position - text.pivotDistance * glm::dvec3(camera[2]));
+    const bool rolled = std::abs(camera[0].y) > 1e-9 || camera[1].y < 1e-6;  // or looking straight up or down
+    request.cameraUp.reset();
+    if (rolled) request.cameraUp = asArray(camera[1]);
+}
+
+// The view's lens as far as it isn't the camera's own. Focal length and focus are always said: they follow from the
+// scene otherwise.
+LensSettings lensOf(const RenderCommandText& text) {
+    const Lens& lens = text.view.lens;
+    LensSettings given;
+    given.apertureImage = text.options.lens.apertureImage;
+    for (const LensField& field : lensFields()) {
+        const double value = lensFieldValue(lens, field);
+        const std::string_view name = field.name;
+        const bool brightness = name == "exposureTime" || name == "iso";
+        if (brightness && !(lens.exposureTime > 0)) continue;
+        if (name == "focusDistance") continue;
+        if (name == "focalLength" || value != lensFieldValue(text.frame.cameraLens, field))
+            giveLensValue(given, field, std::min(value, field.most));
+    }
+    return given;
+}
+
+// The picture's own request: what `render` would have to be asked for.
+Request requestOf(const RenderCommandText& text) {
+    Request request = text.options;
+    request.size = {text.view.width, text.view.height};
+    placeCameraOf(text, request);
+    request.lens = lensOf(text);
+    request.focus = FocusDistance{std::min(text.view.lens.focusDistance, lensFieldNamed("focusDistance")->most)};
+    const double metresPerUnit = text.frame.scene->metresPerUnit;
+    if (metresPerUnit != 1) request.units = metresPerUnit;  // a guess comes out otherwise for a placed camera
+    request.toneMap = text.write.toneMap;
+    // Brightness is by the lens or by an exposure value, which exclude each other.
+    request.exposure = DefaultExposure{};
+    const bool byLens = text.view.lens.exposureTime > 0;
+    const bool meters = !text.frame.scene->file.empty() && !text.frame.scene->lights.empty();
+    if (!byLens && (text.write.exposure != 0 || text.frame.cameraLens.exposureTime > 0 || meters))
+        request.exposure = ExposureValue{text.write.exposure};
+    return request;
+}
+
+}  // namespace
+
+std::string shellWord(const std::string& word) {
+    const auto plain = [](char letter) {
+        return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+               std::string_view("_-./,:=+@%").find(letter) != std::string_view::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+    std::string quoted = "'";
+    for (const char letter : word) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+    return quoted + "'";
+}
+
+std::string captureCommand(const std::filesystem::path& shot, const Request& options) {
+    std::string command = "defocus capture " + pathWord(shot.string());
+    for (const Setting& setting : settings()) {
+        const bool keyed = setting.group == SettingGroup::camera || setting.name.starts_with("focus");
+        if (setting.shotPlace.empty() && !keyed && changedText(setting, options)) addSetting(command, setting, options);
+    }
+    return command;
+}
+
+std::string renderCommand(const RenderCommandText& text) {
+    const Request request = requestOf(text);
+    // A preset says all that belongs to it.
+    const Setting& preset = *settingNamed("preset");
+    const std::optional<std::string> presetName = preset.text(request);
+    Request standard;
+    if (presetName) preset.set(standard, *presetName);
+    std::string command = "defocus render";
+    if (!request.scene.empty()) command += fmt::format(" {}", pathWord(request.scene.string()));
+    command += fmt::format(" -o {}", pathWord(text.output));
+    for (const Setting& setting : settings()) {
+        if (setting.name == "scene") continue;
+        const bool always = setting.name == "size" || (setting.name == "samples" && request.samples);
+        const bool changed = setting.name == preset.name || setting.text(request) != setting.text(standard);
+        if (always || changed) addSetting(command, setting, request);
+    }
+    return command;
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,300 @@
+#include "frame/setup/prepared_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <mutex>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/number_text.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "frame/setup/focus.h"
+#include "frame/setup/moment.h"
+#include "frame/setup/scene_scale.h"
+#include "image/image_io.h"
+#include "lens/aperture.h"
+#include "lens/camera_lens.h"
+#include "lens/lens_fields.h"
+#include "lod/pyramid/cache.h"
+#include "lod/pyramid/finish.h"
+#include "scene/built_in_environment.h"
+#include "scene/gltf/gltf.h"
+#include "scene/ground.h"
+#include "school/fish_school.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// ---- surroundings
+// ----------------------------------------------------------------------------------------------------
+
+std::shared_ptr<const Image> loadEnvironment(const std::filesystem::path& path, double rotation) {
+    const bool builtIn = isBuiltInEnvironment(path.string());
+    Image map = builtIn ? builtInEnvironment(path.string()) : readImage(path);
+    for (const float value : map.pixels)
+        if (std::isinf(value)) fail("{}: holds infinity and cannot light a scene", path.string());
+    return std::make_shared<Image>(rotation == 0 ? std::move(map) : turnedEnvironment(map, glm::radians(rotation)));
+}
+
+void brighten(Environment& environment, double scale) {
+    for (glm::vec3* radiance : {&environment.zenith, &environment.horizon, &environment.nadir})
+        *radiance *= static_cast<float>(scale);
+}
+
+// ---- camera and lens
+// -------------------------------------------------------------------------------------------------
+
+// Everything but the focus distance, which needs the view. Values of the camera that no lens can have go to `refused`.
+// `folder`: where the scene's file lies.
+Lens chosenLens(const Request& request, const Camera& camera, const std::filesystem::path& folder,
+                std::vector<std::string>& refused) {
+    const LensValues given = givenLensValues(request);
+    Lens lens;
+    refused = setLensFields(lens, camera.lens);
+    setLensFields(lens, given);
+    fitToCamera(lens, camera, static_cast<double>(request.size.width) / request.size.height,
+                [&](std::string_view name) { return given.contains(name) || camera.lens.contains(name); });
+    if (!request.lens.apertureImage.empty()) {
+        lens.apertureImage = loadApertureImage(request.lens.apertureImage);
+    } else if (!camera.apertureImage.empty()) {
+        try {
+            lens.apertureImage = loadApertureImage(fileWithin(folder, camera.apertureImage));
+        } catch (const Error& error) {
+            refused.emplace_back(error.what());
+        }
+    }
+    return lens;
+}
+
+std::vector<Pyramid> fullDetailPyramids(const std::vector<Mesh>& meshes, const Progress& progress) {
+    std::vector<Pyramid> pyramids(meshes.size());
+    std::mutex reporting;
+    std::uint64_t done = 0;
+    parallelFor(meshes.size(), [&](std::size_t i) {
+        pyramids[i] = fullDetail(meshes[i]);
+        const std::lock_guard lock(reporting);
+        report(progress, "meshes", ++done, meshes.size());
+    });
+    return pyramids;
+}
+
+// The camera turned and moved as the options say.
+glm::dmat4 wanderedCamera(const Request& request, const glm::dmat4& worldFromCamera) {
+    const auto orElse = [](const std::optional<Vector3>& given, const glm::dvec3& standard) {
+        return given ? asVector(*given) : standard;
+    };
+    const glm::dvec3 position = orElse(request.cameraPosition, worldFromCamera[3]);
+    const glm::dvec3 back =
+        request.cameraTarget ? position - asVector(*request.cameraTarget) : glm::dvec3(worldFromCamera[2]);
+    const glm::dvec3 up =
+        orElse(request.cameraUp, request.cameraTarget ? glm::dvec3(0, 1, 0) : glm::dvec3(worldFromCamera[1]));
+    const glm::dvec3 aside = glm::cross(up, back);
+    if (!(glm::length(back) > 0)) fail("--camera-target: the camera stands on it; move one of them");
+    if (!(glm::length(aside) > 1e-9 * glm::length(up) * glm::length(back)))
+        fail("--camera-up: the camera looks along it; give another direction");
+    const glm::dvec3 z = glm::normalize(back);
+    const glm::dvec3 x = glm::normalize(aside);
+    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
+}
+
+// The camera and its lens; the focus last, as it may depend on all else.
+PlacedCamera place(PreparedFrame& frame, const Request& request) {
+    const double aspect = static_cast<double>(request.size.width) / request.size.height;
+    PlacedCamera placed = chooseCamera(*frame.scene, frame.world.pose, request.camera, aspect);
+    frame.cameraName = placed.camera.name;
+    frame.view.worldFromCamera = placed.worldFromCamera;
+    frame.view.nearPlane = placed.camera.znear;
+    if (request.cameraPosition || request.cameraTarget || request.cameraUp) {
+        frame.view.worldFromCamera = wanderedCamera(request, placed.worldFromCamera);
+        frame.view.nearPlane = wanderingNearPlane(placed.camera.znear, frame.world.pose.bounds);
+    }
+    frame.view.width = request.size.width;
+    frame.view.height = request.size.height;
+    Request withoutLens = request;
+    withoutLens.lens = {};
+    withoutLens.focus = CameraFocus{};
+    const std::filesystem::path folder = frame.scene->file.parent_path();
+    frame.cameraLens = chosenLens(withoutLens, placed.camera, folder, frame.refusedLensValues);
+    frame.view.lens = chosenLens(request, placed.camera, folder, frame.refusedLensValues);
+    chooseFocus(request, placed.camera, *frame.scene, frame.world.pose, frame.view);
+    checkLens(frame.view.lens);
+    if (request.lens.iso && frame.view.lens.exposureTime == 0)
+        frame.refusedLensValues.emplace_back("iso says nothing without an exposure time (--exposure-time)");
+    return placed;
+}
+
+}  // namespace
+
+Scene loadScene(const Request& request, const Progress& progress) {
+    if (!request.scene.empty()) return loadGltf(request.scene, progress);
+    FishSchoolOptions school;
+    school.fishCount = request.fishCount;
+    school.trianglesPerFish = request.trianglesPerFish;
+    return fishSchool(school, progress);
+}
+
+std::shared_ptr<const Image> loadApertureImage(const std::filesystem::path& path) {
+    Lens lens;
+    lens.apertureImage = std::make_shared<Image>(readImage(path));
+    try {
+        static_cast<void>(makeAperture(lens));  // finds fault with what it holds
+    } catch (const Error& error) {
+        fail("{}: {}", path.string(), error.what());
+    }
+    return lens.apertureImage;
+}
+
+Environment chosenEnvironment(const Request& request, const Scene& scene, const Pose& pose) {
+    Environment environment = environmentOrDefault(scene);
+    if (!scene.environment) brighten(environment, skyScale(pose));
+    if (!request.environment.empty()) {
+        environment = {};
+        environment.type = EnvironmentType::map;
+        environment.map = loadEnvironment(request.environment, request.environmentRotation);
+    }
+    if (std::holds_alternative<TransparentBackground>(request.background)) environment.visible = false;
+    if (const auto* const color = std::get_if<Color>(&request.background)) {
+        environment = {};
+        environment.type = EnvironmentType::uniform;
+        environment.zenith = environment.horizon = environment.nadir = glm::vec3((*color)[0], (*color)[1], (*color)[2]);
+    }
+    return environment;
+}
+
+double wanderingNearPlane(double cameraNear, const Bounds& sceneBounds) {
+    const double radius = 0.5 * glm::length(sceneBounds.size());
+    return radius > 0 ? std::min(cameraNear, 1e-3 * radius) : cameraNear;
+}
+
+void placeCamera(PreparedFrame& frame, const Request& request) {
+    place(frame, request);
+}
+
+PreparedFrame placeFrame(const Request& request, const Progress& progress) {
+    const Clock::time_point begin = Clock::now();
+    const auto scene = std::make_shared<Scene>(loadScene(request, progress));
+    setNodeBlur(request, *scene);
+    setScale(request, *scene);
+    setGround(request, *scene);
+    PreparedFrame frame = placeFrame(scene, request);
+    frame.loadMilliseconds = millisecondsSince(begin);
+    return frame;
+}
+
+void setGround(const Request& request, Scene& scene) {
+    if (request.ground && !hasGround(scene)) addGround(scene, poseAt(scene, 0, clipOf(request, scene)));
+}
+
+void setNodeBlur(const Request& request, Scene& scene) {
+    for (const auto& [name, scale] : request.nodeBlur)
+        scene.nodes[static_cast<std::size_t>(nodeNamed(scene, name))].cocScale = scale;
+}
+
+std::vector<PlacedLight> sizedLights(const Request& request, const std::vector<PlacedLight>& own, const Pose& pose) {
+    std::vector<PlacedLight> lights = movedLights(own, pose);
+    for (PlacedLight& placed : lights) {
+        if (request.lightAngle) placed.light.angularDiameter = static_cast<float>(glm::radians(*request.lightAngle));
+        if (request.lightRadius) placed.light.radius = static_cast<float>(*request.lightRadius);
+    }
+    return lights;
+}
+
+PreparedFrame placeFrame(const std::shared_ptr<Scene>& scene, const Request& request, const Environment* environment) {
+    // The scene, at its time.
+    PreparedFrame frame;
+    frame.scene = scene;
+    frame.scaleNote = guessedScaleNote(request, *scene);
+    frame.sceneName = scene->file.empty() ? "fish school" : scene->file.filename().string();
+    frame.world.scene = scene;
+    frame.world.pose = exposedPose(request, *frame.scene);
+
+    // Camera, light, surroundings and settings.
+    const PlacedCamera placed = place(frame, request);
+    // Surroundings that are asked for are light enough.
+    frame.ownLights =
+        request.environment.empty() ? lightsOrDefault(*frame.scene, frame.world.pose, placed) : frame.world.pose.lights;
+    frame.world.lights = sizedLights(request, frame.ownLights, frame.world.pose);
+    frame.world.environment =
+        environment != nullptr ? *environment : chosenEnvironment(request, *scene, frame.world.pose);
+    frame.settings = renderSettings(request);
+    exposeMotion(request, placed, frame.settings, frame.world, frame.view);
+    // Levels of full detail are not worth storing.
+    if (request.lod != LodMode::off) frame.cacheFolder = pyramidFolder(request);
+    return frame;
+}
+
+std::filesystem::path pyramidFolder(const Request& request) {
+    if (request.noCache) return {};
+    return request.cacheFolder.empty() ? defaultCacheFolder() : request.cacheFolder;
+}
+
+void addPyramids(PreparedFrame& frame, const Progress& progress) {
+    const Clock::time_point begin = Clock::now();
+    const std::vector<Mesh>& meshes = frame.scene->meshes;
+    if (frame.settings.lod == LodMode::off) {
+        frame.world.pyramids = fullDetailPyramids(meshes, progress);
+    } else {
+        PyramidOptions options;
+        options.vertices = frame.settings.levelVertices;
+        const Finishes finishes(*frame.scene);
+        options.finishes = &finishes;
+        CachedPyramids cached = cachedPyramids(meshes, frame.cacheFolder, options, progress);
+        frame.world.pyramids = std::move(cached.pyramids);
+        frame.pyramidsLoaded = cached.loaded;
+        frame.cacheFailure = std::move(cached.failure);
+    }
+    frame.pyramidMilliseconds = millisecondsSince(begin);
+}
+
+PreparedFrame prepareFrame(const Request& request, const Progress& progress) {
+    PreparedFrame frame = placeFrame(request, progress);
+    addPyramids(frame, progress);
+    return frame;
+}
+
+std::vector<std::string> damageWarnings(const Scene& scene) {
+    std::vector<std::string> lines;
+    for (const Ignored& ignored : scene.ignored)
+        if (ignored.damage)
+            lines.push_back(fmt::format("{} {} left out: {}", grouped(ignored.count), ignored.what, ignored.reason));
+    return lines;
+}
+
+// Squares of lengths in units of the scene must be numbers of single precision.
+constexpr double largestScene = 1e15;    // m
+constexpr double smallestScene = 1e-15;  // m
+
+std::vector<std::string> frameWarnings(const PreparedFrame& frame) {
+    std::vector<std::string> lines = damageWarnings(*frame.scene);
+    if (frame.scaleNote) lines.push_back(*frame.scaleNote);
+    for (const std::string& line : frame.refusedLensValues)
+        lines.push_back(fmt::format("camera '{}': {}; not used", frame.cameraName, line));
+    const Lens& lens = frame.view.lens;
+    if (lens.dofEnabled && lens.focusDistance * 1000 <= lens.focalLength)
+        lines.push_back(
+            fmt::format("a focus at {:g} m lies inside the focal length of {:g} mm, where no real lens can be focused; "
+                        "are the scene's units metres?",
+                        lens.focusDistance, lens.focalLength));
+    if (const Bounds& bounds = frame.world.pose.bounds; !bounds.empty()) {
+        const glm::dvec3 reach = glm::max(glm::abs(bounds.minimum), glm::abs(bounds.maximum));
+        const double farthest = std::max({reach.x, reach.y, reach.z});
+        if (farthest > largestScene || farthest < smallestScene)
+            lines.push_back(
+                fmt::format("the scene reaches {:.2g} m from its origin: what lies beyond {:g} m, or is all "
+                            "smaller than {:g} m, isn't drawn right",
+                            farthest, largestScene, smallestScene));
+    }
+    if (!frame.cacheFailure.empty())
+        lines.push_back(fmt::format("simplified meshes are not kept for the next run: {}", frame.cacheFailure));
+    return lines;
+}
+
+}  // namespace defocus::engine

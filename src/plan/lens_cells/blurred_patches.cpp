@@ -1,0 +1,54 @@
+#include "plan/lens_cells/blurred_patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "plan/motion/object_pose.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// The least |CoC| that the object's surfaces may have at a depth and a place of the image, px.
+double leastCoc(const ObjectPlan& object, const FramePlan& plan, double depth, const glm::dvec2& ndc) {
+    return circleOfConfusionRange(plan.coc, {depth, depth, ndc, ndc, object.own}, plan.view.width).smallest;
+}
+
+double pixelsPerUnit(const ObjectPlan& object, const FramePlan& plan, double depth) {
+    return largestScale(object.pose) * plan.view.width / (2 * plan.tanHalfHorizontal * depth);
+}
+
+}  // namespace
+
+double pixelsPerUnitAtCentre(const ObjectPlan& object, const FramePlan& plan) {
+    return pixelsPerUnit(object, plan, -object.viewBox.centre().z);
+}
+
+double cocAtCentre(const ObjectPlan& object, const FramePlan& plan) {
+    const glm::dvec3 centre = object.viewBox.centre();
+    const glm::dvec2 ndc = glm::dvec2(centre) * glm::dvec2(1, plan.coc.aspect) / (-centre.z * plan.tanHalfHorizontal);
+    return leastCoc(object, plan, -centre.z, ndc);
+}
+
+std::array<double, patchDepths> blurredPatches(const ObjectPlan& object, const FramePlan& plan) {
+    const double pixel = plan.settings.lodCause == LodCause::blur ? 0 : 1;
+    const double blur = plan.settings.lodCause == LodCause::size ? 0 : 1;
+    const auto sideAt = [&](double depth, double coc) {
+        return std::sqrt(pixel + 0.75 * blur * coc * coc) / pixelsPerUnit(object, plan, depth);
+    };
+    std::array<double, patchDepths> sides;
+    if (plan.settings.lodCoc == LodCoc::centre) {
+        sides.fill(sideAt(-object.viewBox.centre().z, cocAtCentre(object, plan)));
+        return sides;
+    }
+    for (std::size_t i = 0; i < patchDepths; ++i) {
+        const double depth =
+            glm::mix(object.nearestDepth, object.farthestDepth, (static_cast<double>(i) + 0.5) / patchDepths);
+        const double coc = leastCoc(object, plan, depth, glm::dvec2(0));
+        sides[i] = sideAt(depth, std::clamp(coc, object.coc.smallest, object.coc.largest));
+    }
+    return sides;
+}
+
+}  // namespace defocus::engine

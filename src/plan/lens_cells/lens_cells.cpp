@@ -1,0 +1,182 @@
+#include "plan/lens_cells/lens_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+#include <utility>
+
+#include "plan/frame_plan.h"
+#include "plan/lens_cells/lens_groups.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// σ of the blur as a share of a disk's diameter, times √N. Cells that were disks would have 1/4. Two fifths more
+// closes the gaps between them.
+constexpr double cellWidth = 0.35;
+constexpr std::uint32_t fewestSamples = 4;  // fewer don't divide a lens
+constexpr std::uint32_t mostPointsOfCell = 16;
+constexpr std::uint32_t mostPoints = 1u << 14;  // of all cells
+
+std::string reasonForNone(const FramePlan& plan) {
+    if (plan.settings.keepAll) return "everything is kept";
+    if (!plan.usesLens) return "no blur reaches half a pixel";
+    if (plan.frameSamples < fewestSamples) return "there are too few samples";
+    if (plan.needsAlpha) return "the background is transparent";
+    if (plan.coc.chromatic > 0) return "each sample has a wavelength of its own";
+    if (plan.usesOwnBlur) return "objects or vertices have a blur of their own";
+    if (plan.usesTransmission) return "something shows what lies behind it";
+    return "";
+}
+
+// Mean and covariance of points of the lens, and how much of the disk their light fills. Of a disk unless said.
+struct LensSpread {
+    glm::dvec2 mean{0};
+    glm::dmat2 covariance{0.25};
+    double area = 1;
+};
+
+LensSpread spreadOf(const std::vector<LensSample>& samples) {
+    LensSpread spread{{}, glm::dmat2(0), 1};
+    const auto count = static_cast<double>(samples.size());
+    for (const LensSample& sample : samples) spread.mean += glm::dvec2(sample.lens) / count;
+    for (const LensSample& sample : samples) {
+        const glm::dvec2 off = glm::dvec2(sample.lens) - spread.mean;
+        spread.covariance += glm::outerProduct(off, off) / count;
+    }
+    return spread;
+}
+
+// How much of the disk an image's light would fill if it were even: (Σ w)² / Σ w² of its cells.
+double filledArea(const ApertureImage& image) {
+    double squares = 0;
+    double rowsBefore = 0;
+    const auto columns = static_cast<std::size_t>(image.columns);
+    for (std::size_t row = 0; row < image.rowEnds.size(); ++row) {
+        const double inRow = image.rowEnds[row] - std::exchange(rowsBefore, image.rowEnds[row]);
+        double before = 0;
+        for (std::size_t column = 0; column < columns; ++column) {
+            const double end = image.cellEnds[row * columns + column];
+            squares += std::pow(inRow * (end - std::exchange(before, end)), 2);
+        }
+    }
+    const double cellsOfDisk = std::numbers::pi / 4 * static_cast<double>(columns * image.rowEnds.size());
+    return std::min(1.0, 1 / (squares * cellsOfDisk));
+}
+
+LensSpread lensSpread(const Lens& lens) {
+    const Aperture aperture = makeAperture(lens);
+    if (isUniformDisk(aperture)) return {};
+    LensSpread spread = spreadOf(lensSamples(lens, Sequence::sobol, 0, 4096, 0));
+    // That of an ellipse with this covariance, less a ring's hole.
+    spread.area = std::min(1.0, 4 * std::sqrt(glm::determinant(spread.covariance)));
+    spread.area *= (1 - aperture.obstruction) / (1 + aperture.obstruction);
+    if (!aperture.image.rowEnds.empty()) spread.area = std::min(spread.area, filledArea(aperture.image));
+    return spread;
+}
+
+void rotate(std::vector<LensSample>& samples, double angle) {
+    const auto cosine = static_cast<float>(std::cos(angle));
+    const auto sine = static_cast<float>(std::sin(angle));
+    const glm::mat2 rotation(cosine, sine, -sine, cosine);
+    for (LensSample& sample : samples) sample.lens = rotation * sample.lens;
+}
+
+// Moves each sample to the mean of the points of its cell: more points of the sequence, divided evenly among the
+// samples that lie near them. They are divided along two axes, so that the means form rows and columns. With the axes
+// turned, means of a column fill the gaps to the next one where an upright or level edge is blurred.
+void moveToMeans(std::vector<LensSample>& samples, const FramePlan& plan) {
+    const auto count = static_cast<std::uint32_t>(samples.size());
+    const std::uint32_t points = std::min(mostPointsOfCell, mostPoints / count);
+    if (points < 2) return;
+    std::vector<LensSample> dense =
+        lensSamples(plan.view.lens, plan.settings.sequence, std::uint64_t{plan.frameFirst} * points, count * points,
+                    plan.settings.seed);
+    const double turn = 0.5 / std::sqrt(static_cast<double>(count));
+    rotate(dense, -turn);
+    rotate(samples, -turn);
+    const std::vector<std::uint32_t> order = groupedOrder(dense, samples, points);
+    for (std::size_t i = 0; i < count; ++i) {
+        glm::dvec2 sum(0);
+        for (std::size_t j = 0; j < points; ++j) sum += glm::dvec2(dense[order[i * points + j]].lens);
+        samples[i].lens = glm::vec2(sum / static_cast<double>(points));
+    }
+    rotate(samples, turn);
+}
+
+// The lower triangular L with L·Lᵀ = m (Cholesky).
+glm::dmat2 root(const glm::dmat2& m) {
+    const double a = std::sqrt(std::max(m[0][0], 1e-12));
+    const double b = m[0][1] / a;
+    return {a, b, 0, std::sqrt(std::max(m[1][1] - b * b, 1e-12))};
+}
+
+// Samples moved and stretched so that they have the lens's mean, and its covariance less `variance` along each axis.
+std::vector<glm::vec2> matched(const std::vector<LensSample>& samples, const LensSpread& lens, double variance) {
+    glm::dmat2 wanted = lens.covariance;
+    for (glm::length_t axis = 0; axis < 2; ++axis) wanted[axis][axis] -= std::min(variance, 0.75 * wanted[axis][axis]);
+    const LensSpread drawn = spreadOf(samples);
+    const glm::dmat2 matrix = root(wanted) * glm::inverse(root(drawn.covariance));
+    std::vector<glm::vec2> points;
+    for (const LensSample& sample : samples) {
+        const glm::dvec2 point = lens.mean + matrix * (glm::dvec2(sample.lens) - drawn.mean);
+        points.emplace_back(point / std::max(1.0, glm::length(point)));
+    }
+    return points;
+}
+
+double varianceOf(double blur, double coc) {
+    return std::max(0.0, blur * coc * blur * coc - leastCellVariance);
+}
+
+// Classes for a blur of up to `coc` px.
+int classesFor(double blur, double coc) {
+    const double variance = varianceOf(blur, coc);
+    int classes = variance > 0 ? 1 : 0;
+    while (classes > 0 && classes < mostCellClasses && variance > cellClassVariance(classes - 1)) ++classes;
+    return classes;
+}
+
+}  // namespace
+
+LensCells lensCells(const FramePlan& plan) {
+    LensCells cells;
+    cells.reason = reasonForNone(plan);
+    if (!cells.reason.empty()) return cells;
+
+    const LensSpread lens = lensSpread(plan.view.lens);
+    const double blur = cellWidth * std::sqrt(lens.area / plan.frameSamples);
+    double inFront = 0;
+    double behind = largestCocAtInfinity(plan.coc, plan.view.width);
+    for (const ObjectPlan& object : plan.objects) {
+        inFront = std::max(inFront, -object.coc.nearest);
+        behind = std::max(behind, object.coc.farthest);
+    }
+    cells.inFront = classesFor(blur, inFront);
+    cells.behind = classesFor(blur, behind);
+    cells.blur = blur;
+    cells.firstSample = plan.frameFirst;
+    std::vector<LensSample> samples = lensSamples(plan.view.lens, plan.settings.sequence, plan.frameFirst,
+                                                  plan.frameSamples - plan.frameFirst, plan.settings.seed);
+    for (const LensSample& sample : samples)
+        cells.pixelShift -= glm::dvec2(sample.pixel) / static_cast<double>(samples.size());
+    moveToMeans(samples, plan);
+    // A point at (1, 0) moves the image by c/2 px.
+    cells.middles = matched(samples, lens, 4 * blur * blur);
+    return cells;
+}
+
+double cellClassVariance(int k) {
+    return std::exp2(2 * k) / 3 + 1.0 / 6;
+}
+
+double pixelRate(const LensCells& cells, double coc) {
+    const double variance = std::min(varianceOf(cells.blur, coc), cellClassVariance(mostCellClasses - 1));
+    return 1 / std::sqrt(std::max(1.0, 3 * (variance - 1.0 / 6)));
+}
+
+}  // namespace defocus::engine

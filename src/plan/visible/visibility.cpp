@@ -1,0 +1,501 @@
+// Munkberg, Toth and Akenine-Möller 2012, Per-Vertex Defocus Blur for Stochastic Rasterization, Appendix A. Shirman and
+// Abi-Ezzi 1993, The Cone of Normals Technique for Fast Processing of Curved Patches.
+
+#include "plan/visible/visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "plan/motion/clip_vertices.h"
+#include "plan/visible/lens_facing.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double snapping = 1.0 / 128;      // px that an altitude may lose where positions have 8 bits below the pixel
+constexpr double transformation = 0x1p-21;  // of a position's terms: what single precision may lose of their sum
+constexpr double storage = 1e-6;            // relative: of a cluster's values
+constexpr double guardBand = 1.8;           // images from the middle beyond which triangles may be clipped
+constexpr int shutterParts = 4;             // of the way between two moments, each with one bound of the motion
+constexpr std::size_t mostMoments = 64;     // of the shutter: with more, all clusters are drawn
+constexpr std::size_t mostPosedVertices = 100'000;  // of a level, at all moments: as many take some 10 ms
+constexpr double leastSaving = 1.0 / 8;             // of a level's triangles, below which it is drawn whole
+constexpr std::uint32_t leastGap = 128;             // triangles: to hide fewer costs more than a further run of indices
+
+// The lens in object space during a part of the exposure.
+struct LensRange {
+    glm::dvec3 eye{0};             // its centre in the middle of the part
+    glm::dmat3 viewFromNormal{1};  // inverse transpose of the matrix
+    double inverseSize = 0;        // bound of the norm of the inverse matrix
+    double motion = 0;             // how far any point of the lens moves from where it is in the middle of the part
+};
+
+// An object as all samples of the frame see it.
+struct ObjectViews {
+    std::vector<glm::dmat4> viewFromObject;  // at the shutter's moments, and in the middle of the exposure
+    std::vector<LensRange> lenses;           // empty: no cluster is taken to face away
+    double lensRadius = 0;                   // m, of the disk that stands for the lens
+    double shapeLoss = 1;      // a triangle's altitude in px shrinks by a tilted focus plane's shear, at most
+    double leastVolume = 0;    // of a unit of the object's space, m³
+    double largestSize = 0;    // bound of the matrices' norms
+    double largestOffset = 0;  // m, of the object's origin from the camera
+    OwnBlur own;               // what the object's surfaces make of the blur
+};
+
+double frobeniusNorm(const glm::dmat3& m) {
+    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+// The lens while the matrix goes from `from` to `to`: at x = A⁻¹(e − T) for a point e. With τ the way from the middle,
+// x − x₀ = −τ·(I + τ·A⁻¹·ΔA)⁻¹·A⁻¹(ΔT + ΔA·x₀). Nothing where the matrix may lose its inverse or its winding.
+std::optional<LensRange> lensRange(const glm::dmat4& from, const glm::dmat4& to, bool mirrored, ObjectViews& views) {
+    const glm::dmat4 middle = 0.5 * (from + to);
+    const glm::dmat3 matrix(middle);
+    const glm::dmat3 change(0.5 * (to - from));
+    const double determinant = glm::determinant(matrix);
+    if (!(std::abs(determinant) > 0) || (determinant < 0) != mirrored) return {};
+    const glm::dmat3 inverse = glm::inverse(matrix);
+    LensRange range;
+    range.eye = -(inverse * glm::dvec3(middle[3]));
+    range.viewFromNormal = glm::transpose(inverse);
+    range.inverseSize = frobeniusNorm(inverse);
+    const double turn = frobeniusNorm(inverse * change);
+    if (!(turn < 0.5)) return {};
+    const glm::dvec3 velocity = inverse * (glm::dvec3(0.5 * (to[3] - from[3])) + change * range.eye);
+    range.motion = (glm::length(velocity) + turn * range.inverseSize * views.lensRadius) / (1 - turn);
+    views.leastVolume = std::min(views.leastVolume, std::abs(determinant) * std::pow(1 - turn, 3));
+    return range;
+}
+
+void addLenses(ObjectViews& views, const ObjectPlan& object, const World& world) {
+    views.leastVolume = infinity;
+    std::vector<LensRange> lenses;
+    const auto add = [&](const glm::dmat4& from, const glm::dmat4& to) {
+        const std::optional<LensRange> range = lensRange(from, to, object.mirrored, views);
+        if (range) lenses.push_back(*range);
+        return range.has_value();
+    };
+    if (!add(object.viewFromObject, object.viewFromObject)) return;
+    for (std::size_t i = 0; i < object.motion.size(); ++i) {
+        const glm::dmat4& from = object.motion[i].viewFromJoint.front();
+        const bool last = world.shutter.perSample || i + 1 == object.motion.size();
+        const glm::dmat4& to = last ? from : object.motion[i + 1].viewFromJoint.front();
+        const int parts = last ? 1 : shutterParts;
+        const auto between = [&](int part) { return from + static_cast<double>(part) / parts * (to - from); };
+        for (int part = 0; part < parts; ++part)
+            if (!add(between(part), between(part + 1))) return;
+    }
+    views.lenses = std::move(lenses);
+}
+
+// How far the samples reach on the unit disk.
+double lensReach(const FramePlan& plan) {
+    double reach = 0;
+    for (const LensSample& sample : plan.samples)
+        reach = std::max(reach, static_cast<double>(glm::length(sample.lens)));
+    return reach;
+}
+
+ObjectViews objectViews(const ObjectPlan& object, const World& world, const FramePlan& plan) {
+    ObjectViews views;
+    views.viewFromObject.push_back(object.viewFromObject);
+    for (const ObjectPose& pose : object.motion) views.viewFromObject.push_back(pose.viewFromJoint.front());
+    for (const glm::dmat4& matrix : views.viewFromObject) {
+        views.largestSize = std::max(views.largestSize, frobeniusNorm(glm::dmat3(matrix)));
+        views.largestOffset = std::max(views.largestOffset, glm::length(glm::dvec3(matrix[3])));
+    }
+    views.own = object.own;
+    if (views.own.varies() || plan.coc.aberrates()) return views;
+    const double factor = views.own.factorMost;
+    const double reach = lensReach(plan);
+    const ClipCircleOfConfusion& coc = plan.coc;
+    const double slope = reach * factor * (coc.front + coc.chromatic) * std::hypot(coc.tilt.x, coc.aspect * coc.tilt.y);
+    if (!(slope < 0.9)) return views;
+    views.lensRadius =
+        reach * factor * std::max(std::abs(coc.a), std::abs(coc.aBehind)) * plan.tanHalfHorizontal / (1 - slope);
+    views.shapeLoss = (1 + slope) / (1 - slope);
+    addLenses(views, object, world);
+    return views;
+}
+
+// Around the cluster's ball at all times.
+Bounds viewBoxOf(const Cluster& cluster, const ObjectViews& views) {
+    Bounds box;
+    for (const glm::dmat4& matrix : views.viewFromObject) {
+        const glm::dvec3 centre(matrix * glm::dvec4(glm::dvec3(cluster.centre), 1));
+        const glm::dmat3 rows = glm::transpose(glm::dmat3(matrix));
+        const glm::dvec3 reach = static_cast<double>(cluster.radius) *
+                                 glm::dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
+        box.extend(centre - reach);
+        box.extend(centre + reach);
+    }
+    return box;
+}
+
+// How far (object units) the lens must lie behind a plane so that no triangle of the cluster turns over when its
+// corners are rounded: a triangle of altitude α and longest edge L has the area f²·α·L·h·|det A|/(2 w₀w₁w₂) in px², f
+// px a unit at distance 1 and h the distance from its plane, and edges of at most f·L·‖A‖·distance/w². Infinity where
+// it might.
+double leastPlaneDistance(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
+    const double least = -box.maximum.z;
+    const double most = -box.minimum.z;
+    if (!(least > plan.view.nearPlane * (1 + storage)) || !(cluster.leastAltitude > 0)) return infinity;
+    const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
+    const double terms =
+        views.largestSize * (glm::length(glm::dvec3(cluster.centre)) + cluster.radius) + views.largestOffset;
+    const double lost = views.shapeLoss * (snapping + focal / least * transformation * terms);
+    const double distance = glm::length(glm::max(glm::abs(box.minimum), glm::abs(box.maximum))) + views.lensRadius;
+    return lost * views.largestSize * distance * most * most * most /
+           (focal * cluster.leastAltitude * views.leastVolume * least * least);
+}
+
+// All of the lens lies behind all planes of the cluster by `margin` or more.
+bool facesAway(const Cluster& cluster, const LensRange& lens, double lensRadius, double margin) {
+    const double cosine = cluster.leastCosine;
+    const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    const glm::dvec3 axis(cluster.axis);
+    const glm::dvec3 toCentre = glm::dvec3(cluster.centre) - lens.eye;
+    const double along = glm::dot(toCentre, axis);
+    const double across = glm::length(glm::cross(toCentre, axis));
+    const double size = glm::length(toCentre);
+    // n·toCentre is least for the n that is turned away from it by the cone's angle, or opposite if the cone holds
+    // that.
+    const bool holdsOpposite = across * cosine + along * sine < 0;
+    const double nearest = holdsOpposite ? -size : along * cosine - across * sine;
+    const double disk = lensRadius * (glm::length(glm::dvec2(lens.viewFromNormal * axis)) + sine * lens.inverseSize);
+    return nearest + cluster.planes - disk - lens.motion >= margin + storage * size;
+}
+
+// No triangle in the box is clipped into others, whose corners would be rounded anew.
+bool staysWhole(const CocBox& coc, const FramePlan& plan) {
+    const double reach = guardBand - circleOfConfusionRange(plan.coc, coc, plan.view.width).largest / plan.view.width *
+                                         std::max(1.0, plan.coc.aspect);
+    return std::max({-coc.ndcLeast.x, coc.ndcMost.x, -coc.ndcLeast.y, coc.ndcMost.y}) < reach;
+}
+
+// C is one linear function of the place all over the box.
+bool isOneLinearPiece(const CocBox& coc, const FramePlan& plan) {
+    const glm::dvec2 tanHalf = plan.tanHalfHorizontal * glm::dvec2(1, 1 / plan.coc.aspect);
+    const CocDeviation deviation = cocDeviation(plan.coc, coc, 1, tanHalf, plan.view.width);
+    return deviation.kinks == 0 && deviation.curved == 0;
+}
+
+bool clusterFacesAway(const Cluster& cluster, const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
+    if (views.lenses.empty() || !(cluster.leastCosine > 0)) return false;
+    const double margin = leastPlaneDistance(cluster, box, views, plan);
+    if (!(margin < infinity)) return false;
+    const bool away = std::all_of(views.lenses.begin(), views.lenses.end(), [&](const LensRange& lens) {
+        return facesAway(cluster, lens, views.lensRadius, margin);
+    });
+    if (!away) return false;
+    const CocBox coc = cocBoxOf(box, views.own, plan);
+    return staysWhole(coc, plan) && (!plan.usesCocControls || isOneLinearPiece(coc, plan));
+}
+
+// ---- by the corners themselves -------------------------------------------------------------------------------------
+
+// A level's corners at moments of the exposure. Where C is any function, or vertices move against each other, only they
+// say what the lens sees.
+struct LevelCorners {
+    std::vector<ClipVertices> moments;  // one: everything stands still
+    bool apart = false;                 // each moment is a sample's own; else corners go evenly from one to the next
+    double terms = 0;                   // m, of the sums that make positions on the GPU
+    double lensRadius = 1;              // of the samples on the unit disk
+    double sign = 1;                    // −1: mirrored
+};
+
+LevelCorners levelCorners(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
+    LevelCorners corners;
+    const std::size_t last = object.motion.empty() ? 0 : object.motion.size() - 1;
+    corners.apart = !object.motion.empty() && world.shutter.perSample;
+    const auto add = [&](const ObjectPose& pose, double time) {
+        corners.moments.push_back(clipVertices(plan, world, object, level, pose, time));
+        for (const glm::dmat4& matrix : pose.viewFromJoint)
+            corners.terms = std::max(corners.terms, glm::length(glm::dvec3(matrix[3])));
+    };
+    if (object.motion.empty() && !object.blurMoves) add(object.pose, 0.5);
+    if (object.motion.empty() && object.blurMoves)
+        for (const double time : {0.0, 1.0}) add(object.pose, time);
+    for (std::size_t i = 0; i < object.motion.size(); ++i)
+        add(object.motion[i], corners.apart ? static_cast<double>(plan.samples[i].time)
+                                            : static_cast<double>(i) / static_cast<double>(last));
+    // A skin adds matrices up: each term is as large as the place it leads to, or as the joint is far.
+    const double farthest = glm::length(glm::max(glm::abs(object.viewBox.minimum), glm::abs(object.viewBox.maximum)));
+    corners.terms = 2 * (corners.terms + farthest);
+    corners.lensRadius = lensReach(plan);
+    corners.sign = object.mirrored ? -1 : 1;
+    return corners;
+}
+
+// Whether a level's corners decide which of its clusters are drawn: it must show triangles as they are, and not be so
+// large that the test would take longer than it saves.
+bool cornersDecide(const ObjectPlan& object, std::uint32_t level, const World& world, const FramePlan& plan) {
+    const bool bends = object.deformed || object.skinned;
+    if (!bends && !plan.usesCocControls) return false;
+    if (object.refinement != Refinement::none || object.nearestDepth <= plan.view.nearPlane) return false;
+    const PyramidLevel& own = world.pyramids[static_cast<std::size_t>(object.mesh)].levels[level];
+    return own.vertexCount * std::max<std::size_t>(object.motion.size(), 1) <= mostPosedVertices;
+}
+
+Bounds viewBoxOf(const IndexRange& range, const Pyramid& pyramid, const LevelCorners& corners, const FramePlan& plan) {
+    const glm::dvec3 tangents(plan.tanHalfHorizontal, plan.tanHalfHorizontal / plan.coc.aspect, -1);
+    Bounds box;
+    for (const ClipVertices& moment : corners.moments)
+        for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+            box.extend(moment.places[pyramid.indices[i]] * tangents);
+    return box;
+}
+
+LensTriangle triangleAt(const ClipVertices& moment, const std::uint32_t* indices) {
+    LensTriangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+        triangle.places[k] = moment.places[indices[k]];
+        triangle.coc[k] = moment.coc[indices[k]];
+    }
+    return triangle;
+}
+
+// By how much the determinant must be below 0 so that rounded corners can't turn the triangle over. Twice its area in
+// px² is W·H/4·det/(w₀w₁w₂); corners that move by r px change it by 2r·(sum of two edges) + 8r² at most.
+double leastDeterminant(const LensTriangle& from, const LensTriangle& to, double terms, const FramePlan& plan) {
+    double least = infinity;
+    double most = 0;
+    double edge = 0;
+    for (const LensTriangle* triangle : {&from, &to})
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const glm::dvec3& p = triangle->places[i];
+            const glm::dvec3& q = triangle->places[j];
+            least = std::min(least, p.z);
+            most = std::max(most, p.z);
+            const glm::dvec2 step = glm::abs(glm::dvec2(p) / p.z - glm::dvec2(q) / q.z);
+            const double blur = std::abs(triangle->coc[i] / p.z - triangle->coc[j] / q.z);
+            edge = std::max(edge, plan.view.width * (step.x / 2 + blur) + plan.view.height * step.y / 2);
+        }
+    const double focal = plan.view.width / (2 * plan.tanHalfHorizontal);
+    const double rounded = snapping + focal / least * transformation * terms;
+    const double stretched = edge * (most / least) * (most / least);
+    return (4 * rounded * stretched + 8 * rounded * rounded) * 4 / plan.view.width / plan.view.height * most * most *
+           most;
+}
+
+// Two corners are one.
+bool drawsNothing(const LensTriangle& t) {
+    const auto same = [&](std::size_t i, std::size_t j) { return t.places[i] == t.places[j] && t.coc[i] == t.coc[j]; };
+    return same(0, 1) || same(1, 2) || same(2, 0);
+}
+
+bool triangleFacesAway(const std::uint32_t* indices, const LevelCorners& corners, const FramePlan& plan) {
+    const double aspect = plan.coc.aspect;
+    const auto away = [&](LensTriangle from, LensTriangle to, int parts) {
+        if (drawsNothing(from) && drawsNothing(to)) return true;
+        if (corners.sign < 0)
+            for (LensTriangle* triangle : {&from, &to}) {
+                std::swap(triangle->places[1], triangle->places[2]);
+                std::swap(triangle->coc[1], triangle->coc[2]);
+            }
+        const double margin = leastDeterminant(from, to, corners.terms, plan);
+        for (int part = 0; part < parts; ++part) {
+            const LensTriangle begin = between(from, to, static_cast<double>(part) / parts);
+            const LensTriangle end = between(from, to, static_cast<double>(part + 1) / parts);
+            if (!(largestDeterminant(begin, end, aspect, corners.lensRadius) <= -margin)) return false;
+        }
+        return true;
+    };
+    const std::vector<ClipVertices>& moments = corners.moments;
+    if (moments.size() == 1 || corners.apart)
+        return std::all_of(moments.begin(), moments.end(), [&](const ClipVertices& moment) {
+            const LensTriangle triangle = triangleAt(moment, indices);
+            return away(triangle, triangle, 1);
+        });
+    for (std::size_t i = 0; i + 1 < moments.size(); ++i)
+        if (!away(triangleAt(moments[i], indices), triangleAt(moments[i + 1], indices), shutterParts)) return false;
+    return true;
+}
+
+// C of a corner is linear between two moments: of the thin lens, because w is; else if it is one linear function.
+bool goesEvenly(const CocBox& coc, const LevelCorners& corners, const ObjectPlan& object, const FramePlan& plan) {
+    if (corners.apart || corners.moments.size() == 1 || object.motion.empty()) return true;
+    if (object.blurMoves) return false;
+    return plan.coc.thinLens() || isOneLinearPiece(coc, plan);
+}
+
+bool cornersFaceAway(const IndexRange& range, const Bounds& box, const LevelCorners& corners, const ObjectPlan& object,
+                     const Pyramid& pyramid, const FramePlan& plan) {
+    if (!(-box.maximum.z > plan.view.nearPlane * (1 + storage))) return false;
+    if (plan.coc.chromatic > 0 || plan.coc.aberrates()) return false;
+    const CocBox coc = cocBoxOf(box, object.own, plan);
+    if (!staysWhole(coc, plan) || !goesEvenly(coc, corners, object, plan)) return false;
+    for (std::uint32_t i = range.first; i < range.first + range.count; i += 3)
+        if (!triangleFacesAway(&pyramid.indices[i], corners, plan)) return false;
+    return true;
+}
+
+// ---- levels --------------------------------------------------------------------------------------------------------
+
+bool clusterOutside(const Bounds& box, const ObjectViews& views, const FramePlan& plan) {
+    double largest = infinity;
+    if (-box.maximum.z > plan.view.nearPlane)
+        largest = circleOfConfusionRange(plan.coc, cocBoxOf(box, views.own, plan), plan.view.width).largest;
+    return outsideWidenedFrustum(box, plan, views.own, largest);
+}
+
+bool doubleSided(const Scene& scene, const Primitive& primitive) {
+    return primitive.material >= 0 && scene.materials[static_cast<std::size_t>(primitive.material)].doubleSided;
+}
+
+// Runs of a primitive's indices, and what is left out between them.
+class Runs {
+public:
+    explicit Runs(VisibleLevel& level) : level_(&level), runs_(&level.primitives.emplace_back()) {}
+
+    void show(const IndexRange& range) {
+        if (!runs_->empty() && (away_ + outside_) < leastGap)  // not worth a further run
+            runs_->back().count += 3 * (away_ + outside_) + range.count;
+        else {
+            leaveOut();
+            runs_->push_back(range);
+        }
+        away_ = 0;
+        outside_ = 0;
+    }
+    void hideFacingAway(std::uint32_t triangles) { away_ += triangles; }
+    void hideOutside(std::uint32_t triangles) { outside_ += triangles; }
+    void leaveOut() {
+        level_->facingAway += away_;
+        level_->outside += outside_;
+    }
+
+private:
+    VisibleLevel* level_;
+    std::vector<IndexRange>* runs_;
+    std::uint32_t away_ = 0;  // triangles since the last run
+    std::uint32_t outside_ = 0;
+};
+
+VisibleLevel levelWithoutHidden(const ObjectViews& views, const ObjectPlan& object, std::uint32_t number,
+                                const World& world, const FramePlan& plan) {
+    VisibleLevel visible;
+    visible.level = number;
+    const Mesh& mesh = world.scene->meshes[static_cast<std::size_t>(object.mesh)];
+    const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
+    const PyramidLevel& level = pyramid.levels[number];
+    std::optional<LevelCorners> corners;
+    if (cornersDecide(object, number, world, plan)) corners = levelCorners(object, number, world, plan);
+    const bool bends = object.deformed || object.skinned;
+    if (!corners && bends) return visible;
+    auto cluster = level.clusters.begin();
+    for (std::size_t p = 0; p < level.primitives.size(); ++p) {
+        Runs runs(visible);
+        const bool oneSided = !doubleSided(*world.scene, mesh.primitives[p]);
+        const std::uint32_t end = level.primitives[p].first + level.primitives[p].count;
+        for (; cluster != level.clusters.end() && cluster->indices.first < end; ++cluster) {
+            const Bounds box =
+                corners ? viewBoxOf(cluster->indices, pyramid, *corners, plan) : viewBoxOf(*cluster, views);
+            if (clusterOutside(box, views, plan))
+                runs.hideOutside(cluster->indices.count / 3);
+            else if (oneSided && ((!bends && clusterFacesAway(*cluster, box, views, plan)) ||
+                                  (corners && cornersFaceAway(cluster->indices, box, *corners, object, pyramid, plan))))
+                runs.hideFacingAway(cluster->indices.count / 3);
+            else
+                runs.show(cluster->indices);
+        }
+        runs.leaveOut();
+    }
+    return visible;
+}
+
+}  // namespace
+
+CocBox cocBoxOf(const Bounds& viewBox, const OwnBlur& own, const FramePlan& plan) {
+    CocBox box{.zNear = -viewBox.maximum.z, .zFar = -viewBox.minimum.z};
+    box.own = own;
+    const double aspect = static_cast<double>(plan.view.width) / plan.view.height;
+    const glm::dvec2 perTangent(1 / plan.tanHalfHorizontal, aspect / plan.tanHalfHorizontal);
+    box.ndcLeast = glm::dvec2(infinity);
+    box.ndcMost = -box.ndcLeast;
+    for (const glm::dvec3& corner : viewBox.corners()) {
+        const glm::dvec2 ndc = glm::dvec2(corner) * perTangent / -corner.z;
+        box.ndcLeast = glm::min(box.ndcLeast, ndc);
+        box.ndcMost = glm::max(box.ndcMost, ndc);
+    }
+    return box;
+}
+
+namespace {
+
+// The largest |factor·(a + b·w) + added·w| of any wavelength: linear in each of the two, so that their ends bound it.
+double thinLensReach(const ClipCircleOfConfusion& coc, const OwnBlur& own, double w) {
+    double reach = 0;
+    for (const double factor : {own.factorLeast, own.factorMost})
+        for (const double added : {own.addedLeast, own.addedMost})
+            reach = std::max(reach, std::abs(factor * (coc.a + coc.front * w) + added * w));
+    return reach + own.factorMost * std::abs(w) * coc.chromatic;
+}
+
+}  // namespace
+
+// All corners lie outside one plane of the frustum: for the left one, at the place −1 in the image, while x/tan + w +
+// |C| < 0 (half a pixel added for the jitter). The thin lens's |C(w)| is convex, so corners bound it; otherwise |C|/w
+// is at most `largest` px over the image's width. Within the image a further pixel makes up for rounded corners of
+// triangles.
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest,
+                           const PixelRectangle& area) {
+    const View& view = plan.view;
+    const ClipCircleOfConfusion& coc = plan.coc;
+    const double tanX = plan.tanHalfHorizontal;
+    const double tanY = tanX * view.height / view.width;
+    const auto border = [](int pixel, int pixels, int rounded) {
+        if (pixel <= 0) return -1.0;
+        return pixel >= pixels ? 1.0 : 2.0 * (pixel + rounded) / pixels - 1;
+    };
+    const double left = border(area.left, view.width, -1);
+    const double right = border(area.left + area.width, view.width, 1);
+    const double upper = -border(area.top, view.height, -1);
+    const double lower = -border(area.top + area.height, view.height, 1);
+    bool outside[5] = {true, true, true, true, true};
+    for (const glm::dvec3& corner : viewBox.corners()) {
+        const double w = -corner.z;
+        const double reach = coc.thinLens() ? thinLensReach(coc, own, w) : std::abs(w) * largest / view.width;
+        const double x = corner.x / tanX;
+        const double y = corner.y / tanY;
+        const double marginX = std::abs(w) / view.width + reach;
+        const double marginY = std::abs(w) / view.height + reach * view.width / view.height;
+        outside[0] &= x - left * w + marginX < 0;
+        outside[1] &= right * w - x + marginX < 0;
+        outside[2] &= y - lower * w + marginY < 0;
+        outside[3] &= upper * w - y + marginY < 0;
+        outside[4] &= w < view.nearPlane;
+    }
+    return std::any_of(std::begin(outside), std::end(outside), [](bool value) { return value; });
+}
+
+bool outsideWidenedFrustum(const Bounds& viewBox, const FramePlan& plan, const OwnBlur& own, double largest) {
+    return outsideWidenedFrustum(viewBox, plan, own, largest, {0, 0, plan.view.width, plan.view.height});
+}
+
+void leaveOutClusters(ObjectPlan& object, const World& world, const FramePlan& plan) {
+    if (object.motion.size() > mostMoments) return;
+    ObjectViews views;
+    views.own = object.own;
+    if (!object.deformed && !object.skinned) views = objectViews(object, world, plan);
+    const Pyramid& pyramid = world.pyramids[static_cast<std::size_t>(object.mesh)];
+    for (LevelDraw* draw : {&object.coarse, &object.fine}) {
+        if (draw->sampleCount == 0) continue;
+        VisibleLevel visible = levelWithoutHidden(views, object, draw->level, world, plan);
+        const std::uint32_t all = pyramid.levels[draw->level].triangleCount;
+        const std::uint32_t saved = visible.facingAway + visible.outside;
+        if (saved == 0 || saved < leastSaving * all) continue;
+        draw->triangleCount = all - saved;
+        object.visible.push_back(std::move(visible));
+    }
+}
+
+}  // namespace defocus::engine

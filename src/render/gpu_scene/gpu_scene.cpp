@@ -1,0 +1,353 @@
+#include "render/gpu_scene/gpu_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "core/error.h"
+
+namespace defocus::engine {
+
+namespace {
+
+// From how many times its own reach a mesh counts as far from its origin.
+constexpr double farFromOrigin = 4;
+
+template <typename T>
+Buffer prefixBuffer(const std::vector<T>& items, std::size_t count) {
+    return items.empty() ? Buffer() : Buffer(count * sizeof(T), items.data());
+}
+
+// Level 0's colours lie in [0, 1], where fixed point holds what files of 8 and 16 bits have exactly. Those that a
+// coarser level fits may lie outside.
+GLenum colorTypeOf(std::size_t level) {
+    return level == 0 ? GL_UNSIGNED_SHORT : GL_HALF_FLOAT;
+}
+
+void appendColors(std::vector<glm::u16vec4>& result, const std::vector<glm::vec4>& colors, GLenum type) {
+    for (const glm::vec4& color : colors)
+        result.push_back(type == GL_HALF_FLOAT ? glm::packHalf(color) : glm::packUnorm<glm::uint16>(color));
+}
+
+GLenum wrapMode(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::repeat:
+            return GL_REPEAT;
+        case Wrap::clampToEdge:
+            return GL_CLAMP_TO_EDGE;
+        case Wrap::mirroredRepeat:
+            return GL_MIRRORED_REPEAT;
+    }
+    return GL_REPEAT;
+}
+
+GLenum minificationFilter(const Texture& texture) {
+    if (!texture.mipmaps) return texture.minification == Filter::linear ? GL_LINEAR : GL_NEAREST;
+    return texture.minification == Filter::linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+}
+
+constexpr float leastAttenuation = 1e-6f;  // of a colour channel, whose logarithm is taken
+
+constexpr float rangeRounding = 1e-3f;  // in 1/255: so much of a step outwards is none
+
+void measureColors(const std::vector<glm::vec4>& colors, GpuLevel& level) {
+    if (colors.empty()) return;
+    level.leastColor = level.mostColor = colors.front();
+    for (const glm::vec4& color : colors) {
+        level.leastColor = glm::min(level.leastColor, color);
+        level.mostColor = glm::max(level.mostColor, color);
+    }
+}
+
+void addRelative(std::vector<glm::vec3>& list, const std::vector<glm::vec3>& positions, const glm::dvec3& origin) {
+    for (const glm::vec3& position : positions) list.emplace_back(glm::dvec3(position) - origin);
+}
+
+}  // namespace
+
+glm::dvec3 meshOrigin(const Bounds& bounds) {
+    if (bounds.empty()) return glm::dvec3(0);
+    const glm::dvec3 middle = bounds.centre();
+    const glm::dvec3 size = bounds.size();
+    const double reach = 0.5 * std::max({size.x, size.y, size.z});
+    glm::dvec3 origin(0);
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+        if (std::abs(middle[axis]) >= farFromOrigin * reach) origin[axis] = static_cast<float>(middle[axis]);
+    return origin;
+}
+
+std::vector<glm::u16vec4> cornerColorRanges(const std::vector<glm::vec4>& colors,
+                                            std::span<const std::uint32_t> indices) {
+    if (colors.empty()) return {};
+    std::vector<glm::vec4> least = colors;
+    std::vector<glm::vec4> most = colors;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const glm::vec4 &a = colors[indices[i]], &b = colors[indices[i + 1]], &c = colors[indices[i + 2]];
+        const glm::vec4 low = glm::min(glm::min(a, b), c);
+        const glm::vec4 high = glm::max(glm::max(a, b), c);
+        for (std::size_t k = i; k < i + 3; ++k) {
+            least[indices[k]] = glm::min(least[indices[k]], low);
+            most[indices[k]] = glm::max(most[indices[k]], high);
+        }
+    }
+    std::vector<glm::u16vec4> ranges;
+    ranges.reserve(colors.size());
+    for (std::size_t v = 0; v < colors.size(); ++v)
+        ranges.push_back(glm::u16vec4(glm::ceil(255.0f * most[v] - rangeRounding)) * std::uint16_t{256} +
+                         glm::u16vec4(glm::floor(255.0f * least[v] + rangeRounding)));
+    return ranges;
+}
+
+const Material& GpuScene::material(int index) const {
+    static const Material gltfDefault;
+    return index >= 0 ? world_->scene->materials[static_cast<std::size_t>(index)] : gltfDefault;
+}
+
+void GpuScene::prepare(const FramePlan& plan) {
+    prepareObjects(plan, plan.objects);
+    prepareObjects(plan, plan.shadows.casters);
+}
+
+void GpuScene::prepareObjects(const FramePlan& plan, const std::vector<ObjectPlan>& objects) {
+    for (const ObjectPlan& object : objects) {
+        std::vector<bool> wanted = plan.levelsUsed[static_cast<std::size_t>(object.mesh)];
+        const auto found = meshes_.find(object.mesh);
+        if (found == meshes_.end()) {
+            uploadMesh(object.mesh, wanted);
+            for (const Primitive& primitive : world_->scene->meshes[static_cast<std::size_t>(object.mesh)].primitives)
+                prepareMaterial(primitive.material);
+            continue;
+        }
+        const std::vector<GpuLevel>& levels = found->second.levels;
+        bool missing = false;
+        for (std::size_t level = 0; level < wanted.size(); ++level) {
+            missing |= wanted[level] && !levels[level].uploaded;
+            wanted[level] = wanted[level] || levels[level].uploaded;
+        }
+        if (missing) uploadMesh(object.mesh, wanted);
+    }
+}
+
+void GpuScene::uploadMesh(int mesh, const std::vector<bool>& levels) {
+    const Pyramid& pyramid = world_->pyramids[static_cast<std::size_t>(mesh)];
+    GpuMesh result;
+    result.origin = meshOrigin(pyramid.bounds);
+    result.levels.resize(pyramid.levels.size());
+
+    // Level l uses a prefix of the vertices: the finest wanted level says how many are needed.
+    std::size_t vertexCount = 0;
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::u16vec4> colors;
+    std::vector<glm::vec2> uv0, uv1;
+    std::vector<glm::u16vec4> colorRanges;
+    std::vector<std::uint32_t> indices;
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        if (!levels[level]) continue;
+        const PyramidLevel& source = pyramid.levels[level];
+        GpuLevel& target = result.levels[level];
+        vertexCount = std::max<std::size_t>(vertexCount, source.vertexCount);
+        target.uploaded = true;
+        target.vectorOffset = normals.size() * sizeof(glm::vec3);
+        addRelative(positions, source.positions, result.origin);
+        normals.insert(normals.end(), source.normals.begin(), source.normals.end());
+        target.colorOffset = colors.size() * sizeof(glm::u16vec4);
+        target.colorType = colorTypeOf(level);
+        appendColors(colors, source.colors, target.colorType);
+        target.uvOffset = std::max(uv0.size(), uv1.size()) * sizeof(glm::vec2);
+        uv0.insert(uv0.end(), source.uv0.begin(), source.uv0.end());
+        uv1.insert(uv1.end(), source.uv1.begin(), source.uv1.end());
+        for (const IndexRange& range : source.primitives) {
+            target.indexOffsets.push_back(indices.size() * sizeof(std::uint32_t));
+            const auto first = pyramid.indices.begin() + range.first;
+            indices.insert(indices.end(), first, first + range.count);
+        }
+        if (level == 0)  // the first: `indices` holds its triangles alone
+            colorRanges = cornerColorRanges(source.colors, indices);
+        else
+            measureColors(source.colors, target);
+    }
+    const Vertices& vertices = pyramid.vertices;
+    result.positions = prefixBuffer(positions, positions.size());
+    result.normals = prefixBuffer(normals, normals.size());
+    result.colors = prefixBuffer(colors, colors.size());
+    result.colorRanges = prefixBuffer(colorRanges, colorRanges.size());
+    result.uv0 = prefixBuffer(uv0, uv0.size());
+    result.uv1 = prefixBuffer(uv1, uv1.size());
+    result.tangents = prefixBuffer(vertices.tangents, vertexCount);
+    result.blurs = prefixBuffer(vertices.blurs, vertexCount);
+    result.indices = prefixBuffer(indices, indices.size());
+
+    VertexArray& array = result.vertexArray;
+    const auto attach = [&](unsigned location, const Buffer& buffer, GLint components, std::size_t stride) {
+        if (!buffer) return;
+        array.attribute(location, components, GL_FLOAT, false);
+        array.bind(location, buffer, 0, stride);
+    };
+    attach(positionLocation, result.positions, 3, sizeof(glm::vec3));
+    attach(normalLocation, result.normals, 3, sizeof(glm::vec3));
+    attach(uv0Location, result.uv0, 2, sizeof(glm::vec2));
+    attach(uv1Location, result.uv1, 2, sizeof(glm::vec2));
+    attach(tangentLocation, result.tangents, 4, sizeof(glm::vec4));
+    attach(blurLocation, result.blurs, 3, sizeof(VertexBlur));
+    if (result.colorRanges) {
+        array.attribute(colorRangeLocation, 4, GL_UNSIGNED_SHORT, false);
+        array.bind(colorRangeLocation, result.colorRanges, 0, sizeof(glm::u16vec4));
+    }
+    array.attribute(lensLocation, 4, GL_FLOAT, false, true);
+    array.attribute(eyeLocation, 4, GL_FLOAT, false, true);
+    if (result.indices) array.indices(result.indices);
+    uploadDeformation(mesh, vertexCount, result);
+    meshes_.insert_or_assign(mesh, std::move(result));
+}
+
+void GpuScene::uploadDeformation(int mesh, std::size_t vertexCount, GpuMesh& target) {
+    const Pyramid& pyramid = world_->pyramids[static_cast<std::size_t>(mesh)];
+    GpuDeformation& deformation = target.deformation;
+    deformation.joints = prefixBuffer(pyramid.vertices.joints, vertexCount);
+    deformation.weights = prefixBuffer(pyramid.vertices.weights, vertexCount);
+    deformation.joints1 = prefixBuffer(pyramid.vertices.joints1, vertexCount);
+    deformation.weights1 = prefixBuffer(pyramid.vertices.weights1, vertexCount);
+    const auto attach = [&](unsigned location, const Buffer& buffer, GLenum type, std::size_t stride) {
+        if (!buffer) return;
+        target.vertexArray.attribute(location, 4, type, false);
+        target.vertexArray.bind(location, buffer, 0, stride);
+    };
+    attach(jointsLocation, deformation.joints, GL_UNSIGNED_SHORT, sizeof(glm::u16vec4));
+    attach(weightsLocation, deformation.weights, GL_FLOAT, sizeof(glm::vec4));
+    attach(joints1Location, deformation.joints1, GL_UNSIGNED_SHORT, sizeof(glm::u16vec4));
+    attach(weights1Location, deformation.weights1, GL_FLOAT, sizeof(glm::vec4));
+
+    const Mesh& source = world_->scene->meshes[static_cast<std::size_t>(mesh)];
+    if (source.morphTargets.empty()) return;
+    deformation.vertexCount = vertexCount;
+    for (const MorphTarget& morph : source.morphTargets) {
+        deformation.morphNormals |= !morph.normals.empty();
+        deformation.morphTangents |= !morph.tangents.empty() && !source.vertices.tangents.empty();
+    }
+    std::vector<glm::vec3> texels;
+    texels.reserve(static_cast<std::size_t>(deformation.attributesPerTarget()) * vertexCount *
+                   source.morphTargets.size());
+    const auto add = [&](const std::vector<glm::vec3>& displacements) {
+        for (std::size_t v = 0; v < vertexCount; ++v)
+            texels.push_back(displacements.empty() ? glm::vec3(0) : displacements[pyramid.source[v]]);
+    };
+    for (const MorphTarget& morph : source.morphTargets) {
+        add(morph.positions);
+        if (deformation.morphNormals) add(morph.normals);
+        if (deformation.morphTangents) add(morph.tangents);
+    }
+    deformation.morphs =
+        TexelBuffer({texels.empty() ? nullptr : &texels.front().x, texels.size() * 3}, GL_RGB32F, 3, "morph targets");
+}
+
+const GlTexture* GpuScene::texture(const TextureUse& use, bool srgb) {
+    if (!use.used()) return nullptr;
+    const auto [entry, isNew] = textures_.try_emplace({use.texture, srgb});
+    if (!isNew) return &entry->second;
+    const Texture& source = world_->scene->textures[static_cast<std::size_t>(use.texture)];
+    const TextureImage& image = world_->scene->images[static_cast<std::size_t>(source.image)];
+    GlTexture& result = entry->second;
+    result = GlTexture({.format = srgb ? TextureFormat::srgb8Alpha8 : TextureFormat::rgba8,
+                        .width = image.width,
+                        .height = image.height,
+                        .levels = source.mipmaps ? mipmapLevels(image.width, image.height) : 1});
+    result.upload(0, image.width, image.height, image.rgba.data());
+    if (source.mipmaps) result.generateMipmaps();
+    result.sampling(minificationFilter(source), source.magnification == Filter::linear ? GL_LINEAR : GL_NEAREST,
+                    wrapMode(source.wrapS), wrapMode(source.wrapT));
+    return &result;
+}
+
+void GpuScene::prepareMaterial(int index) {
+    if (materialTextures_.contains(index)) return;
+    const Material& m = material(index);
+    GpuMaterialTextures& slots = materialTextures_[index];
+    slots.slots[0] = texture(m.baseColor, true);
+    if (m.unlit) return;
+    slots.slots[1] = texture(m.metallicRoughness, false);
+    slots.slots[2] = texture(m.normal, false);
+    slots.slots[3] = texture(m.occlusion, false);
+    slots.slots[4] = texture(m.emissive, true);
+    if (m.hasOwnReflectance()) {
+        slots.slots[5] = texture(m.specular, false);
+        slots.slots[6] = texture(m.specularColor, true);
+    }
+    if (m.transmits()) {
+        slots.slots[7] = texture(m.transmission, false);
+        slots.slots[8] = texture(m.thickness, false);
+    }
+    if (m.hasClearcoat()) {
+        slots.slots[9] = texture(m.clearcoat, false);
+        slots.slots[10] = texture(m.clearcoatRoughness, false);
+        slots.slots[11] = texture(m.clearcoatNormal, false);
+    }
+    if (m.hasSheen()) {
+        slots.slots[12] = texture(m.sheenColor, true);
+        slots.slots[13] = texture(m.sheenRoughness, false);
+    }
+}
+
+// Units 5, 6 and 7 are the environment's and the poses'.
+void GpuMaterialTextures::attach() const {
+    for (GLuint i = 0; i < materialTextureCount; ++i)
+        if (slots[i] != nullptr) slots[i]->attach(i < 5 ? i : i + 3);
+}
+
+void bindLevel(GpuMesh& mesh, std::size_t level) {
+    const GpuLevel& source = mesh.levels[level];
+    VertexArray& array = mesh.vertexArray;
+    array.bind(positionLocation, mesh.positions, source.vectorOffset, sizeof(glm::vec3));
+    array.bind(normalLocation, mesh.normals, source.vectorOffset, sizeof(glm::vec3));
+    if (mesh.uv0) array.bind(uv0Location, mesh.uv0, source.uvOffset, sizeof(glm::vec2));
+    if (mesh.uv1) array.bind(uv1Location, mesh.uv1, source.uvOffset, sizeof(glm::vec2));
+    if (!mesh.colors) return;
+    array.attribute(colorLocation, 4, source.colorType, source.colorType == GL_UNSIGNED_SHORT);
+    array.bind(colorLocation, mesh.colors, source.colorOffset, sizeof(glm::u16vec4));
+}
+
+GpuMaterial GpuScene::materialBlock(int index) const {
+    const Material& material = this->material(index);
+    GpuMaterial block{};
+    block.baseColor = material.baseColorFactor;
+    block.emissiveCutoff = glm::vec4(material.emissiveFactor, material.alphaCutoff);
+    block.surface = {material.metallicFactor, material.roughnessFactor, material.normalScale,
+                     material.occlusionStrength};
+    // Normal incidence on a dielectric: ((n − 1)/(n + 1))²; an index of 0 stands for one without bound.
+    const float ior = material.ior;
+    const float normalIncidence = ior > 0 ? (ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)) : 1.0f;
+    block.reflectance = glm::vec4(normalIncidence * material.specularColorFactor, material.specularFactor);
+    // The rougher and the denser, the wider what lies behind is spread; none at the index of air.
+    block.transmission = {material.transmissionFactor, material.thicknessFactor, ior > 0 ? 1 / ior : 0.0f,
+                          ior > 0 ? glm::clamp(2 * ior - 2, 0.0f, 1.0f) : 1.0f};
+    const double distance = material.attenuationDistance * world_->scene->metresPerUnit;
+    block.absorption =
+        glm::vec4(-glm::log(glm::max(material.attenuationColor, leastAttenuation)) / static_cast<float>(distance), 0);
+    block.coat = {material.clearcoatFactor, material.clearcoatRoughnessFactor, material.clearcoatNormalScale, 0};
+    block.sheen = glm::vec4(material.sheenColorFactor, material.sheenRoughnessFactor);
+    const auto uses = textureUses(material);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const glm::mat3& m = uses[i]->uvTransform;
+        block.uvRows[2 * i] = {m[0][0], m[1][0], m[2][0], static_cast<float>(uses[i]->uvSet)};
+        block.uvRows[2 * i + 1] = {m[0][1], m[1][1], m[2][1], 0};
+    }
+    return block;
+}
+
+std::size_t GpuScene::bytes() const {
+    std::size_t total = 0;
+    for (const auto& [index, mesh] : meshes_)
+        for (const Buffer* buffer : {&mesh.positions, &mesh.normals, &mesh.colors, &mesh.colorRanges, &mesh.uv0,
+                                     &mesh.uv1, &mesh.tangents, &mesh.blurs, &mesh.indices})
+            total += buffer->bytes();
+    for (const auto& [index, mesh] : meshes_)
+        for (const Buffer* buffer : {&mesh.deformation.joints, &mesh.deformation.weights, &mesh.deformation.joints1,
+                                     &mesh.deformation.weights1})
+            total += buffer->bytes();
+    for (const auto& [index, mesh] : meshes_) total += mesh.deformation.morphs.bytes();
+    for (const auto& [key, texture] : textures_) total += texture.bytes();
+    return total;
+}
+
+}  // namespace defocus::engine

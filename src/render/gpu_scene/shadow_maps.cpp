@@ -1,0 +1,123 @@
+// Williams 1978, Casting Curved Shadows on Curved Surfaces; Haeberli and Akeley 1990, The Accumulation Buffer.
+#include "render/gpu_scene/shadow_maps.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr GLuint mapsUnit = 18;  // of shaders/include/shadows.glsl
+constexpr GLuint projectionsUnit = 19;
+constexpr GLint firstSampleLocation = 2;
+constexpr GLint slotLocation = 3;  // of shaders/accumulation/object.vert
+
+std::size_t mapsPerSample(const FramePlan& plan) {
+    return plan.shadows.maps.size() * plan.shadows.points;
+}
+
+// For each light, and then for the surroundings: its first map, and how many it has.
+ShaderDefines mapDefines(const FramePlan& plan, std::size_t lights) {
+    std::vector<int> first(lights + 1, -1);
+    std::vector<int> faces(lights + 1, 0);
+    for (std::size_t i = 0; i < plan.shadows.maps.size(); ++i) {
+        const int light = plan.shadows.maps[i].light;
+        const std::size_t place = light == surroundings ? lights : static_cast<std::size_t>(light);
+        if (first[place] < 0) first[place] = static_cast<int>(i);
+        ++faces[place];
+    }
+    return {{"SHADOWS", "1"},
+            {"SHADOW_MAPS", std::to_string(plan.shadows.maps.size())},
+            {"SHADOW_POINTS", std::to_string(plan.shadows.points)},
+            {"SHADOW_SIZE", std::to_string(plan.shadows.size)},
+            {"SHADOW_ERROR", fmt::format("{:.8e}", plan.shadows.casterError)},
+            {"SHADOW_FIRST", fmt::format("int[]({})", fmt::join(first, ","))},
+            {"SHADOW_FACES", fmt::format("int[]({})", fmt::join(faces, ","))}};
+}
+
+std::vector<float> texelsOf(const std::vector<ShadowProjection>& projections) {
+    std::vector<float> texels;
+    texels.reserve(projections.size() * 24);
+    const auto add = [&](const glm::vec4& v) { texels.insert(texels.end(), {v.x, v.y, v.z, v.w}); };
+    for (const ShadowProjection& projection : projections) {
+        for (const glm::vec4& row : projection.clipRows) add(row);
+        add(glm::vec4(projection.toLight, projection.texel));
+        add(glm::vec4(projection.radiance, 0));
+    }
+    return texels;
+}
+
+// What the casters' own pass draws: they alone, for all samples.
+FramePlan castersOf(const FramePlan& plan) {
+    FramePlan casters = plan;
+    casters.objects = plan.shadows.casters;
+    for (ObjectPlan& object : casters.objects) {
+        object.fine.firstSample = 0;
+        object.fine.sampleCount = static_cast<std::uint32_t>(plan.samples.size());
+        if (plan.moments.empty()) object.motion.clear();
+    }
+    return casters;
+}
+
+}  // namespace
+
+std::uint64_t shadowMapBytes(const FramePlan& plan) {
+    const auto size = static_cast<std::uint64_t>(plan.shadows.size);
+    return mapsPerSample(plan) * size * size * pixelBytes(TextureFormat::depth32f);
+}
+
+ShadowMaps::ShadowMaps(GpuScene& scene, bool vertexShaderLayers, std::filesystem::path shaderFolder)
+    : scene_(&scene),
+      casters_(scene, {.fragmentShader = "shadows/caster.frag",
+                       .defines = {},
+                       .look = SurfaceLook::caster,
+                       .vertexShaderLayers = vertexShaderLayers,
+                       .shaderFolder = std::move(shaderFolder)}) {}
+
+void ShadowMaps::prepare(const FramePlan& plan, const FrameUniforms& frame) {
+    defines_.clear();
+    if (plan.shadows.maps.empty() || plan.samples.empty()) {
+        maps_ = GlTexture();
+        return;
+    }
+    const World& world = scene_->world();
+    const Environment& environment = world.environment;
+    if (!environment.map || environment.map.get() != directionsOf_) directions_ = EnvironmentDirections(environment);
+    directionsOf_ = environment.map.get();
+    frame_ = &frame;
+    plan_ = castersOf(plan);
+    defines_ = mapDefines(plan, world.lights.size());
+    projections_ = TexelBuffer(texelsOf(shadowProjections(world, plan, directions_)), GL_RGBA32F, 4,
+                               "the projections of shadow maps (fewer samples need less)");
+    const auto layers = static_cast<int>(frame.layerCount() * mapsPerSample(plan));
+    if (!maps_ || maps_.info().width != plan.shadows.size || maps_.info().layers != layers) {
+        target_ = Target();
+        maps_ = GlTexture();  // before the new one is made: both may not fit
+        maps_ = GlTexture({.format = TextureFormat::depth32f,
+                           .width = plan.shadows.size,
+                           .height = plan.shadows.size,
+                           .layers = layers});
+        target_ = Target({}, &maps_);
+    }
+    casters_.prepare(plan_, frame, this);
+}
+
+void ShadowMaps::draw(std::uint32_t first, std::uint32_t count) {
+    if (defines_.empty()) return;
+    target_.bind();
+    glDepthMask(GL_TRUE);
+    constexpr float nothing = 0;  // reversed depth: infinitely far from the light
+    glClearNamedFramebufferfv(target_.name(), GL_DEPTH, 0, &nothing);
+    for (std::size_t slot = 0; slot < mapsPerSample(plan_); ++slot)
+        casters_.drawCasters(first, count, static_cast<int>(slot));
+}
+
+void ShadowMaps::bind(std::uint32_t sample) const {
+    maps_.attach(mapsUnit);
+    projections_.attach(projectionsUnit);
+    const std::uint32_t layer = sample % blockSamples % frame_->layerCount();
+    glUniform1i(firstSampleLocation, static_cast<GLint>(sample - layer));
+}
+
+}  // namespace defocus::engine

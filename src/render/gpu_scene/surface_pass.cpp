@@ -1,0 +1,398 @@
+#include "render/gpu_scene/surface_pass.h"
+
+#include <algorithm>
+#include <span>
+
+#include "render/gpu_scene/shadow_maps.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr std::size_t mostBackdrops = 8;  // a frame: each is a copy of all layers
+constexpr GLuint backdropUnit = 17;       // of shaders/accumulation/object.frag
+constexpr GLint shadowSlotLocation = 3;   // of shaders/accumulation/object.vert
+
+struct SampleSpan {
+    std::uint32_t begin = 0, end = 0;
+    [[nodiscard]] bool empty() const { return begin >= end; }
+    [[nodiscard]] std::uint32_t size() const { return empty() ? 0 : end - begin; }
+};
+
+// Those of samples [first, first + count) that `drawn` is drawn for.
+SampleSpan samplesOf(const auto& drawn, std::uint32_t first, std::uint32_t count) {
+    return {std::max(first, drawn.firstSample), std::min(first + count, drawn.firstSample + drawn.sampleCount)};
+}
+
+GLenum modeOf(Refinement refinement) {
+    return refinement == Refinement::subdivide ? GL_PATCHES : GL_TRIANGLES;
+}
+
+// Of the bound vertex array, for samples [firstSample, firstSample + sampleCount), one an instance.
+void drawIndices(GLenum mode, std::uint32_t first, std::uint32_t count, std::uint32_t firstSample,
+                 std::uint32_t sampleCount) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL's way to hand over an offset
+    const auto* const offset = reinterpret_cast<const void*>(std::size_t{first} * sizeof(std::uint32_t));
+    glDrawElementsInstancedBaseInstance(mode, static_cast<GLsizei>(count), GL_UNSIGNED_INT, offset,
+                                        static_cast<GLsizei>(sampleCount), firstSample);
+}
+
+}  // namespace
+
+void SurfacePass::prepare(const FramePlan& plan, const FrameUniforms& frame, const ShadowMaps* shadows) {
+    frame_ = &frame;
+    shadows_ = shadows != nullptr && !shadows->defines().empty() ? shadows : nullptr;
+    objectBlocks_ = objectBlocks(plan, *scene_, poses_);
+    addDraws(plan);
+    uploadMaterials();
+    skyArray_.attribute(lensLocation, 4, GL_FLOAT, false, true);
+    skyArray_.attribute(eyeLocation, 4, GL_FLOAT, false, true);
+    skyArray_.bind(lensLocation, frame.samples(), 0, sizeof(GpuSample));
+    skyArray_.bind(eyeLocation, frame.samples(), sizeof(glm::vec4), sizeof(GpuSample));
+    if (frame.bandShifts()) {
+        skyArray_.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
+        skyArray_.bind(bandShiftLocation, frame.bandShifts(), 0, sizeof(float));
+    }
+}
+
+void SurfacePass::uploadMaterials() {
+    std::vector<GpuMaterial> blocks(materialSlots_.size());
+    for (const auto& [material, slot] : materialSlots_) blocks[slot] = scene_->materialBlock(material);
+    materialBlocks_ = UniformBlocks<GpuMaterial>(blocks);
+}
+
+void SurfacePass::addDraws(const FramePlan& plan) {
+    opaque_.clear();
+    translucent_.clear();
+    transmittingObjects_ = 0;
+    blursBackdrop_ = false;
+    materialSlots_.clear();
+    for (std::size_t index = 0; index < plan.objects.size(); ++index) {
+        const ObjectPlan& object = plan.objects[index];
+        const Mesh& mesh = scene_->world().scene->meshes[static_cast<std::size_t>(object.mesh)];
+        GpuMesh& gpuMesh = scene_->mesh(object.mesh);
+        if (frame_->moments()) gpuMesh.vertexArray.attribute(momentLocation, 3, GL_FLOAT, false, true);
+        if (frame_->bandShifts()) gpuMesh.vertexArray.attribute(bandShiftLocation, 1, GL_FLOAT, false, true);
+        for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+            Draw draw;
+            draw.mesh = object.mesh;
+            draw.primitive = p;
+            draw.object = static_cast<std::uint32_t>(index);
+            draw.material = mesh.primitives[p].material;
+            draw.mirrored = object.mirrored;
+            draw.refinement = object.refinement;
+            draw.blurMoves = object.blurMoves;
+            materialSlots_.try_emplace(draw.material, materialSlots_.size());
+            addLevel(draw, object, object.coarse, ScreenDoor::coarseShare);
+            addLevel(draw, object, object.fine, ScreenDoor::fineShare);
+        }
+    }
+    std::reverse(translucent_.begin(), translucent_.end());  // the plan's objects come nearest first
+    for (const ObjectPlan& object : plan.objects) transmittingObjects_ += object.transmits ? 1 : 0;
+    for (const Draw& item : translucent_) {
+        const Material& material = scene_->material(item.material);
+        blursBackdrop_ |= material.transmits() && material.roughnessFactor > 0;
+    }
+}
+
+// The samples that `level` draws alone, and the one that it shares.
+void SurfacePass::addLevel(const Draw& draw, const ObjectPlan& object, const LevelDraw& level, ScreenDoor boundary) {
+    if (level.sampleCount == 0) return;
+    const std::vector<IndexRun> runs =
+        indexRuns(scene_->world(), object, scene_->mesh(object.mesh), level.level, draw.primitive);
+    std::uint32_t indexCount = 0;
+    for (const IndexRun& run : runs) indexCount += run.count;
+    if (indexCount == 0) return;
+    const Material& material = scene_->material(draw.material);
+    auto& list = material.alphaMode == AlphaMode::blend || material.transmits() ? translucent_ : opaque_;
+    const auto add = [&](std::uint32_t first, std::uint32_t end, ScreenDoor screenDoor) {
+        if (first >= end) return;
+        Draw& added = list.emplace_back(draw);
+        added.level = level.level;
+        added.firstSample = first;
+        added.sampleCount = end - first;
+        added.runs = runs;
+        added.triangleCount = indexCount / 3;
+        added.screenDoor = screenDoor;
+        added.program = &program(added);
+    };
+    const std::uint32_t first = level.firstSample;
+    const std::uint32_t end = first + level.sampleCount;
+    const std::uint32_t shared = boundarySample(object).value_or(end);
+    add(first, std::min(shared, end), ScreenDoor::open);
+    if (shared < end) add(shared, shared + 1, boundary);
+    add(shared + 1, end, ScreenDoor::open);
+}
+
+ShaderDefines SurfacePass::passDefines(bool vertexShaderLayers) const {
+    ShaderDefines defines = frame_->defines();
+    defines.insert(defines.end(), info_.defines.begin(), info_.defines.end());
+    if (shadows_ != nullptr) defines.insert(defines.end(), shadows_->defines().begin(), shadows_->defines().end());
+    if (info_.look == SurfaceLook::caster) defines.emplace_back("SHADOW_CASTER", "1");
+    if (vertexShaderLayers) defines.emplace_back("VERTEX_LAYER", "1");
+    return defines;
+}
+
+const Program& SurfacePass::program(const Draw& draw) {
+    const Material& material = scene_->material(draw.material);
+    const GpuMesh& mesh = scene_->mesh(draw.mesh);
+    const bool refined = draw.refinement != Refinement::none;
+    const bool vertexShaderLayers = info_.vertexShaderLayers && !refined;
+    ShaderDefines defines = passDefines(vertexShaderLayers);
+    const ShaderDefines surface = surfaceDefines(*scene_, mesh, draw.material, draw.level, info_.look);
+    defines.insert(defines.end(), surface.begin(), surface.end());
+    const auto set = [&](bool condition, const char* name) {
+        if (condition) defines.emplace_back(name, "1");
+    };
+    const bool colored = static_cast<bool>(mesh.colors);
+    set(colored && shaded() && draw.level == 0, "VERTEX_COLOR_RANGES");
+    set(colored && shaded() && draw.level > 0, "LEVEL_COLOR_RANGE");
+    set(static_cast<bool>(mesh.blurs), "VERTEX_BLURS");
+    set(draw.blurMoves && frame_->moments(), "BLUR_MOVES");
+    set(refined, "REFINED");
+    set(draw.refinement == Refinement::subdivide, "SUBDIVIDED");  // other stages: a program of its own
+    set(material.alphaMode == AlphaMode::mask, "ALPHA_MASK");
+    set(material.alphaMode == AlphaMode::blend, "ALPHA_BLEND");
+    poseDefines(defines, poses_[draw.object], mesh);
+    if (draw.screenDoor != ScreenDoor::open)
+        defines.emplace_back("SCREEN_DOOR", draw.screenDoor == ScreenDoor::coarseShare ? "true" : "false");
+    const auto [entry, isNew] = programs_.try_emplace(keyOf(defines));
+    if (isNew) {
+        std::vector<std::string> shaders = {"accumulation/object.vert", info_.fragmentShader};
+        if (draw.refinement == Refinement::subdivide) {
+            shaders.emplace_back("accumulation/object.tesc");
+            shaders.emplace_back("accumulation/object.tese");
+        }
+        if (!vertexShaderLayers) shaders.emplace_back(refined ? "accumulation/split.geom" : "accumulation/object.geom");
+        entry->second = Program({std::move(shaders), std::move(defines), info_.shaderFolder});
+    }
+    return entry->second;
+}
+
+void SurfacePass::bindFrame() {
+    frame_->bind(0);
+    glEnable(GL_DEPTH_TEST);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+}
+
+// Several passes may draw the same meshes, each its own samples.
+void SurfacePass::bindSamples(VertexArray& array) const {
+    array.bind(lensLocation, frame_->samples(), 0, sizeof(GpuSample));
+    array.bind(eyeLocation, frame_->samples(), sizeof(glm::vec4), sizeof(GpuSample));
+    if (frame_->moments()) array.bind(momentLocation, frame_->moments(), 0, sizeof(glm::vec3));
+    if (frame_->bandShifts()) array.bind(bandShiftLocation, frame_->bandShifts(), 0, sizeof(float));
+}
+
+// Everything that a draw of samples from `sample` on reads.
+void SurfacePass::bindDraw(const Draw& item, std::uint32_t sample, const Buffer& indices) {
+    GpuMesh& mesh = scene_->mesh(item.mesh);
+    mesh.vertexArray.use();
+    item.program->use();
+    frame_->bindWave(sample);
+    objectBlocks_.bind(1, item.object);
+    materialBlocks_.bind(2, materialSlots_.at(item.material));
+    if (poses_[item.object].texels) poses_[item.object].texels.attach(6);
+    if (mesh.deformation.morphs) mesh.deformation.morphs.attach(7);
+    scene_->textures(item.material).attach();
+    if (shadows_ != nullptr) shadows_->bind(sample);
+    if (info_.look == SurfaceLook::caster) glUniform1i(shadowSlotLocation, shadowSlot_);
+    bindSamples(mesh.vertexArray);
+    bindLevel(mesh, item.level);
+    mesh.vertexArray.indices(indices);
+    if (const GpuLevel& level = mesh.levels[item.level]; mesh.colors && shaded() && item.level > 0) {
+        glUniform4fv(0, 1, &level.leastColor.x);
+        glUniform4fv(1, 1, &level.mostColor.x);
+    }
+    glFrontFace(item.mirrored ? GL_CW : GL_CCW);
+    if (modeOf(item.refinement) == GL_PATCHES) glPatchParameteri(GL_PATCH_VERTICES, 3);
+}
+
+// A sample draws so many triangles; drawSamples(first, count) draws several.
+void SurfacePass::submit(std::uint32_t first, std::uint32_t end, std::uint64_t triangles, const auto& drawSamples) {
+    const std::uint64_t most = pacer_.mostTriangles();
+    const std::uint64_t step = most == 0 ? end - first : std::max<std::uint64_t>(1, most / triangles);
+    for (std::uint64_t at = first; at < end; at += step) {
+        const std::uint64_t count = std::min(step, end - at);
+        drawSamples(static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(count));
+        pacer_.submitted(count * triangles);
+    }
+}
+
+void SurfacePass::draw(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    const SampleSpan samples = samplesOf(item, first, count);
+    if (samples.empty()) return;
+    bindDraw(item, samples.begin, scene_->mesh(item.mesh).indices);
+    submit(samples.begin, samples.end, item.triangleCount, [&](std::uint32_t at, std::uint32_t size) {
+        for (const IndexRun& run : item.runs) drawIndices(modeOf(item.refinement), run.first, run.count, at, size);
+    });
+}
+
+void SurfacePass::bindSolid(GLenum depthTest) {
+    bindFrame();
+    glDisable(GL_BLEND);
+    glDepthFunc(depthTest);
+    glDepthMask(GL_TRUE);
+}
+
+void SurfacePass::drawSolid(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count, GLenum depthTest,
+                            const ObjectSet& objects) {
+    bindSolid(depthTest);
+    drawFronts(items, first, count, objects);
+}
+
+void SurfacePass::drawFronts(const std::vector<Draw>& items, std::uint32_t first, std::uint32_t count,
+                             const ObjectSet& objects) {
+    for (const Draw& item : items)
+        if (contains(objects, item.object)) drawFront(item, first, count);
+}
+
+void SurfacePass::drawFront(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    setFaces(item);
+    draw(item, first, count);
+}
+
+// Both sides of what is double-sided.
+void SurfacePass::setFaces(const Draw& item) const {
+    if (scene_->material(item.material).doubleSided || info_.look == SurfaceLook::caster)
+        glDisable(GL_CULL_FACE);
+    else
+        glEnable(GL_CULL_FACE);
+    glCullFace(GL_BACK);
+}
+
+void SurfacePass::drawOpaque(std::uint32_t first, std::uint32_t count) {
+    drawSolid(opaque_, first, count);
+}
+
+void SurfacePass::findHidden(const FramePlan& plan) {
+    std::vector<OccludableDraw> draws;
+    for (const Draw& draw : opaque_)
+        draws.push_back({draw.object, draw.level, draw.primitive, draw.firstSample, draw.sampleCount});
+    occlusion_.prepare(plan, draws);
+}
+
+std::uint64_t SurfacePass::drawOpaqueVisible(std::uint32_t first, std::uint32_t count, const GlTexture& depths,
+                                             std::uint32_t layer) {
+    if (occlusion_.needsDepthsOf(first)) {
+        drawOpaque(first, 1);
+        occlusion_.sortBy(first, depths, layer);
+        return count == 1 ? 0 : drawOpaqueVisible(first + 1, count - 1, depths, layer + 1);
+    }
+    if (!occlusion_.hidesMuch()) {
+        drawOpaque(first, count);
+        return 0;
+    }
+    std::uint64_t all = 0;
+    for (const Draw& item : opaque_) all += std::uint64_t{item.triangleCount} * samplesOf(item, first, count).size();
+    bindSolid(GL_GREATER);
+    const std::uint64_t shown = drawRemaining(occlusion_.shown(), first, count);
+    return all - shown - drawRemaining(occlusion_.uncovered(first, count, depths, layer), first, count);
+}
+
+// Returns the triangles of all samples.
+std::uint64_t SurfacePass::drawRemaining(const RemainingDraws& remaining, std::uint32_t first, std::uint32_t count) {
+    const Buffer indices = Buffer::of(std::span<const std::uint32_t>(remaining.indices));
+    std::uint64_t triangles = 0;
+    for (const RemainingDraw& part : remaining.draws) {
+        const SampleSpan samples = samplesOf(part, first, count);
+        if (samples.empty()) continue;
+        const Draw& item = opaque_[part.draw];
+        setFaces(item);
+        bindDraw(item, samples.begin, indices);
+        submit(samples.begin, samples.end, part.indexCount / 3, [&](std::uint32_t at, std::uint32_t size) {
+            drawIndices(modeOf(item.refinement), part.firstIndex, part.indexCount, at, size);
+        });
+        triangles += std::uint64_t{part.indexCount / 3} * samples.size();
+    }
+    return triangles;
+}
+
+void SurfacePass::drawSurfaces(std::uint32_t first, std::uint32_t count) {
+    drawSolid(opaque_, first, count);
+    drawSolid(translucent_, first, count);
+}
+
+void SurfacePass::drawCasters(std::uint32_t first, std::uint32_t count, int slot) {
+    shadowSlot_ = slot;
+    drawSurfaces(first, count);
+}
+
+void SurfacePass::drawTouched(std::uint32_t first, std::uint32_t count) {
+    bindFrame();
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    drawFronts(opaque_, first, count);
+    drawFronts(translucent_, first, count);
+    glDisable(GL_BLEND);
+}
+
+void SurfacePass::drawTranslucent(std::uint32_t first, std::uint32_t count, const GlTexture& colors,
+                                  const ObjectSet& objects) {
+    if (translucent_.empty()) return;
+    bindFrame();
+    glDepthFunc(GL_GREATER);
+    std::size_t left = transmittingObjects_;
+    std::optional<std::uint32_t> shown;  // the transmitting object that the backdrop is for
+    for (const Draw& item : translucent_) {
+        if (!contains(objects, item.object)) continue;
+        if (!scene_->material(item.material).transmits()) {
+            drawBlended(item, first, count);
+            continue;
+        }
+        if (shown != item.object) {
+            if (!shown || left <= mostBackdrops) backdrop_.take(colors, count, blursBackdrop_);
+            shown = item.object;
+            --left;
+        }
+        glDisable(GL_BLEND);
+        glDepthMask(GL_TRUE);
+        backdrop_.attach(backdropUnit);
+        drawFront(item, first, count);
+    }
+    glDisable(GL_BLEND);
+}
+
+void SurfacePass::drawBlended(const Draw& item, std::uint32_t first, std::uint32_t count) {
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, marksBlended_ ? GL_ONE : GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_CULL_FACE);
+    if (scene_->material(item.material).doubleSided) {  // the far side first
+        glCullFace(GL_FRONT);
+        draw(item, first, count);
+    }
+    glCullFace(GL_BACK);
+    draw(item, first, count);
+}
+
+void SurfacePass::drawTranslucentDepth(std::uint32_t first, std::uint32_t count, const ObjectSet& objects) {
+    if (translucent_.empty()) return;
+    glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    drawSolid(translucent_, first, count, GL_GEQUAL, objects);  // what transmits has left its depth already
+    glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+void SurfacePass::drawSky(std::uint32_t first, std::uint32_t count) {
+    if (!sky_ || skyDefines_ != passDefines(info_.vertexShaderLayers)) {
+        skyDefines_ = passDefines(info_.vertexShaderLayers);
+        std::vector<std::string> shaders = {"accumulation/sky.vert", "accumulation/sky.frag"};
+        if (!info_.vertexShaderLayers) shaders.emplace_back("accumulation/sky.geom");
+        sky_ = Program({std::move(shaders), skyDefines_, info_.shaderFolder});
+    }
+    bindFrame();
+    skyArray_.use();
+    sky_.use();
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_GEQUAL);  // equal to the cleared depth only where nothing was drawn
+    glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, static_cast<GLsizei>(count), first);
+}
+
+std::size_t SurfacePass::bytes() const {
+    std::size_t total = objectBlocks_.bytes() + materialBlocks_.bytes() + backdrop_.bytes();
+    for (const GpuPoses& poses : poses_) total += poses.texels.bytes();
+    return total;
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,36 @@
+#include "render/sampling/automatic_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/gpu_scene/frame_uniforms.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr double gap = 2;  // px between the images of a point
+constexpr std::uint32_t movingSamples = 4 * blockSamples;
+constexpr std::uint32_t shadowSamples = 64;  // that make penumbrae and shadows of the sky smooth
+
+}  // namespace
+
+double largestBoundedBlur(const FramePlan& plan) {
+    double largest = 0;
+    for (const ObjectPlan& object : plan.objects)
+        if (object.nearestDepth > plan.view.nearPlane) largest = std::max(largest, object.coc.largest);
+    return largest;
+}
+
+std::uint32_t samplesForBlur(const FramePlan& plan) {
+    const double blur = plan.view.lens.dofEnabled ? largestBoundedBlur(plan) : 0;
+    const double filling = std::numbers::pi / 4 * blur * blur / (gap * gap);
+    const std::uint32_t still = plan.shadows.maps.empty() ? leastAutomaticSamples : shadowSamples;
+    const std::uint32_t least = plan.moments.empty() ? still : movingSamples;
+    if (!(filling > least)) return least;
+    const double blocks = std::ceil(std::min(filling, double{mostAutomaticSamples}) / blockSamples);
+    return static_cast<std::uint32_t>(blocks) * blockSamples;
+}
+
+}  // namespace defocus::engine

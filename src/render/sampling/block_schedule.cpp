@@ -1,0 +1,143 @@
+#include "render/sampling/block_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/gpu_scene/frame_uniforms.h"
+#include "render/sampling/automatic_samples.h"
+
+namespace defocus::engine {
+
+namespace {
+
+constexpr double levelShare = 0.5;       // of the error aimed at: the whole is then 1.12 times the samples'
+constexpr double withoutLevelError = 4;  // times the samples expected
+constexpr double mostThresholdSamples = 1e8;
+constexpr double mostLevelPower = 1.4;
+// Two blocks make the first estimate.
+constexpr std::uint32_t firstEstimate = 2 * blockSamples;
+
+// Samples rounded up to whole blocks.
+std::uint32_t wholeBlocks(double samples) {
+    return static_cast<std::uint32_t>(std::ceil(samples / blockSamples)) * blockSamples;
+}
+
+}  // namespace
+
+const char* stopReasonText(StopReason reason) {
+    switch (reason) {
+        case StopReason::sampleCount:
+            return "all samples asked for are drawn";
+        case StopReason::targetError:
+            return "the estimated error is below the target";
+        case StopReason::timeLimit:
+            return "time is up";
+        case StopReason::nothingBlurred:
+            return "nothing is blurred";
+    }
+    return "";
+}
+
+double LevelError::at(double thresholdSamples) const {
+    if (!(atCoarse > 0)) return 0;
+    // Thresholds that were given don't follow: the power is 0 then.
+    const double measured = std::log(atCoarse / std::max(atFine, 1e-9)) / std::log(double{fine} / coarse);
+    return atCoarse * std::pow(coarse / thresholdSamples, std::clamp(measured, 0.0, mostLevelPower));
+}
+
+double LevelError::samplesFor(double error, double least) const {
+    double samples = least;
+    while (at(samples) > error && samples < mostThresholdSamples) samples *= 1.1;
+    return samples;
+}
+
+BlockSchedule::BlockSchedule(const RenderSettings& settings, const StopSettings& stop, std::optional<LevelError> levels)
+    : settings_(settings), stop_(stop), levels_(levels), nextEstimate_(blockSamples), expected_(firstEstimate) {}
+
+BlockSchedule BlockSchedule::automatic(const RenderSettings& settings, std::uint32_t most) {
+    BlockSchedule schedule(settings, {.targetError = automaticError, .timeLimit = {}, .sampleLimit = most});
+    schedule.automatic_ = true;
+    return schedule;
+}
+
+std::uint32_t BlockSchedule::expectedSamples() const {
+    if (stopped_) return samples_;
+    const auto most = static_cast<double>(stop_.sampleLimit);
+    return std::min(stop_.sampleLimit, wholeBlocks(std::clamp(expected_, std::min(samples_ + 1.0, most), most)));
+}
+
+// The number of samples whose default thresholds the next block gets.
+double BlockSchedule::thresholdSamples() const {
+    const double expected = expectedSamples();
+    if (automatic_) return expected;
+    const std::optional<double> now = estimate_.error();
+    std::optional<double> aim = stop_.targetError;
+    if (now) aim = std::max(aim.value_or(0), *now * std::pow(estimate_.samples() / expected, lensSampleExponent));
+    if (!levels_ || !aim) return withoutLevelError * expected;
+    return levels_->samplesFor(levelShare * *aim, expected);
+}
+
+// Levels and samples err independently.
+double BlockSchedule::withLevels(double sampleError) const {
+    return std::hypot(sampleError, levelErrorSum_ / std::max(samples_, 1u));
+}
+
+RenderSettings BlockSchedule::nextBlock() const {
+    RenderSettings settings = settings_;
+    settings.firstSample += samples_;
+    settings.sampleCount = std::min(blockSamples, stop_.sampleLimit - samples_);
+    fixThresholds(settings, static_cast<std::uint32_t>(thresholdSamples()));
+    return settings;
+}
+
+std::optional<double> BlockSchedule::estimatedError() const {
+    if (!estimate_.error() || samples_ == 0) return {};
+    return withLevels(*estimate_.error() *
+                      std::pow(static_cast<double>(estimate_.samples()) / samples_, lensSampleExponent));
+}
+
+bool BlockSchedule::endBlock(const FramePlan& plan, double seconds, const std::function<Image()>& mean) {
+    const auto drawn = static_cast<std::uint32_t>(plan.samples.size());
+    if (levels_) levelErrorSum_ += drawn * levels_->at(thresholdSamples());
+    samples_ += drawn;
+
+    // An estimate where one is due, and what it says of the samples to come.
+    if (samples_ >= nextEstimate_) {
+        estimate_.add(mean(), samples_);
+        const double error = estimate_.error().value_or(0);
+        if (stop_.targetError && error > 0) {
+            // What the levels leave of it, at the least their share.
+            const double levels = std::min(withLevels(0), 0.9 * *stop_.targetError);
+            const double aim = std::sqrt(*stop_.targetError * *stop_.targetError - levels * levels);
+            expected_ = samples_ * std::pow(error / aim, 1 / lensSampleExponent);
+        }
+        // Where it is still far, the next estimate comes late, but never so late that no half is left to compare with.
+        const double due =
+            stop_.targetError ? std::clamp(0.8 * expected_, samples_ + 1.0, 2.0 * samples_) : 2.0 * samples_;
+        nextEstimate_ = wholeBlocks(due);
+    }
+    if (stop_.timeLimit && seconds > 0) {
+        const double inTime = samples_ * *stop_.timeLimit / seconds;
+        expected_ = stop_.targetError && samples_ >= firstEstimate ? std::min(expected_, inTime) : inTime;
+    }
+
+    stopped_ = reasonToStop(plan, seconds);
+    secondsBefore_ = seconds;
+    if (stopped_ && estimate_.samples() < samples_) estimate_.add(mean(), samples_);
+    return !stopped_;
+}
+
+std::optional<StopReason> BlockSchedule::reasonToStop(const FramePlan& plan, double seconds) const {
+    const std::uint32_t asked = plan.settings.sampleCount;
+    if (plan.samples.size() < asked) return StopReason::nothingBlurred;
+    const bool estimated = estimate_.samples() == samples_ && estimate_.error();
+    if (stop_.targetError && estimated && withLevels(*estimate_.error()) <= *stop_.targetError)
+        return StopReason::targetError;
+    if (samples_ >= stop_.sampleLimit) return StopReason::sampleCount;
+    // A block that would end too late isn't begun: half a block has not both of its levels.
+    const double nextEnd = seconds + (seconds - secondsBefore_);
+    if (stop_.timeLimit && nextEnd > *stop_.timeLimit) return StopReason::timeLimit;
+    return {};
+}
+
+}  // namespace defocus::engine

@@ -1,0 +1,75 @@
+// defocus bench: what is wrong with its command line is one line.
+
+#include "cli/commands/bench_commands.h"
+#include "cli/program.h"
+#include "cli/two_quads.h"
+#include "core/error.h"
+
+namespace defocus::engine {
+namespace {
+
+class Bench : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        writeTwoQuads(folder() / "quads.gltf");
+    }
+
+    void expectFault(int exitCode, const std::string& part, const std::vector<std::string>& arguments) const {
+        std::vector<std::string> words = {"bench"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const Outcome outcome = run(words);
+        SCOPED_TRACE(arguments.back());
+        expectOneLine(outcome, exitCode);
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_EQ(fileCount(), 1u);
+    }
+};
+
+TEST_F(Bench, convergenceRefusesListsThatAreNone) {
+    const auto expectOf = [&](const std::string& part, const std::string& option, const std::string& value) {
+        expectFault(2, part, {"convergence", "quads.gltf", option, value});
+    };
+    expectOf("1 to 65536", "--counts", "0");
+    expectOf("'x'", "--counts", "4,x");
+    expectOf("''", "--counts", "4,");
+    expectOf("fractional", "--lod", "off,some");
+    expectOf("size, error", "--metrics", "edges");
+    expectOf("0 to 1000", "--threshold-factors", "1,-1");
+    expectOf("1 to 1000", "--runs", "0");
+    expectOf("2 to 65536", "--reference-samples", "1");
+    expectOf("no method is called", "--methods", "accumulation,nothing");
+    expectOf("x", "--methods", "accumulation:x=1");
+    expectOf("lit", "--shading", "dim");
+    expectFault(2, "--method",
+                {"convergence", "quads.gltf", "--method", "accumulation"});  // it goes through them itself
+}
+
+TEST_F(Bench, whatIsGivenTwiceIsNamed) {
+    expectFault(2, "--counts is given 2 times; give it once",
+                {"convergence", "quads.gltf", "--counts", "4", "--counts", "8"});
+    expectFault(2, "--runs is given 3 times", {"scaling", "--runs", "1", "--runs", "2", "--runs", "3"});
+    expectFault(2, "--output is given 2 times", {"speedup", "quads.gltf", "-o", "a", "-o", "b"});
+}
+
+TEST_F(Bench, convergenceLeavesNothingWhereItCannotBegin) {
+    expectFault(1, "missing.glb", {"convergence", "missing.glb", "-o", "out"});
+    expectFault(1, "quads.gltf", {"convergence", "quads.gltf", "-o", "quads.gltf", "--allow-changed"});
+}
+
+TEST(BenchResults, areNotWrittenFromChangedSources) {
+    try {
+        refuseChangedSources("out", false, "0123456789ab-changed");
+        FAIL() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("out: "), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("--allow-changed"), std::string::npos) << error.what();
+    }
+    EXPECT_NO_THROW(refuseChangedSources("out", true, "0123456789ab-changed"));
+    EXPECT_NO_THROW(refuseChangedSources("", false, "0123456789ab-changed"));  // only a table on the terminal
+    EXPECT_NO_THROW(refuseChangedSources("out", false, "0123456789ab"));
+    EXPECT_NO_THROW(refuseChangedSources("out", false, ""));  // not built in a checkout
+}
+
+}  // namespace
+}  // namespace defocus::engine

@@ -1,0 +1,395 @@
+// defocus render, whole: files, metadata, statistics, and what happens when the disk is full.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec4.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/gl_program.h"
+#include "cli/two_quads.h"
+#include "defocus/renderer.h"
+#include "frame/report/program_facts.h"
+#include "frame/settings/settings.h"
+#include "image/image_io.h"
+#include "plan/lens_cells/lens_cells.h"
+
+namespace defocus::engine {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class Render : public GlProgramTest {
+protected:
+    void SetUp() override {
+        GlProgramTest::SetUp();
+        writeTwoQuads(folder() / "quads.gltf");
+    }
+
+    Outcome render(std::vector<std::string> arguments, std::size_t mostFileBytes = 0) const {
+        arguments.insert(arguments.begin(), {"render", "quads.gltf", "--size", "128x96", "--samples", "4"});
+        return run(arguments, mostFileBytes);
+    }
+};
+
+TEST_F(Render, writesEachOutputAndOneLineOfSummary) {
+    const Outcome outcome = render({"-o", "a.exr", "-o", "b ❤.png", "-o", "c.jpg", "--tonemap", "agx"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("128x96, 4 samples"), std::string::npos) << outcome.err;
+    EXPECT_EQ(fileCount(), 4u);
+    for (const char* name : {"a.exr", "b ❤.png", "c.jpg"}) {
+        const Image image = readImage(folder() / name);
+        EXPECT_EQ(image.width, 128) << name;
+        EXPECT_EQ(image.height, 96) << name;
+    }
+    EXPECT_EQ(run({"render", "quads.gltf", "--size", "8x8", "--quiet"}).err, "");
+    EXPECT_TRUE(fs::exists(folder() / "out.exr"));
+}
+
+// The public API's image is the program's, bit for bit, whatever is asked for.
+TEST_F(Render, isWhatTheLibraryRenders) {
+    const auto expectSame = [&](const std::vector<std::pair<std::string, std::string>>& values) {
+        std::vector<std::string> arguments = {"render", "--no-cache", "-o", "a.exr"};
+        Request request;
+        request.noCache = true;
+        for (const auto& [name, value] : values) {
+            const std::string option = settingNamed(name)->option;
+            if (option != "SCENE") arguments.push_back(option);
+            arguments.push_back(value);
+            setSetting(request, name, name == "scene" ? (folder() / value).string() : value);
+        }
+        const Outcome outcome = run(arguments);
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(readImage(folder() / "a.exr").pixels, defocus::render(request).pixels) << outcome.err;
+    };
+    expectSame({{"scene", "quads.gltf"}});
+    expectSame({{"fishCount", "3"}, {"trianglesPerFish", "3000"}, {"size", "160x120"}});
+    expectSame({{"scene", "quads.gltf"},
+                {"size", "128x96"},
+                {"samples", "70"},
+                {"fStop", "1"},
+                {"focusNode", "Far"},
+                {"bladeCount", "7"},
+                {"sequence", "halton"},
+                {"background", "none"}});
+    expectSame({{"scene", "quads.gltf"}, {"size", "128x96"}, {"method", "circular:far-components=5"}, {"fStop", "1"}});
+}
+
+// How many samples, how far off and why no more: in the line, the metadata and --stats.
+TEST_F(Render, targetErrorSaysWhatBecameOfIt) {
+    const auto rendered = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"render", "quads.gltf", "--size", "128x96", "--fstop", "1", "-o", "a.exr",
+                                             "--stats", "stats.json"});
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        return outcome.err;
+    };
+    const auto facts = [&] { return json::parse(textOf(folder() / "stats.json")); };
+    Metadata metadata;
+
+    std::string line = rendered({"--target-error", "0.2"});
+    EXPECT_NE(line.find("128 samples (error about 0.0"), std::string::npos) << line;
+    EXPECT_NE(line.find("the estimated error is below the target)"), std::string::npos) << line;
+    readImage(folder() / "a.exr", metadata);
+    EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 128);
+    EXPECT_NEAR(std::get<double>(metadata.at("defocus:targetError")), 0.2, 1e-7);
+    EXPECT_NEAR(std::get<double>(metadata.at("defocus:estimatedError")), facts().at("estimatedError").get<double>(),
+                1e-7);
+    EXPECT_EQ(std::get<std::string>(metadata.at("defocus:stopped")), "the estimated error is below the target");
+    EXPECT_EQ(facts().at("samples"), 128);
+
+    line = rendered({"--target-error", "1e-6", "--samples", "200"});
+    EXPECT_NE(line.find("200 samples (error about"), std::string::npos) << line;
+    EXPECT_EQ(facts().at("stopped"), "all samples asked for are drawn");
+
+    line = rendered({"--time-limit", "0.001"});
+    EXPECT_NE(line.find("64 samples (error not estimated; time is up)"), std::string::npos) << line;
+    EXPECT_TRUE(facts().at("estimatedError").is_null());
+
+    line = rendered({"--samples", "64"});
+    readImage(folder() / "a.exr", metadata);
+    EXPECT_FALSE(metadata.contains("defocus:stopped"));
+    EXPECT_FALSE(facts().contains("stopped"));
+}
+
+TEST_F(Render, exrCarriesCameraLensSamplesAndProgram) {
+    ASSERT_EQ(render({"-o", "a.exr", "--fstop", "1.4", "--seed", "7", "--focus-node", "Far"}).exitCode, 0);
+    Metadata metadata;
+    readImage(folder() / "a.exr", metadata);
+    const auto number = [&](const char* name) {
+        const MetadataValue& value = metadata.at(name);
+        return std::holds_alternative<int>(value) ? std::get<int>(value) : std::get<double>(value);
+    };
+    EXPECT_NEAR(number("aperture"), 1.4, 1e-6);
+    EXPECT_NEAR(number("focus"), 8, 1e-6);
+    EXPECT_NEAR(number("nominalFocalLength"), 50, 1e-4);
+    EXPECT_EQ(number("defocus:horizontalAperture"), 36);
+    EXPECT_EQ(number("defocus:samples"), 4);
+    EXPECT_EQ(number("defocus:seed"), 7);
+    EXPECT_EQ(std::get<std::string>(metadata.at("defocus:sequence")), "sobol");
+    EXPECT_GT(number("defocus:seconds"), 0);
+    EXPECT_EQ(std::get<std::string>(metadata.at("cameraLabel")), "Main");
+    EXPECT_TRUE(std::get<std::string>(metadata.at("software")).starts_with("defocus "));
+}
+
+// f/2, 1/8 s, ISO 200: EV100 = log2(4·8/2) = 4, and white is 1.2·2^4 cd/m².
+TEST_F(Render, exposureTimeAndIsoAreAnExposure) {
+    const std::vector<std::string> photographic = {"--fstop", "2", "--exposure-time", "1/8", "--iso", "200"};
+    std::vector<std::string> arguments = {"-o", "a.exr", "-o", "a.png"};
+    arguments.insert(arguments.end(), photographic.begin(), photographic.end());
+    ASSERT_EQ(render(arguments).exitCode, 0);
+    const std::string stops = fmt::format("--exposure={}", -4 - std::log2(1.2));
+    ASSERT_EQ(render({"-o", "b.png", "--fstop", "2", stops}).exitCode, 0);
+    EXPECT_EQ(readImage(folder() / "a.png").pixels, readImage(folder() / "b.png").pixels);
+    Metadata metadata;
+    readImage(folder() / "a.exr", metadata);
+    EXPECT_NEAR(std::get<double>(metadata.at("expTime")), 0.125, 1e-6);
+    EXPECT_NEAR(std::get<double>(metadata.at("isoSpeed")), 200, 1e-4);
+
+    // A file's own, and --exposure, which wins.
+    json scene = json::parse(textOf(folder() / "quads.gltf"));
+    scene["cameras"][0]["extras"] = {{"fStop", 2}, {"exposureTime", 0.125}, {"iso", 200}};
+    std::ofstream(folder() / "own.gltf") << scene.dump();
+    const auto own = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"render", "own.gltf", "--size", "128x96", "--samples", "4", "-o", "c.png"};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(run(words).exitCode, 0);
+        return readImage(folder() / "c.png").pixels;
+    };
+    EXPECT_EQ(own({}), readImage(folder() / "a.png").pixels);
+    EXPECT_NE(own({"--exposure", "0"}), readImage(folder() / "a.png").pixels);
+}
+
+// The camera's own image, beside the file, is the one of the option; one that can't be read is left out with a warning.
+TEST_F(Render, apertureImageOfTheCameraLiesBesideTheScene) {
+    Image image(8, 8, 1);
+    *image.at(6, 3) = 1;
+    writeImage(folder() / "hole.exr", image);
+    json scene = json::parse(textOf(folder() / "quads.gltf"));
+    scene["cameras"][0]["extras"] = {{"apertureImage", "hole.exr"}};
+    std::ofstream(folder() / "own.gltf") << scene.dump();
+    scene["cameras"][0]["extras"] = {{"apertureImage", "missing.exr"}};
+    std::ofstream(folder() / "missing.gltf") << scene.dump();
+    const auto rendered = [&](const char* name, std::vector<std::string> more) {
+        more.insert(more.begin(),
+                    {"render", name, "-o", "out.exr", "--size", "64x48", "--samples", "8", "--fstop", "0.2"});
+        const Outcome outcome = run(more);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_EQ(outcome.err.find("missing.exr") != std::string::npos, std::string(name) == "missing.gltf");
+        return readImage(folder() / "out.exr").pixels;
+    };
+    const std::vector<float> plain = rendered("quads.gltf", {});
+    const std::vector<float> own = rendered("own.gltf", {});
+    EXPECT_EQ(own, rendered("quads.gltf", {"--aperture-image", "hole.exr"}));
+    EXPECT_NE(own, plain);
+    EXPECT_EQ(rendered("missing.gltf", {}), plain);
+}
+
+TEST_F(Render, methodAndItsSettingsStandInTheMetadata) {
+    ASSERT_EQ(render({"-o", "a.exr", "--method", "circular", "--far-components", "3", "--pinholes", "2"}).exitCode, 0);
+    ASSERT_EQ(render({"-o", "b.exr", "--method", "circular:far-components=3,pinholes=2"}).exitCode, 0);
+    Metadata metadata;
+    const Image a = readImage(folder() / "a.exr", metadata);
+    EXPECT_EQ(std::get<std::string>(metadata.at("defocus:method")), "circular:far-components=3,pinholes=2");
+    EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), 2);
+    EXPECT_EQ(a.pixels, readImage(folder() / "b.exr").pixels);
+}
+
+// OpenEXR: camera space is left-handed and looks along +z; NDC's (0, 0) is the image's upper left corner.
+TEST_F(Render, matricesOfTheMetadataPlaceAPointWhereTheImageShowsIt) {
+    ASSERT_EQ(render({"-o", "a.exr", "--aov", "depth"}).exitCode, 0);
+    Metadata metadata;
+    readImage(folder() / "a.exr", metadata);
+    const Image depth = readImage(folder() / "a.depth.exr");
+    const glm::vec4 inside = {-0.18f, 0.3f, -2, 1};  // just inside Near's left edge, and just outside it
+    const glm::vec4 outside = {-0.22f, 0.3f, -2, 1};
+    const glm::vec4 camera = std::get<glm::mat4>(metadata.at("worldToCamera")) * inside;
+    EXPECT_NEAR(camera.z, 2, 1e-5);
+    const auto depthAt = [&](const glm::vec4& point) {
+        const glm::vec4 ndc = std::get<glm::mat4>(metadata.at("worldToNDC")) * point;
+        return *depth.at(static_cast<int>(ndc.x / ndc.w * 128), static_cast<int>(ndc.y / ndc.w * 96));
+    };
+    EXPECT_NEAR(depthAt(inside), 2, 1e-5);
+    EXPECT_TRUE(std::isinf(depthAt(outside)));
+}
+
+TEST_F(Render, aDashIsStandardOutput) {
+    const Outcome run = render({"--stats", "-"});
+    ASSERT_EQ(run.exitCode, 0);
+    EXPECT_TRUE(json::parse(run.out).contains("renderMilliseconds")) << run.out;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "-"));
+}
+
+// The same bytes as a file would have, but for the times in them.
+TEST_F(Render, aDashIsStandardOutputForImages) {
+    ASSERT_EQ(render({"-o", "a.png", "-o", "a.exr"}).exitCode, 0);
+    const auto pixels = [&](const char* name) { return readImage(folder() / name).pixels; };
+    for (const auto& [output, file] : {std::pair{"-", "a.png"}, std::pair{"png:-", "a.png"}, {"exr:-", "a.exr"}}) {
+        const Outcome outcome = render({"-o", output});
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_NE(outcome.err.find("standard output: 128x96"), std::string::npos) << outcome.err;
+        const std::string copy = std::string("copy") + fs::path(file).extension().string();
+        std::ofstream(folder() / copy, std::ios::binary) << outcome.out;
+        EXPECT_TRUE(pixels(copy.c_str()) == pixels(file)) << output;
+    }
+    EXPECT_FALSE(fs::exists(folder() / "-"));
+    expectOneLine(render({"-o", "-", "--stats", "-"}), 1);
+    expectOneLine(render({"-o", "gif:-"}), 1);
+    expectOneLine(render({"-o", "-", "--aov", "depth"}), 1);
+}
+
+// Without a number the picture decides: few where little is blurred, more where much is, and the same bits each time.
+TEST_F(Render, theNumberOfSamplesIsAutomatic) {
+    const auto rendered = [&](const std::string& name, std::vector<std::string> options) {
+        options.insert(options.begin(),
+                       {"render", "quads.gltf", "--size", "128x96", "--stats", "stats.json", "-o", name});
+        const Outcome outcome = run(options);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        const auto samples = json::parse(textOf(folder() / "stats.json")).at("samples").get<int>();
+        EXPECT_NE(outcome.err.find(fmt::format("{} samples (automatic", samples)), std::string::npos) << outcome.err;
+        return samples;
+    };
+    EXPECT_EQ(rendered("sharp.exr", {"--no-dof"}), 16) << "pinhole samples only smooth edges";
+    EXPECT_EQ(rendered("little.exr", {"--fstop", "4"}), 32);
+    const int many = rendered("much.exr", {"--fstop", "0.3", "--focus-distance", "1"});
+    EXPECT_GE(many, 128);
+    EXPECT_EQ(rendered("again.exr", {"--fstop", "0.3", "--focus-distance", "1", "--samples", "auto", "--wave", "5"}),
+              many);
+    EXPECT_TRUE(readImage(folder() / "much.exr").pixels == readImage(folder() / "again.exr").pixels);
+    Metadata metadata;
+    static_cast<void>(readImage(folder() / "much.exr", metadata));
+    EXPECT_EQ(std::get<int>(metadata.at("defocus:samples")), many);
+
+    // The library's default is the program's.
+    Request request;
+    request.scene = folder() / "quads.gltf";
+    request.size.width = 128;
+    request.size.height = 96;
+    request.lens.fStop = 0.3;
+    request.focus = FocusDistance{1};
+    EXPECT_TRUE(defocus::render(request).pixels == readImage(folder() / "much.exr").pixels);
+
+    // A part of a number needs the number.
+    const Outcome part = run({"render", "quads.gltf", "--sample-range", "0:64"});
+    expectOneLine(part, 2);
+    EXPECT_NE(part.err.find("--samples N"), std::string::npos) << part.err;
+}
+
+TEST_F(Render, statsHaveTheStatedKeys) {
+    ASSERT_EQ(render({"--stats", "stats.json", "--lod", "off", "--wave", "3"}).exitCode, 0);
+    const json stats = json::parse(textOf(folder() / "stats.json"));
+    for (const char* key : {"renderMilliseconds", "setupMilliseconds", "gpuMilliseconds", "pyramidMilliseconds",
+                            "loadMilliseconds", "peakBytes", "gpuBytes", "largestBlur"})
+        EXPECT_GE(stats.at(key).get<double>(), 0) << key;
+    for (const char* key : {"device", "driver", "gpuMillisecondsNote", "layerFormat", "version"})
+        EXPECT_NE(stats.at(key).get<std::string>(), "") << key;
+    EXPECT_TRUE(stats.at("command").get<std::string>().ends_with(
+        " render quads.gltf --size 128x96 --samples 4 --stats stats.json --lod off --wave 3"))
+        << stats.at("command");
+    EXPECT_EQ(stats.at("commit"), programCommit());
+    EXPECT_TRUE(std::regex_match(stats.at("date").get<std::string>(), std::regex("20\\d\\d-\\d\\d-\\d\\dT[0-9:]{8}Z")));
+    EXPECT_EQ(stats.at("samples"), 4);
+    EXPECT_EQ(stats.at("wave"), 3);
+    EXPECT_EQ(stats.at("trianglesDrawn"), 2 * 2 * 4);  // two squares of two triangles, four samples
+    EXPECT_GT(stats.at("peakBytes").get<double>(), 1e6);
+}
+
+TEST_F(Render, aovsHoldDepthBlurAndLevel) {
+    ASSERT_EQ(render({"-o", "a.png", "--aov", "depth,coc,level", "--focus-distance", "4"}).exitCode, 0);
+    for (const char* name : {"a.png", "a.depth.exr", "a.coc.exr", "a.level.exr", "a.level.png"})
+        EXPECT_TRUE(fs::exists(folder() / name)) << name;
+    const Image coc = readImage(folder() / "a.coc.exr");
+    const Image level = readImage(folder() / "a.level.exr");
+    // c = A·|1/s − 1/z|·W/(2 tan) with A = 50/2.8 mm: before the focus plane at 2 m, behind it at 8 m.
+    const double aperture = 0.05 / 2.8;
+    EXPECT_NEAR(*coc.at(63, 21), aperture * (1 / 4.0 - 1 / 2.0) * 128 / 0.72, 1e-4);
+    EXPECT_NEAR(*coc.at(126, 48), aperture * (1 / 4.0 - 1 / 8.0) * 128 / 0.72, 1e-4);
+    EXPECT_EQ(*level.at(63, 21), 0);
+    EXPECT_EQ(*level.at(10, 80), -1);
+}
+
+// What is in focus needs all pixels. Where images aren't blurred as lens cells, all groups of four samples share the
+// far square, which is in focus.
+TEST_F(Render, ratesAreThePixelsAndImagesThatALensSampleNeeds) {
+    ASSERT_EQ(run({"render", "quads.gltf", "--size", "128x96", "--samples", "64", "-o", "a.png", "--aov", "rate",
+                   "--focus-distance", "8", "--fstop", "0.1"})
+                  .exitCode,
+              0);
+    const Image pixels = readImage(folder() / "a.rate.exr");
+    const double blur = 0.5 * (1 / 2.0 - 1 / 8.0) * 128 / 0.72;  // px; the aperture is 0.5 m wide
+    const double variance = std::pow(0.35 / 8 * blur, 2) - leastCellVariance;
+    EXPECT_NEAR(*pixels.at(63, 21), 1 / (3 * (variance - 1.0 / 6)), 1e-4);
+    EXPECT_EQ(*pixels.at(126, 48), 1);
+    ASSERT_EQ(run({"render", "quads.gltf", "--size", "128x96", "--samples", "64", "-o", "a.png", "--aov", "rate",
+                   "--focus-distance", "8", "--fstop", "0.5", "--method", "multirate", "--cells", "off"})
+                  .exitCode,
+              0);
+    EXPECT_TRUE(fs::exists(folder() / "a.rate.png"));
+    const Image rate = readImage(folder() / "a.rate.exr");
+    EXPECT_EQ(*rate.at(63, 21), 1);
+    EXPECT_EQ(*rate.at(126, 48), 0.25f);
+    EXPECT_EQ(*rate.at(10, 80), -1);
+}
+
+TEST_F(Render, workIsThatOfAllSamplesHoweverManyAreDrawnAtOnce) {
+    Image images[2];
+    for (int i = 0; i < 2; ++i) {
+        const Outcome outcome = render({"-o", "a.png", "--aov", "work", "--wave", i == 0 ? "1" : "3"});
+        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_NE(outcome.err.find("triangles a pixel and lens sample"), std::string::npos) << outcome.err;
+        EXPECT_TRUE(fs::exists(folder() / "a.work.png"));
+        images[i] = readImage(folder() / "a.work.exr");
+    }
+    EXPECT_EQ(images[0].channels, 1);
+    EXPECT_EQ(images[0].pixels, images[1].pixels);
+    EXPECT_EQ(*images[0].at(63, 21), 4);  // in the middle of Near, which hides nothing
+    EXPECT_EQ(*images[0].at(10, 80), 0);
+}
+
+TEST_F(Render, sweptWorkIsOfBoundsOverTheLens) {
+    const Outcome outcome = render({"-o", "a.png", "--aov", "swept-work", "--no-dof"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("swept work: "), std::string::npos) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder() / "a.swept-work.png"));
+    const Image work = readImage(folder() / "a.swept-work.exr");
+    EXPECT_EQ(*work.at(63, 21), 2);  // both triangles of Near have its bounds
+    EXPECT_EQ(*work.at(10, 80), 0);
+}
+
+TEST_F(Render, transparentBackgroundHasNoCoverage) {
+    ASSERT_EQ(render({"-o", "a.exr", "--background", "none", "--no-dof"}).exitCode, 0);
+    const Image image = readImage(folder() / "a.exr");
+    ASSERT_EQ(image.channels, 4);
+    EXPECT_EQ(image.at(10, 80)[3], 0);
+    EXPECT_EQ(image.at(63, 21)[3], 1);
+}
+
+TEST_F(Render, uniformBackgroundIsThatColour) {
+    ASSERT_EQ(render({"-o", "a.exr", "--background", "0.25,0.5,2"}).exitCode, 0);
+    const Image image = readImage(folder() / "a.exr");
+    EXPECT_EQ(image.at(10, 80)[0], 0.25f);
+    EXPECT_EQ(image.at(10, 80)[1], 0.5f);
+    EXPECT_EQ(image.at(10, 80)[2], 2.0f);
+}
+
+TEST_F(Render, fullDiskIsOneLineAndKeepsTheFileThatWasThere) {
+    std::ofstream(folder() / "a.exr") << "kept";
+    const Outcome outcome = render({"-o", "a.exr"}, 512);
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("a.exr: cannot be written"), std::string::npos) << outcome.err;
+    EXPECT_EQ(textOf(folder() / "a.exr"), "kept");
+    EXPECT_EQ(fileCount(), 2u);
+}
+
+TEST_F(Render, shaderFaultsNameTheShader) {
+    fs::create_directories(folder() / "shaders" / "accumulation");
+    std::ofstream(folder() / "shaders" / "accumulation" / "object.frag") << "#version 450\nnot a shader\n";
+    const Outcome outcome = render({"--shader-dir", "shaders"});
+    expectOneLine(outcome, 1);
+    EXPECT_NE(outcome.err.find("accumulation/object.frag"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace defocus::engine

@@ -1,0 +1,135 @@
+// Completions and the manual page know every command and option of --help, and the shells and groff take them.
+
+#include <set>
+
+#include "cli/option_cases.h"
+#include "cli/options/program_outline.h"
+#include "cli/program.h"
+
+namespace defocus::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isInstalled(const std::string& program) {
+    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+class Pages : public ProgramTest {
+protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        for (const char* shell : {"bash", "zsh", "fish"}) {
+            const Outcome outcome = run({"completions", shell});
+            ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+            std::ofstream(folder() / shell) << outcome.out;
+        }
+        std::ofstream(folder() / "defocus.1") << run({"man"}).out;
+    }
+
+    // What a command of the shell prints, on stdout and stderr.
+    [[nodiscard]] std::string said(const std::string& command) const {
+        const fs::path out = folder() / "said";
+        const std::string line = "cd '" + folder().string() + "' && { " + command + "; } >said 2>&1 </dev/null";
+        EXPECT_EQ(std::system(line.c_str()), 0) << command << "\n" << textOf(out);
+        return textOf(out);
+    }
+
+    // What bash offers for the last of the words.
+    [[nodiscard]] Words offered(const std::string& words) const {
+        std::ofstream(folder() / "try") << "source ./bash\nCOMP_WORDS=(" << words
+                                        << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_defocus\n"
+                                           "((${#COMPREPLY[@]})) && printf '%s\\n' \"${COMPREPLY[@]}\"\ntrue\n";
+        std::istringstream lines(said("bash ./try"));
+        Words result;
+        for (std::string line; std::getline(lines, line);) result.push_back(line);
+        return result;
+    }
+};
+
+TEST_F(Pages, bashCompletesCommandsOptionsAndValues) {
+    EXPECT_EQ(said("bash -n bash"), "");
+    EXPECT_EQ(offered("defocus re"), Words({"render"}));
+    EXPECT_EQ(offered("defocus bench spe"), Words({"speedup"}));
+    EXPECT_EQ(offered("defocus render --fst"), Words({"--fstop"}));
+    EXPECT_EQ(offered("defocus render --qui"), Words({"--quiet"})) << "options of the program, too";
+    EXPECT_EQ(offered("defocus --quiet render --fst"), Words({"--fstop"}));
+    EXPECT_EQ(offered("defocus render --lod ''"), Words({"fractional", "continuous", "nearest", "off"}));
+    EXPECT_EQ(offered("defocus render --lod = o"), Words({"off"})) << "bash parts words at =";
+    EXPECT_EQ(offered("defocus render --aov depth,c"), Words({"depth,coc"}));
+    EXPECT_EQ(offered("defocus render --method circ"), Words({"circular"}));
+    EXPECT_EQ(offered("defocus render --fstop ''"), Words()) << "a number";
+    EXPECT_EQ(offered("defocus completions z"), Words({"zsh"}));
+    std::ofstream(folder() / "scene.glb") << "";
+    EXPECT_EQ(offered("defocus render sce"), Words({"scene.glb"}));
+    EXPECT_EQ(offered("defocus render --stats sce"), Words({"scene.glb"}));
+    EXPECT_EQ(offered("defocus info --fst"), Words({"--fstop"}));
+    EXPECT_EQ(offered("defocus merge --fst"), Words()) << "not an option of this command";
+}
+
+TEST_F(Pages, zshTakesItsScript) {
+    if (!isInstalled("zsh")) GTEST_SKIP() << "zsh isn't installed";
+    EXPECT_EQ(said("zsh -n zsh"), "");
+}
+
+TEST_F(Pages, fishCompletesCommandsOptionsAndValues) {
+    if (!isInstalled("fish")) GTEST_SKIP() << "fish isn't installed";
+    const auto complete = [&](const std::string& line) {
+        return said("HOME=$PWD fish --no-config -c \"source ./fish; complete -C '" + line + "'\" | cut -f 1");
+    };
+    EXPECT_EQ(said("fish --no-execute fish"), "");
+    EXPECT_EQ(complete("defocus re"), "render\n");
+    EXPECT_EQ(complete("defocus bench spe"), "speedup\n");
+    EXPECT_EQ(complete("defocus render --fst"), "--fstop\n");
+    EXPECT_EQ(complete("defocus render --lod o"), "off\n");
+    EXPECT_EQ(complete("defocus merge --fst"), "");
+}
+
+TEST_F(Pages, groffTakesTheManualPage) {
+    if (!isInstalled("groff")) GTEST_SKIP() << "groff isn't installed";
+    EXPECT_EQ(said("groff -man -Tutf8 -P -cbou -ww defocus.1 >shown"), "");
+    EXPECT_NE(textOf(folder() / "shown").find("EXIT STATUS"), std::string::npos);
+}
+
+TEST_F(Pages, allKnowEveryOption) {
+    const CommandOutline program = outlineOf(commandNamed(""));
+    const std::string bash = textOf(folder() / "bash");
+    const std::string zsh = textOf(folder() / "zsh");
+    const std::string fish = textOf(folder() / "fish");
+    std::string manual = textOf(folder() / "defocus.1");
+    for (std::size_t at = 0; (at = manual.find("\\-", at)) != std::string::npos;) manual.erase(at, 1);
+    std::size_t options = 0;
+    for (const CommandOutline* command : allCommands(program))
+        for (const OptionOutline& option : command->options)
+            for (const std::string& name : option.names) {
+                if (option.positional || !name.starts_with("--")) continue;
+                EXPECT_NE(bash.find(name), std::string::npos) << name;
+                EXPECT_NE(zsh.find(name), std::string::npos) << name;
+                EXPECT_NE(fish.find("-l " + name.substr(2)), std::string::npos) << name;
+                EXPECT_NE(manual.find(name + "\\fR"), std::string::npos) << name;
+                ++options;
+            }
+    EXPECT_GT(options, 500u);
+}
+
+// --help shows what most people use, and --help-all the rest.
+TEST_F(Pages, helpIsShortAndHelpAllIsWhole) {
+    const auto optionLines = [](const std::string& help) {
+        static const std::regex line("\\n  (-[a-z],)?--[a-z]");
+        return std::distance(std::sregex_iterator(help.begin(), help.end(), line), std::sregex_iterator());
+    };
+    const std::string brief = run({"render", "--help"}).out;
+    const std::string whole = run({"render", "--help-all"}).out;
+    EXPECT_LE(optionLines(brief), 16);
+    EXPECT_EQ(static_cast<std::size_t>(optionLines(whole)), optionsOffered("render").size() - 1 + 2)
+        << "the scene has no dash; both helps are lines";
+    EXPECT_NE(brief.find("--fstop"), std::string::npos);
+    EXPECT_EQ(brief.find("--coc-tolerance"), std::string::npos);
+    EXPECT_NE(brief.find("--help-all"), std::string::npos);
+    EXPECT_NE(whole.find("--coc-tolerance"), std::string::npos);
+    for (const char* line : {"--range FIRST:LAST", "--sample-range FIRST:END", "--set /PLACE=VALUE"})
+        EXPECT_NE(run({"capture", "--help-all"}).out.find(line), std::string::npos) << line;
+}
+
+}  // namespace
+}  // namespace defocus::engine

@@ -1,0 +1,74 @@
+// The meter against what photographers know: grey cards, snow, and a lamp in the dark.
+
+#include "frame/setup/exposure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace defocus::engine {
+namespace {
+
+// Rows of these greys, all of them covered but for the first `empty`.
+Image stripes(const std::vector<float>& greys, std::size_t empty = 0) {
+    Image image(10, static_cast<int>(greys.size()), 4);
+    for (std::size_t y = 0; y < greys.size(); ++y)
+        for (int x = 0; x < image.width; ++x) {
+            float* pixel = image.at(x, static_cast<int>(y));
+            pixel[0] = pixel[1] = pixel[2] = greys[y];
+            pixel[3] = y < empty ? 0.0f : 1.0f;
+        }
+    return image;
+}
+
+TEST(Meter, aSceneOfManyGreysAveragesToMiddleGrey) {
+    // Log-average 2 · 0.18, brightest between 40 % and white.
+    const Image image = stripes({0.09f, 0.36f, 1.44f});
+    EXPECT_NEAR(meteredExposure(image), -1, 1e-6);
+    // Stops go through it.
+    EXPECT_NEAR(meteredExposure(stripes({0.09f * 1024, 0.36f * 1024, 1.44f * 1024})), -11, 1e-6);
+}
+
+TEST(Meter, highlightsStayBelowWhite) {
+    std::vector<float> greys(9, 0.01f);
+    greys.push_back(4);
+    EXPECT_NEAR(meteredExposure(stripes(greys)), std::log2(1.0 / 4), 1e-6);
+}
+
+TEST(Meter, snowIsNoGreyCard) {
+    EXPECT_NEAR(meteredExposure(stripes({0.9f, 0.9f})), std::log2(0.4 / 0.9), 1e-6);
+}
+
+TEST(Meter, aSingleFireflyCountsForNothing) {
+    Image image = stripes(std::vector<float>(100, 0.18f));
+    const double before = meteredExposure(image);
+    image.at(3, 3)[0] = 1e5f;
+    EXPECT_NEAR(meteredExposure(image), before, 0.03);
+}
+
+TEST(Meter, surroundingsAndDarknessDoNotCount) {
+    EXPECT_NEAR(meteredExposure(stripes({100, 0.09f, 0.36f, 1.44f}, 1)), -1, 1e-6);
+    EXPECT_EQ(meteredExposure(stripes({0, 0})), 0);
+    EXPECT_EQ(meteredExposure(stripes({1, 1}, 2)), 0);
+}
+
+TEST(Meter, isReadForTheLightsOfFilesAlone) {
+    Scene scene;
+    Lens lens;
+    Request request;
+    EXPECT_FALSE(metersExposure(request, scene, lens));
+    scene.lights.emplace_back();
+    EXPECT_FALSE(metersExposure(request, scene, lens)) << "no file";
+    scene.file = "scene.glb";
+    EXPECT_TRUE(metersExposure(request, scene, lens));
+    lens.exposureTime = 0.01;
+    EXPECT_FALSE(metersExposure(request, scene, lens));
+    request.exposure = MeteredExposure{};
+    EXPECT_TRUE(metersExposure(request, scene, lens));
+    request = {};
+    request.exposure = ExposureValue{0};
+    EXPECT_FALSE(metersExposure(request, scene, {}));
+}
+
+}  // namespace
+}  // namespace defocus::engine

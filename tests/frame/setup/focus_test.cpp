@@ -1,0 +1,153 @@
+#include "frame/setup/focus.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/error.h"
+#include "lens/circle_of_confusion.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+namespace {
+
+// Points on the plane w + tan(swing)·X + tan(tilt)·Y = s give back what it was made of.
+TEST(FocusThrough, findsThePlaneOfThreePoints) {
+    std::mt19937 generator(1);
+    const auto random = [&](double least, double most) {
+        return std::uniform_real_distribution<double>(least, most)(generator);
+    };
+    for (int i = 0; i < 100; ++i) {
+        const double swing = random(-0.8, 0.8);
+        const double tilt = random(-0.8, 0.8);
+        const double distance = std::exp(random(-4, 4));
+        std::array<glm::dvec3, 3> points;
+        for (int p = 0; p < 3; ++p) {
+            const double angle = 2.1 * p + random(0, 1);
+            const double x = distance * std::cos(angle);
+            const double y = distance * std::sin(angle);
+            points[static_cast<std::size_t>(p)] = {x, y, -(distance - std::tan(swing) * x - std::tan(tilt) * y)};
+        }
+        Lens lens;
+        focusThrough(points, lens, "test");
+        EXPECT_NEAR(lens.focusDistance, distance, 1e-9 * distance);
+        EXPECT_NEAR(lens.focusSwing, swing, 1e-9);
+        EXPECT_NEAR(lens.focusTilt, tilt, 1e-9);
+    }
+}
+
+TEST(FocusThrough, leavesTheLensAloneWhereThereIsNoSuchPlane) {
+    const Lens before;
+    const std::array<std::array<glm::dvec3, 3>, 3> impossible = {{
+        {{{0, 0, -1}, {1, 0, -2}, {2, 0, -3}}},    // a line
+        {{{0, 0, -1}, {0, 1, -2}, {0, 2, -1}}},    // holds the view axis
+        {{{0, 0, 1}, {1, 0, 1.5}, {0, 1, 1.25}}},  // behind the camera
+    }};
+    for (const std::array<glm::dvec3, 3>& points : impossible) {
+        Lens lens;
+        EXPECT_THROW(focusThrough(points, lens, "test"), Error);
+        EXPECT_EQ(lens.focusDistance, before.focusDistance);
+        EXPECT_EQ(lens.focusTilt, before.focusTilt);
+        EXPECT_EQ(lens.focusSwing, before.focusSwing);
+    }
+}
+
+// A focus surface as the lens has it, s(n) = s/(1 + κ·r² + t·n), is found from points that lie on it.
+TEST(FocusThrough, findsTheCurvedSurfaceOfManyPoints) {
+    std::mt19937 generator(2);
+    const auto random = [&](double least, double most) {
+        return std::uniform_real_distribution<double>(least, most)(generator);
+    };
+    for (int i = 0; i < 100; ++i) {
+        Lens truth;
+        truth.focusDistance = std::exp(random(-2, 3));
+        truth.focusSwing = random(-0.6, 0.6);
+        truth.focusTilt = random(-0.6, 0.6);
+        truth.fieldCurvature = random(-0.5, 1);
+        const double tanX = tanHalfHorizontalFov(truth);
+        std::vector<glm::dvec3> points;
+        const int count = 4 + i % 13;
+        while (points.size() < static_cast<std::size_t>(count)) {
+            const glm::dvec2 field(random(-1, 1), random(-0.75, 0.75));
+            const double focus = 1 + truth.fieldCurvature * glm::dot(field, field) +
+                                 tanX * (std::tan(truth.focusSwing) * field.x + std::tan(truth.focusTilt) * field.y);
+            ASSERT_GT(focus, 0);
+            const double depth = truth.focusDistance / focus;
+            points.emplace_back(depth * tanX * field.x, depth * tanX * field.y, -depth);
+        }
+        Lens lens;
+        focusThrough(points, lens, "test");
+        // Four points may lie almost on a circle.
+        const double tolerance = count == 4 ? 1e-5 : 1e-7;
+        EXPECT_NEAR(lens.focusDistance / truth.focusDistance, 1, tolerance);
+        EXPECT_NEAR(lens.focusSwing, truth.focusSwing, tolerance);
+        EXPECT_NEAR(lens.focusTilt, truth.focusTilt, tolerance);
+        EXPECT_NEAR(lens.fieldCurvature, truth.fieldCurvature, tolerance);
+        EXPECT_NEAR(circleOfConfusion(clipCircleOfConfusion(lens, 1000, 750), -points[0].z, 1000,
+                                      glm::dvec2(points[0]) / (-points[0].z * tanX) * glm::dvec2(1, 4.0 / 3)),
+                    0, 1e-3);
+    }
+}
+
+// Of points that no such surface holds, the sum of the squares of the blurs is least: any change makes it larger.
+TEST(FocusThrough, leavesTheLeastBlur) {
+    const std::vector<glm::dvec3> points = {{-0.6, 0.2, -2}, {0.5, 0.4, -3},   {0.1, -0.3, -1.5}, {0.9, -0.4, -2.5},
+                                            {-0.2, 0.5, -4}, {-0.8, -0.5, -3}, {0.3, 0.1, -2.2}};
+    Lens fitted;
+    focusThrough(points, fitted, "test");
+    const double tanX = tanHalfHorizontalFov(fitted);
+    const auto blurOf = [&](const Lens& lens) {
+        const ClipCircleOfConfusion coc = clipCircleOfConfusion(lens, 1000, 1000);
+        double sum = 0;
+        for (const glm::dvec3& point : points)
+            sum += std::pow(circleOfConfusion(coc, -point.z, 1000, glm::dvec2(point) / (-point.z * tanX)), 2);
+        return sum;
+    };
+    const double least = blurOf(fitted);
+    EXPECT_GT(least, 1);
+    for (const double step : {-1e-3, 1e-3})
+        for (double Lens::*const member :
+             {&Lens::focusDistance, &Lens::focusSwing, &Lens::focusTilt, &Lens::fieldCurvature}) {
+            Lens other = fitted;
+            other.*member += step;
+            EXPECT_GT(blurOf(other), least);
+        }
+}
+
+// All on the view's vertical middle: nothing says how it swings, so it doesn't.
+TEST(FocusThrough, takesTheLeastTiltWhereThePointsLeaveItOpen) {
+    const std::vector<glm::dvec3> points = {{0, -0.5, -2}, {0, 0, -2.2}, {0, 0.6, -2.5}, {0, 0.9, -3}};
+    Lens lens;
+    focusThrough(points, lens, "test");
+    EXPECT_NEAR(lens.focusSwing, 0, 1e-9);
+    EXPECT_LT(lens.focusTilt, -0.01) << "its top lies farther away";
+}
+
+// A box is sharp at its front, not in its middle, which nobody sees. Where the image's middle shows nothing, the
+// scene's centre counts.
+TEST(ChooseFocus, isWhatTheMiddleShowsWhereNobodySaysMore) {
+    SmallWorld small;
+    small.scene.materials.push_back(unlitMaterial(glm::vec4(1)));
+    small.scene.meshes.push_back(quad(0));
+    place(small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -4)));
+    place(small, 0, glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -8)));
+    finish(small);
+    small.world.pose.bounds = {{-1, -1, -8}, {1, 1, -4}};
+    small.view.width = 64;
+    small.view.height = 48;
+    chooseFocus({}, {}, small.scene, small.world.pose, small.view);
+    EXPECT_NEAR(small.view.lens.focusDistance, 4, 1e-6);
+
+    Camera own;
+    own.lens["focusDistance"] = 7;
+    chooseFocus({}, own, small.scene, small.world.pose, small.view);
+    EXPECT_EQ(small.view.lens.focusDistance, 7);
+
+    small.view.worldFromCamera = glm::translate(glm::dmat4(1), glm::dvec3(100, 0, 0));  // beside all
+    chooseFocus({}, {}, small.scene, small.world.pose, small.view);
+    EXPECT_NEAR(small.view.lens.focusDistance, 6, 1e-6);
+}
+
+}  // namespace
+}  // namespace defocus::engine

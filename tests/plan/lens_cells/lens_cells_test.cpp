@@ -1,0 +1,215 @@
+#include "plan/lens_cells/lens_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <numbers>
+
+#include "plan/plan_checks.h"
+#include "plan/plan_text.h"
+#include "plan/sample_range.h"
+#include "small_world.h"
+
+namespace defocus::engine {
+namespace {
+
+// Spheres before and behind the focus, much blurred.
+std::unique_ptr<SmallWorld> muchBlurred() {
+    auto small = fiveSpheres();
+    small->view.lens.fStop = 0.1;
+    return small;
+}
+
+LensCells lensCellsOf(const SmallWorld& small, std::uint32_t samples) {
+    return lensCells(planFrame(small.world, small.view, settingsFor(samples)));
+}
+
+struct Moments {
+    glm::dvec2 mean{0};
+    glm::dmat2 covariance{0};
+};
+
+template <typename Points>
+Moments momentsOf(const Points& points) {
+    Moments moments;
+    const auto count = static_cast<double>(points.size());
+    for (const glm::vec2& point : points) moments.mean += glm::dvec2(point) / count;
+    for (const glm::vec2& point : points) {
+        const glm::dvec2 off = glm::dvec2(point) - moments.mean;
+        moments.covariance += glm::outerProduct(off, off) / count;
+    }
+    return moments;
+}
+
+// What is blurred keeps its place and its size whatever the number of samples is: the middles have the mean of the
+// lens, and their covariance and that of the blur add up to the lens's. A blur of σ = b·c px is one of 2b on the lens.
+TEST(LensCells, middlesAndBlurHaveTheSpreadOfTheLens) {
+    const auto small = muchBlurred();
+    const auto check = [&](const char* what, double tolerance) {
+        std::vector<glm::vec2> lens;
+        for (const LensSample& sample : lensSamples(small->view.lens, Sequence::halton, 0, 1u << 17, 0))
+            lens.push_back(sample.lens);
+        const Moments whole = momentsOf(lens);
+        for (const Sequence sequence : allSequences)
+            for (const std::uint32_t count : {16u, 50u, 64u, 500u}) {
+                RenderSettings settings = settingsFor(count);
+                settings.sequence = sequence;
+                const LensCells cells = lensCells(planFrame(small->world, small->view, settings));
+                ASSERT_EQ(cells.middles.size(), count);
+                const Moments own = momentsOf(cells.middles);
+                for (glm::length_t i = 0; i < 2; ++i) {
+                    EXPECT_NEAR(own.mean[i], whole.mean[i], tolerance) << what << ' ' << count;
+                    for (glm::length_t j = 0; j < 2; ++j)
+                        EXPECT_NEAR(own.covariance[i][j] + (i == j ? 4 * cells.blur * cells.blur : 0),
+                                    whole.covariance[i][j], tolerance)
+                            << what << ' ' << count;
+                }
+                for (const glm::vec2& middle : cells.middles) ASSERT_LE(glm::length(middle), 1 + 1e-6f);
+            }
+    };
+    check("disk", 1e-4);
+    small->view.lens.bladeCount = 5;
+    check("blades", 5e-4);
+    small->view.lens.anamorphicRatio = 2;
+    check("oval", 5e-4);
+    small->view.lens.bladeCount = 0;
+    small->view.lens.anamorphicRatio = 1;
+    small->view.lens.obstruction = 0.5;
+    check("ring", 2e-3);
+}
+
+// Each middle is the mean of a 64th of the lens: a regular pattern, of which no two points come as near as two of the
+// sequence do.
+TEST(LensCells, middlesKeepApart) {
+    const auto small = muchBlurred();
+    const auto nearest = [](const auto& points, const auto& place) {
+        double least = 2;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                least = std::min<double>(least, glm::length(place(points[i]) - place(points[j])));
+        return least;
+    };
+    const std::vector<LensSample> samples = lensSamples(small->view.lens, Sequence::sobol, 0, 64, 0);
+    const double apart = nearest(lensCellsOf(*small, 64).middles, [](const glm::vec2& p) { return p; });
+    EXPECT_GT(apart, 1.5 * nearest(samples, [](const LensSample& s) { return s.lens; }));
+    EXPECT_GT(apart, 1.0 / 8);  // 64 disks of the lens's area have a diameter of 1/4
+}
+
+// How far the share of a blurred straight edge's light lies from that of a disk's, RMS over the edge's places: `points`
+// are blurred by `sigma`. All in radii of the lens; the edge's normal is at `angle`.
+double edgeError(const std::vector<glm::vec2>& points, double sigma, double angle) {
+    double squares = 0;
+    int places = 0;
+    for (double place = -0.98; place < 0.99; place += 0.02, ++places) {
+        double share = 0;
+        for (const glm::vec2& point : points) {
+            const double off = point.x * std::cos(angle) + point.y * std::sin(angle) - place;
+            share += sigma > 0 ? 0.5 * std::erfc(off / (sigma * std::sqrt(2))) : off < 0 ? 1 : 0;
+        }
+        const double disk = 0.5 + (place * std::sqrt(1 - place * place) + std::asin(place)) / std::numbers::pi;
+        squares += std::pow(share / static_cast<double>(points.size()) - disk, 2);
+    }
+    return std::sqrt(squares / places);
+}
+
+// Edges of every direction, upright and level ones too, which rows and columns of points would blur in steps.
+TEST(LensCells, edgesAreBlurredAsByADisk) {
+    const auto small = muchBlurred();
+    for (const std::uint32_t count : {16u, 24u, 32u, 64u, 128u}) {
+        std::vector<glm::vec2> samples;
+        for (const LensSample& sample : lensSamples(small->view.lens, Sequence::sobol, 0, count, 0))
+            samples.push_back(sample.lens);
+        const LensCells cells = lensCellsOf(*small, count);
+        double squares = 0;
+        double samplesSquares = 0;
+        for (int i = 0; i < 12; ++i) {
+            const double angle = i * std::numbers::pi / 12;
+            const double error = edgeError(cells.middles, 2 * cells.blur, angle);
+            const double samplesError = edgeError(samples, 0, angle);
+            EXPECT_LT(error, 0.4 * samplesError) << count << ' ' << angle;
+            squares += error * error;
+            samplesSquares += samplesError * samplesError;
+        }
+        EXPECT_LT(std::sqrt(squares / samplesSquares), 0.2) << count;
+    }
+}
+
+// A part of a frame has the cells of all samples. A block that is planned after others has its own, and the blur of
+// all.
+TEST(LensCells, belongToWhatIsPlannedTogether) {
+    const auto small = muchBlurred();
+    const FramePlan plan = planFrame(small->world, small->view, settingsFor(192));
+    const LensCells part = lensCells(samplesOf(plan, 64, 64));
+    EXPECT_EQ(part.middles, lensCells(plan).middles);
+    RenderSettings last = settingsFor(64);
+    last.firstSample = 128;
+    const LensCells block = lensCells(planFrame(small->world, small->view, last));
+    EXPECT_EQ(block.blur, part.blur);
+    EXPECT_EQ(block.firstSample, 128u);
+    ASSERT_EQ(block.middles.size(), 64u);
+    const Moments moments = momentsOf(block.middles);
+    EXPECT_LT(glm::length(moments.mean), 1e-4);
+    EXPECT_NEAR(moments.covariance[0][0], 0.25 - 4 * block.blur * block.blur, 1e-4);
+}
+
+// Without gaps nothing is blurred, but samples stay where they are when the last blur goes.
+TEST(LensCells, blurFallsWithTheSamplesUntilThereIsNone) {
+    const auto small = muchBlurred();
+    const LensCells few = lensCellsOf(*small, 16);
+    const LensCells more = lensCellsOf(*small, 64);
+    EXPECT_NEAR(few.blur, 2 * more.blur, 1e-12);
+    EXPECT_GE(few.inFront, more.inFront);
+    EXPECT_GE(few.behind, more.behind);
+    small->view.lens.fStop = 4;
+    const LensCells none = lensCellsOf(*small, 4096);
+    EXPECT_EQ(none.classes(), 0);
+    EXPECT_EQ(none.middles.size(), 4096u);
+    small->view.lens.fStop = 3.99;
+    const LensCells before = lensCellsOf(*small, 4096);
+    for (std::size_t i = 0; i < none.middles.size(); ++i)
+        ASSERT_LT(glm::distance(none.middles[i], before.middles[i]), 1e-6f) << i;
+}
+
+// From 1 down to 1/16, without a step.
+TEST(LensCells, pixelRateIsContinuous) {
+    const auto small = muchBlurred();
+    const LensCells cells = lensCellsOf(*small, 64);
+    double before = 1;
+    for (double coc = 0; coc < 400; coc += 0.1) {
+        const double rate = pixelRate(cells, coc);
+        EXPECT_EQ(rate, pixelRate(cells, -coc));
+        EXPECT_LE(rate, before);
+        EXPECT_GT(rate, before - 0.02);
+        before = rate;
+    }
+    EXPECT_EQ(before, 1.0 / 16);
+    EXPECT_EQ(pixelRate({}, 400), 1);
+}
+
+TEST(LensCells, framesThatDoNotAllowThemSayWhy) {
+    const auto small = muchBlurred();
+    ASSERT_EQ(lensCellsOf(*small, 64).reason, "");
+    EXPECT_NE(planTable(planFrame(small->world, small->view, settingsFor(64))).find("part of the lens"),
+              std::string::npos);
+    const auto expectNone = [&](const char* reason, std::uint32_t samples = 64) {
+        const LensCells cells = lensCellsOf(*small, samples);
+        EXPECT_EQ(cells.blur, 0) << reason;
+        EXPECT_NE(cells.reason.find(reason), std::string::npos) << cells.reason;
+        EXPECT_NE(planTable(planFrame(small->world, small->view, settingsFor(samples))).find(reason),
+                  std::string::npos);
+    };
+    expectNone("few samples", 3);
+    small->view.lens.axialChromaticAberration = 0.3;
+    expectNone("wavelength");
+    small->view.lens.axialChromaticAberration = 0;
+    small->world.pose.objects[0].cocScale = 0.5;
+    expectNone("blur of their own");
+    small->world.pose.objects[0].cocScale = 1;
+    small->world.environment = {EnvironmentType::none, {}, {}, {}, nullptr, 1};
+    expectNone("transparent");
+}
+
+}  // namespace
+}  // namespace defocus::engine

@@ -1,0 +1,60 @@
+#include "render/sampling/automatic_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace defocus::engine {
+namespace {
+
+// A plan of one object whose blur is at most so wide.
+FramePlan planOf(double blur) {
+    FramePlan plan;
+    plan.view.nearPlane = 0.1;
+    plan.objects.resize(1);
+    plan.objects.front().nearestDepth = 1;
+    plan.objects.front().coc.largest = blur;
+    return plan;
+}
+
+TEST(SamplesForBlur, bringNeighboursToTwoPixels) {
+    EXPECT_EQ(samplesForBlur(planOf(0)), leastAutomaticSamples);
+    std::uint32_t before = 0;
+    for (double blur = 1; blur < 200; blur *= 1.1) {
+        const std::uint32_t samples = samplesForBlur(planOf(blur));
+        EXPECT_GE(samples, before);
+        before = samples;
+        const auto gap = [&](double count) { return blur * std::sqrt(std::numbers::pi / (4 * count)); };
+        EXPECT_TRUE(gap(samples) <= 2 || samples == mostAutomaticSamples) << blur;
+        EXPECT_TRUE(samples <= 64 || gap(samples - 64) > 2) << "no block too many at " << blur;
+    }
+    EXPECT_EQ(before, mostAutomaticSamples);
+}
+
+TEST(SamplesForBlur, areWholeBlocksWhereTheyAreMoreThanOne) {
+    for (double blur = 1; blur < 200; blur *= 1.1) {
+        const std::uint32_t samples = samplesForBlur(planOf(blur));
+        EXPECT_TRUE(samples == 32 || samples % 64 == 0) << samples;
+    }
+}
+
+TEST(SamplesForBlur, leaveOutWhatHasNoBound) {
+    FramePlan plan = planOf(8);
+    plan.objects.push_back(plan.objects.front());
+    plan.objects.back().nearestDepth = 0;
+    plan.objects.back().coc.largest = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(samplesForBlur(plan), leastAutomaticSamples);
+    plan.view.lens.dofEnabled = false;
+    EXPECT_EQ(samplesForBlur(plan), leastAutomaticSamples);
+}
+
+TEST(SamplesForBlur, followMotion) {
+    FramePlan plan = planOf(0);
+    plan.moments.resize(1);
+    EXPECT_EQ(samplesForBlur(plan), 256u);
+}
+
+}  // namespace
+}  // namespace defocus::engine
